@@ -41,15 +41,23 @@ def analyse(assignment: Assignment) -> Analysis:
     return Calculation(assignment).analysis
 
 
-def solve(assignment: Assignment, positions: int | None = None) -> dict[str, Any]:
+def solve(assignment: Assignment, positions: int | None = None, printed: bool = False) -> dict[str, Any]:
     """The results as the contract's JSON object (SI, unrounded); `positions` overrides the count a turn.
 
-    Raises `NotOfferedError` for positions of an exercise, which is one instant.
+    What the report prints stands beside as `printed`, if it is asked for and there is a report of it.  Raises
+    `NotOfferedError` for positions of an exercise, which is one instant.
     """
+    from reportgen.marking.results import printed_values
+
     if positions is not None and not catalogue.kind(assignment.kind).has_positions:
         raise NotOfferedError(word("no_positions", assignment.language, kind=assignment.kind))
     chosen = assignment if positions is None else assignment.with_positions(positions)
-    return opened(chosen).results()
+    case = opened(chosen)
+    found = case.results()
+    if printed:
+        with suppress(NotOfferedError):
+            found["printed"] = printed_values(case.printed)
+    return found
 
 
 RESULT_FORMATS = ("csv", "xlsx", "json")

@@ -172,7 +172,7 @@ def solve(
         if formats and json_file is None:
             return
         assignment = api.load(file, lang)
-        results = api.solve(assignment, positions)
+        results = api.solve(assignment, positions, printed=json_file is not None and positions is None)
         if json_file is None:
             print_tables(results, assignment.language)
         else:

@@ -11,17 +11,35 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from reportgen.base.units import nice_up
 from reportgen.drawing import Circle, Content, Item, Pen, Polyline, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
-from reportgen.drawing.plan import PENS, Construction
+from reportgen.drawing.plan import BEYOND, PENS, Construction
 from reportgen.drawing.scheme import Looks, Skeleton, ground_guides, parts_of, skeleton
-from reportgen.formula import vocabulary
+from reportgen.formula import Number, vocabulary
+from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.motion import Motion
 
 ROOM = 9.0
 """White around what moves, for its labels (mm)."""
+MARGIN = 7.0
+"""White around a plan in its panel, for its labels (mm)."""
+FEET = (-2.6 - 5j, 2.6 - 5j)
+"""From a fixed pivot to the feet of its support (mm)."""
+SMALL = 6.0
+"""The name of a point in a block that reaches no farther from it (mm) stands outside."""
+MACHINE = 120 + 110j
+"""What a machine takes of a screen, about (mm): letters and arrows of a larger one grow as it shrinks."""
+MOST = 4.0
+"""They never grow more than so many times."""
+PANEL = 96 + 78j
+"""The panel of each plan (mm)."""
+LEAST, FINER = 1 / 4, 3.0
+"""A plan that fills a smaller share of its panel is drawn so many times as large, as long as it does."""
+BAR = 0.3
+"""A scale bar takes at least this share of its room."""
 TOGETHER = 1e-6
 """Values that differ by no more of their greatest are one that stands still."""
 
@@ -97,22 +115,25 @@ MovingItem = Still | Carried | MovingVector | MovingName
 
 
 @dataclass(frozen=True, slots=True)
-class Scales:
-    """The scales of a drawing that is shown finer where it is small: each as it is printed, and how much finer it is.
+class BarScale:
+    """What a millimetre of a drawing stands for, in SI units, of a kind of quantity; of interest with its `layers`."""
 
-    `at` is the number of the one in use at each sample.
-    """
+    per: float
+    kind: str
+    layers: tuple[str, ...] = ()
 
-    printed: tuple[Content, ...]
-    times: tuple[float, ...]
-    at: Track
+    def bar(self, room: float) -> tuple[Number, float]:
+        """The round value of a bar that has so much room (mm), and the bar's length (mm)."""
+        how = KINDS[self.kind]
+        value = nice_up(BAR * room * self.per / how.scale, (1.0, 2.0, 5.0))
+        return Number(value, None, how.unit), value * how.scale / self.per
 
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """A drawing that moves, in mm, in the box from `low` to `high`; `notes` are printed below it.
+    """A drawing that moves, in mm, in the box from `low` to `high`, with the scales that bars show below it.
 
-    With `scales` it is drawn so many times as large as its tracks have it, at each sample.
+    With `finer` one of the scales is in use at a time, the first of them in the items: its number at each sample.
     """
 
     key: str
@@ -120,9 +141,15 @@ class Stage:
     items: tuple[MovingItem, ...]
     low: complex
     high: complex
-    notes: tuple[Content, ...] = ()
+    scales: tuple[BarScale, ...]
     spots: tuple[Spot, ...] = ()
-    scales: Scales | None = None
+    finer: Track | None = None
+
+    @property
+    def grown(self) -> float:
+        """How much larger letters, arrowheads and pens of arrows are than in figures."""
+        size = self.high - self.low
+        return min(max(size.real / MACHINE.real, size.imag / MACHINE.imag, 1.0), MOST)
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,7 +244,9 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
     further = [name for name in places if name not in {*bones.joints, *looks.centres}]
     items += [Carried((style.point(0j),), places[name]) for name in further]
     items += [
-        MovingName(vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), style.JOINT + 0.5)
+        MovingName(
+            vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), _reach(name, bones, looks) + 0.5
+        )
         for name, place in places.items()
     ]
     return items
@@ -231,8 +260,16 @@ def _crank_circle(linkage: Linkage, bones: Skeleton) -> list[MovingItem]:
     return [Still((Circle(centre, abs(bones.points[driver.pin] - centre), style.THIN),))]
 
 
+def _reach(name: str, bones: Skeleton, looks: Looks) -> float:
+    """How far a point's own sign reaches from it (mm): its joint, or a small block about it."""
+    blocks = (max(looks.block(slide.link)) / 2 for slide in bones.slides if abs(slide.at - bones.points[name]) < 1.0)
+    return max((reach for reach in blocks if reach < SMALL), default=style.JOINT)
+
+
 def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterable[Track]:
-    """The points that a point is joined to by bars, whose side its label keeps off."""
+    """The points that a point is joined to by bars, and its support, whose side its label keeps off."""
+    if name in bones.pivots:
+        yield from (Track(places[name].values + foot) for foot in FEET)
     for link, joints in bones.bars.items():
         own = [*joints, *(point for point, owner in bones.owners.items() if owner == link and point not in joints)]
         if name in own:
@@ -251,19 +288,67 @@ def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: fl
 def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
     """A plan that moves: each of its corners follows the track of its name."""
     items: list[MovingItem] = [
-        MovingVector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=6.0) for line in plan.lines
+        MovingVector(tracks[line.start], tracks[line.end], style.CONSTRUCTION, 0.0, beyond=BEYOND)
+        for line in plan.lines
     ]
-    joined: dict[str, list[Track]] = {}
-    for one in plan.vectors:
-        start, end = tracks[one.start], tracks[one.end]
-        joined.setdefault(one.start, []).append(end)
-        joined.setdefault(one.end, []).append(start)
-        items.append(MovingVector(start, end, PENS[one.style], label=one.label, name=one.name))
+    items += [
+        MovingVector(tracks[one.start], tracks[one.end], PENS[one.style], label=one.label, name=one.name)
+        for one in plan.vectors
+    ]
     if plan.pole:
         items.append(Carried((Circle(0j, 0.7, Pen(0.25), style.PAPER),), tracks[plan.points[0].at]))
-    for label, corner in dict.fromkeys((point.label, point.at) for point in plan.points):
-        items.append(MovingName(label, tracks[corner], tuple(joined.get(corner, ())), 0.9))
-    return items
+    return items + _names(plan, tracks, 0.9)
+
+
+def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
+    """A plan as a rigid lever about its pole."""
+    items: list[MovingItem] = [
+        MovingVector(tracks[one.start], tracks[one.end], style.VISIBLE, 0.0) for one in plan.vectors
+    ]
+    pole, *others = plan.points
+    items += [Carried((Circle(0j, 0.7, style.VISIBLE, style.PAPER),), tracks[point.at]) for point in others]
+    items.append(Carried((Circle(0j, 1.1, style.VISIBLE, style.PAPER),), tracks[pole.at]))
+    return items + _names(plan, tracks, 1.3)
+
+
+def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> list[MovingItem]:
+    """The names of a plan's points, each on the side away from the vectors that meet there."""
+    joined: dict[str, list[Track]] = {}
+    for one in plan.vectors:
+        joined.setdefault(one.start, []).append(tracks[one.end])
+        joined.setdefault(one.end, []).append(tracks[one.start])
+    named = dict.fromkeys((point.label, point.at) for point in plan.points)
+    return [MovingName(label, tracks[at], tuple(joined.get(at, ())), gap) for label, at in named]
+
+
+@dataclass(frozen=True, slots=True)
+class Fitted:
+    """Corners that move, in a panel: their tracks (mm about its middle), their scale, its finer one where in use."""
+
+    tracks: Mapping[str, Track]
+    scales: tuple[BarScale, ...]
+    finer: Track | None
+
+
+def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int) -> Fitted:
+    """Corners (SI) as large as the panel holds them at every sample, at one scale, each moment's in its middle.
+
+    A moment that would be too small to be read has the finer scale.  Tracks of corners have the samples
+    of one `turn`, or of the cycle where that is as long.
+    """
+    length = max(corner.size for corner in corners.values())
+    places = np.array([np.broadcast_to(corner, length) for corner in corners.values()])
+    known = np.where(np.isfinite(places), places, 0.0)
+    low = known.real.min(axis=0) + 1j * known.imag.min(axis=0)
+    high = known.real.max(axis=0) + 1j * known.imag.max(axis=0)
+    room, size = PANEL - 2 * complex(MARGIN, MARGIN), high - low
+    needed = np.maximum(size.real / room.real, size.imag / room.imag)
+    per = float(needed.max()) or 1.0
+    placed = (places - (low + high) / 2) / per
+    small = Track((needed < LEAST * per).astype(float))
+    scales = BarScale(per, kind), BarScale(per / FINER, kind)
+    tracks = {name: Track(place[:turn]) for name, place in zip(corners, placed, strict=True)}
+    return Fitted(tracks, scales, small) if small.values.any() else Fitted(tracks, scales[:1], None)
 
 
 def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:

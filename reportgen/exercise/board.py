@@ -79,6 +79,8 @@ class Step:
     """Equations that are solved together, with their numbers."""
     results: tuple[Chain, ...] = ()
     """What they come to, with signs."""
+    other: str = ""
+    """A second base point."""
 
     @property
     def of_accelerations(self) -> bool:

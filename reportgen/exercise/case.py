@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,7 +18,7 @@ from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
-from reportgen.formula import PI, Chain, Negative, Number, Symbol, ids, vocabulary
+from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import (
     Block,
@@ -84,9 +84,10 @@ class ExerciseCase(SolvedExercise):
         return self.bounded(solution)
 
     def key(self) -> Key:
-        from reportgen.marking.key import make_key
+        from reportgen.marking.key import MAGNITUDE, make_key
 
-        return make_key(self, self.ledger, self.printed)
+        open_ids = {one.id for one in self.exercise.asked if not self.exercise.tells_sense(one)}
+        return make_key(self, self.ledger, self.printed, sense_of=lambda id: MAGNITUDE if id in open_ids else "")
 
     def task(self, key: Key, by_section: bool = False) -> Document:
         return self.bounded(partial(_task, key=key, by_section=by_section))
@@ -113,7 +114,7 @@ class ExerciseCase(SolvedExercise):
             }
             for body in motion.system.bodies
         }
-        return results(self, self.printed, [{"number": 1, "points": points, "links": links}])
+        return results(self, [{"number": 1, "points": points, "links": links}])
 
     def film(self) -> None:
         """Nothing moves at one instant."""
@@ -143,7 +144,7 @@ PLACES = (25.0, 35.0, 35.0)
 COMPARED = (25.0, 135.0)
 """Of the comparison of methods: its first column, and all others together."""
 METHODS_AGREE = 1e-9
-"""Values that differ by less than this share are one."""
+"""Values that differ by less than this share of the largest of their kind are one."""
 ANSWER = (25.0, 65.0, 70.0)
 """Widths (mm) of the columns of the answers."""
 
@@ -187,11 +188,14 @@ def names(case: SolvedExercise) -> Mapping[str, Any]:
     """What the templates of its solution name."""
     page = SolutionPage(case, case.worked)
     further = [SolutionPage(case, worked) for worked in case.further]
+    alone = case.alone
     return {
         **task_names(case),
         "method": page.method,
-        "further": [FurtherView(one.method, one.steps_beside(case.worked)) for one in further],
-        "comparison": page.comparison(further) if further else (),
+        "unfound": page.unfound(alone[0]) if alone else (),
+        "gaps": any(one.missing for one in alone),
+        "further": [FurtherView(one.method, one.steps_beside(case.worked), one.unfound(one.worked)) for one in further],
+        "comparison": page.comparison if further else (),
         "lengths": page.lengths,
         "steps": page.steps,
         "velocity_figure": page.figure("velocity"),
@@ -306,9 +310,14 @@ class SolutionPage(Solution):
         shown: list[Any] = []
         for one in self.case.exercise.asked:
             centre = one.what == "centre"
-            symbol = self._centre_symbol(one.body) if centre else vocabulary.symbol(one.id)
+            symbol = self._centre_symbol(one.body) if centre else self._asked_symbol(one)
             shown += [*([Text(", ")] if shown else []), InlineMath(symbol)]
         return tuple(shown)
+
+    def _asked_symbol(self, one: file.Asked) -> Expression:
+        """The symbol of a rate, in bars where the data leave its sense open."""
+        symbol = vocabulary.symbol(one.id)
+        return symbol if self.case.exercise.tells_sense(one) else abs(symbol)
 
     def _centre_symbol(self, body: int) -> Symbol:
         return vocabulary.point(self.worked.layout.centres[body].name or "∞")
@@ -344,19 +353,21 @@ class SolutionPage(Solution):
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
         return (Value(across),), (Value(up),)
 
-    def comparison(self, further: Sequence[SolutionPage]) -> Table:
+    @property
+    def comparison(self) -> Table:
         """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
-        words, pages = self.case.words["instant"], (self, *further)
-        rows: list[tuple[Cell, ...]] = []
+        words, pages = self.case.words["instant"], [SolutionPage(self.case, worked) for worked in self.case.alone]
+        motion, rows = self.case.exercise.motion, list[tuple[Cell, ...]]()
         for one in self.case.exercise.asked:
             found = [float(page.worked.ledger[one.id].values[0]) for page in pages if one.id in page.worked.ledger]
             ledgers = [page.worked.printed for page in pages]
             if one.what not in ("v", "omega"):
                 continue
-            if max(found) - min(found) > METHODS_AGREE * max(found):
+            scale = motion.fastest / (motion.size if one.of_body else 1.0)
+            if found and max(found) - min(found) > METHODS_AGREE * scale:
                 raise ValueError(f"methods disagree on {one.id}: {found}")
             shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
-            rows.append((Cell((InlineMath(ledgers[0].symbol(one.id)),)), *map(Cell, shown)))
+            rows.append((Cell((InlineMath(vocabulary.symbol(one.id)),)), *map(Cell, shown)))
         head = (words["quantity"], *(page.method for page in pages))
         columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
         heads = tuple(Cell((Text(str(text)),)) for text in head)
@@ -388,11 +399,12 @@ class SolutionPage(Solution):
             if one.what == "centre":
                 yield self._centre_row(one.body)
                 continue
-            symbol = (InlineMath(ledger.symbol(one.id)),)
+            symbol = (InlineMath(self._asked_symbol(one)),)
             number, shown = ledger.number(one.id, AT), self._literal(one.id)
             size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
             if one.of_body:
-                yield symbol, size, (Text(self._sense(motion.turn(one.what, one.body))),)
+                sense = self._sense(motion.turn(one.what, one.body), self.case.exercise.tells_sense(one))
+                yield symbol, size, (Text(sense),)
             else:
                 vector = motion.v(one.of) if one.what == "v" else motion.a(one.of)
                 degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0 if vector else 0.0

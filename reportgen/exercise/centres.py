@@ -8,7 +8,7 @@ perpendicular to the line of the points, the body is in translation at the insta
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from reportgen.exercise import file
@@ -55,6 +55,8 @@ class Layout:
     members: dict[int, list[str]] = field(default_factory=dict)
     directions: dict[str, complex] = field(default_factory=dict)
     """Along which line a point moves; the sense is not known yet."""
+    guided: dict[str, complex] = field(default_factory=dict)
+    """The same as joints and the data alone tell it, without what follows from normals to velocities."""
     centres: dict[int, InstantCentre] = field(default_factory=dict)
     slots: dict[str, complex] = field(default_factory=dict)
     """Points that are guided along a straight line of the ground."""
@@ -95,6 +97,14 @@ class Layout:
         declared = self.given.bodies[body].carried
         return [name for name in self.members[body] if name in declared or name not in touching]
 
+    def in_line(self, point: str) -> bool:
+        """Whether a point lies on one line with the guided points of each body that it is of."""
+        for names in (names for names in self.members.values() if point in names):
+            ways = [self.points[name] - self.points[point] for name in names if name in self.guided and name != point]
+            if any(abs((ways[0].conjugate() * way).imag) > SAME_PLACE * abs(ways[0]) for way in ways):
+                return False
+        return True
+
     def arm(self, centre: InstantCentre, point: str) -> complex:
         return self.points[point] - centre.at
 
@@ -113,9 +123,18 @@ def lay_out(given: file.Parameters, motion: InstantMotion) -> Layout:
     for rate in given.given:
         if isinstance(rate, file.VelocityOf | file.FromRest):
             found.directions[rate.point] = unit(rate.direction.si)
+    found.guided = _guided(found)
     while _next_centre(found) or _next_directions(found):
         pass
     return found
+
+
+def _guided(found: Layout) -> dict[str, complex]:
+    """The directions that joints and the data tell, and those that are across the line to a point moving across it."""
+    told = replace(found, directions=dict(found.directions))
+    while _next_directions(told):
+        pass
+    return told.directions
 
 
 def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> bool:

@@ -349,6 +349,10 @@ class Exercise:
     def asked(self) -> tuple[file.Asked, ...]:
         return self.given.find
 
+    def tells_sense(self, asked: file.Asked) -> bool:
+        """Whether the data tell the sense of what is asked, and not its size alone."""
+        return asked.what not in ("omega", "eps") or self.motion.knows_sense(asked.what, asked.body)
+
 
 def exercise_of(assignment: Assignment) -> Exercise:
     """The exercise of an assignment that is in order."""

@@ -308,9 +308,8 @@ def _rolls(layout: Layout, body: int) -> bool:
 
 
 def _guided(layout: Layout, body: int) -> list[str]:
-    """The points of a body that move along known lines."""
-    given = {one.point for one in layout.given.given if isinstance(one, file.VelocityOf | file.FromRest)}
-    return [name for name in layout.members[body] if name in layout.directions or name in given]
+    """The points of a body of which joints or the data tell the line along which they move."""
+    return [name for name in layout.members[body] if name in layout.guided]
 
 
 def _two_bases(layout: Layout, plane: list[int]) -> bool:
@@ -324,21 +323,21 @@ def _two_bases(layout: Layout, plane: list[int]) -> bool:
 
 def _across(layout: Layout, body: int) -> bool:
     """Whether two points of a body move across the line between them: the centre lies on it."""
-    return any(all(across) for across in _pairs_across(layout, body))
+    return any(all(across) for across in _pairs_across(layout, body, layout.directions))
 
 
 def _projects(layout: Layout, body: int) -> bool:
     """Whether a body has two guided points of which one at least does not move across the line between them."""
-    return any(not all(across) for across in _pairs_across(layout, body))
+    return any(not all(across) for across in _pairs_across(layout, body, layout.guided))
 
 
-def _pairs_across(layout: Layout, body: int) -> Iterator[tuple[bool, bool]]:
-    """Of each two guided points of a body, whether they move across the line between them."""
-    for one, other in combinations(_guided(layout, body), 2):
+def _pairs_across(layout: Layout, body: int, directions: Mapping[str, complex]) -> Iterator[tuple[bool, bool]]:
+    """Of each two points of a body with known directions, whether they move across the line between them."""
+    for one, other in combinations([name for name in layout.members[body] if name in directions], 2):
         line = layout.points[other] - layout.points[one]
         if abs(line) > SAME_PLACE:
             u = direction_of(line)
-            yield perpendicular(layout.directions[one], u), perpendicular(layout.directions[other], u)
+            yield perpendicular(directions[one], u), perpendicular(directions[other], u)
 
 
 CHECKS = (check,)

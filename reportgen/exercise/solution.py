@@ -21,6 +21,7 @@ from reportgen.exercise.speeds import (
     about_joints,
     by_base_point,
     by_centre,
+    by_guided_frame,
     by_moving_frame,
     by_projection,
     derive,
@@ -122,8 +123,8 @@ def _is_worked_out(board: Board, id: str) -> bool:
 
 
 def _signed(board: Board, asked: Asked) -> None:
-    """A rotation with its sign, positive anticlockwise, beside its size that is worked out."""
-    if _is_worked_out(board, asked.id):
+    """A rotation with its sign, positive anticlockwise, beside its size that is worked out, if the data tell it."""
+    if _is_worked_out(board, asked.id) and board.motion.knows_sense(asked.what, asked.body):
         size = board.q[asked.id]
         turn = size if board.motion.turn(asked.what, asked.body) >= 0 else -size
         board.q.define(ids.signed(asked.what, asked.of), turn, of=size.id)
@@ -192,7 +193,7 @@ OWN: Mapping[Method, tuple[Finder, ...]] = {
     "instant centre": (by_centre, enter_proportion),
     "base point": (from_base_point, by_base_point),
     "projection": (by_projection,),
-    "moving frame": (by_moving_frame,),
+    "moving frame": (by_guided_frame,),
 }
 
 _KINDS: Mapping[Method, tuple[str, ...]] = {
@@ -221,11 +222,11 @@ def find_velocities(board: Board, method: Method | None, alone: bool = False) ->
 
     What a joint makes turn about a fixed point or move in translation belongs to every method, and so does the motion
     along the line of a moving body, for which there is no other one; a moving frame in its turn may be carried by
-    bodies of any motion.
+    bodies of any motion.  Only by instant centres is it known how a point moves that no joint guides.
     """
     finders = CHOSEN
     if method is not None:
-        own = (about_joints, *OWN[method], by_moving_frame)
+        own = (about_joints, *OWN[method], by_moving_frame if method == "instant centre" else by_guided_frame)
         finders = own if alone and method != "moving frame" else (*own, *CHOSEN)
     while any(find(board) for find in finders):
         pass

@@ -237,6 +237,14 @@ class SolvedExercise(Opened):
         each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
         return tuple(map(self._by_its_method, each))
 
+    @cached_property
+    def alone(self) -> tuple[Worked, ...]:
+        """The velocities by each method that the file asks for, with nothing but what it finds itself."""
+        if not self.exercise.given.methods:
+            return ()
+        first = self.exercise.given.methods[0]
+        return (work_out(self.exercise, self.words["units"], self.words["symbols"], first, True), *self.further)
+
     def _by_its_method(self, worked: Worked) -> Worked:
         if not worked.by_method:
             raise NotOfferedError(word("no_method_steps", self.assignment.language, method=worked.method))

@@ -268,6 +268,10 @@ class InstantMotion:
         at = self.system.points[point]
         return body == GROUND or (self.knows_omega(body) and self._second.solved.determines_point(body, at))
 
+    def knows_sense(self, rate: str, body: int) -> bool:
+        """Whether the sense of ω or ε is known too: where accelerations tell ω² alone, that of ω is not."""
+        return rate != "omega" or not self._knows_square(body) or not self.omega(body)
+
     def knows_centre(self, body: int) -> bool:
         """Whether the whole velocity of a body is known."""
         places = {self.system.points[point] for point in self.system.bodies.get(body, ())}

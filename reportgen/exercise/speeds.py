@@ -5,14 +5,15 @@ About fixed points and instant centres, by a base point, by projection, and alon
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Mapping
 from itertools import combinations, permutations
 
 from reportgen.exercise import file
-from reportgen.exercise.board import Board, Projected, Step, Vector, towards
+from reportgen.exercise.board import Board, Projected, Step, Vector, along, angle, size_of, towards
 from reportgen.exercise.centres import SAME_PLACE, InstantCentre
 from reportgen.exercise.places import direction_of, parallel, perpendicular
-from reportgen.formula import Symbol, ids
+from reportgen.formula import Negative, Symbol, cos, ids, sin, sqrt, total
 
 
 def enter_given(board: Board) -> None:
@@ -53,8 +54,17 @@ def by_parallels(board: Board) -> bool:
 
 def by_moving_frame(board: Board) -> bool:
     """One more point along a line of a moving body."""
-    given = board.layout.given
-    return any(_slot(board, joint) for joint in given.slots) or enter_blocks(board, "omega")
+    return _along_slots(board, board.layout.directions)
+
+
+def by_guided_frame(board: Board) -> bool:
+    """The same where joints or the data tell how the point moves, without instant centres."""
+    return _along_slots(board, board.layout.guided)
+
+
+def _along_slots(board: Board, directions: Mapping[str, complex]) -> bool:
+    slots = board.layout.given.slots
+    return any(_slot(board, joint, directions) for joint in slots) or enter_blocks(board, "omega")
 
 
 def enter_blocks(board: Board, what: str) -> bool:
@@ -174,8 +184,11 @@ def _parallel(board: Board, body: int, names: list[str]) -> bool:
 # --- a point along the line of a moving body --------------------------------------------------------
 
 
-def _slot(board: Board, joint: file.SlotJoint) -> bool:
-    """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes."""
+def _slot(board: Board, joint: file.SlotJoint, directions: Mapping[str, complex]) -> bool:
+    """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes.
+
+    `directions` are those of velocities that may be used.
+    """
     body, point, q, layout = joint.on, joint.point, board.q, board.layout
     if board.knows(ids.sliding_velocity(point)):
         return False
@@ -188,7 +201,7 @@ def _slot(board: Board, joint: file.SlotJoint) -> bool:
         # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
     known_rate, new = board.knows_omega(body), not board.knows_velocity(point)
-    if new and (point not in layout.directions or parallel(layout.directions[point], u)):
+    if new and (point not in directions or parallel(directions[point], u)):
         return False
     own = board.at(point, body)
     turning = Vector(ids.velocity(point + base), direction_of(own - board.at(base, body)))
@@ -262,7 +275,7 @@ def from_base_point(board: Board) -> bool:
                 return True
             continue
         for base in sorted(known, key=lambda name: board.q.si(ids.velocity(name)) == 0):
-            guided = [name for name in new if name in layout.directions]
+            guided = [name for name in new if name in layout.guided]
             if any(_rate_from_base(board, body, point, base) for point in (*known, *guided) if point != base):
                 return True
     return False
@@ -274,7 +287,7 @@ def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
     arm = layout.points[point] - layout.points[base]
     line, new = direction_of(arm), not board.knows_velocity(point)
     turn = board.motion.omega(body)
-    direction = direction_of(board.at(point)) or layout.directions.get(point, 0j)
+    direction = direction_of(board.at(point)) or layout.guided.get(point, 0j)
     if not line or (new and perpendicular(direction, line)):
         return False
     whole = Vector(ids.velocity(point), direction)
@@ -339,20 +352,61 @@ def _between(board: Board, body: int, other: int, point: str) -> bool:
 
 
 def by_projection(board: Board) -> bool:
-    """v_B cos β = v_A cos α for one more point B that moves along a known line, not across AB."""
+    """One more velocity of a body in plane motion by the theorem of projections."""
     layout = board.layout
     for body, names in layout.members.items():
         if body in layout.centres and layout.centres[body].by_joint:
             continue
-        for base, point in permutations(names, 2):
-            if not board.knows_velocity(base) or board.knows_velocity(point) or point not in layout.directions:
-                continue
-            line = direction_of(layout.points[point] - layout.points[base])
-            if line and not perpendicular(layout.directions[point], line):
-                whole = Vector(ids.velocity(point), direction_of(board.at(point)) or layout.directions[point])
-                relative = Vector(ids.velocity(point + base), 1j * line)
-                equation = Projected(board, (whole,), (board.velocity(base), relative))
-                equation.find(whole, line, "ξ", point)
-                equation.step("projection", body, point, base)
+        known = [name for name in names if board.knows_velocity(name)]
+        for point in names:
+            if point not in known and (
+                any(_on_one_line(board, body, point, base) for base in known)
+                or any(_on_two_lines(board, body, point, *bases) for bases in combinations(known, 2))
+            ):
                 return True
     return False
+
+
+def _on_one_line(board: Board, body: int, point: str, base: str) -> bool:
+    """v_B cos β = v_A cos α for a point B that moves along a known line, not across AB."""
+    points, directions = board.layout.points, board.layout.guided
+    line = direction_of(points[point] - points[base])
+    if point not in directions or not line or perpendicular(directions[point], line):
+        return False
+    whole = Vector(ids.velocity(point), direction_of(board.at(point)) or directions[point])
+    relative = Vector(ids.velocity(point + base), 1j * line)
+    equation = Projected(board, (whole,), (board.velocity(base), relative))
+    equation.find(whole, line, "ξ", point)
+    equation.step("projection", body, point, base)
+    return True
+
+
+def _on_two_lines(board: Board, body: int, point: str, one: str, other: str) -> bool:
+    """v_M from its projections p on AM and BM, which are those of v_A and v_B; not where A, B, M are in line.
+
+    The lines enclose γ, and v_M² sin²γ = p_A² + p_B² − 2 p_A p_B cos γ.
+    """
+    q, points = board.q, board.layout.points
+    u, w = (direction_of(points[point] - points[base]) for base in (one, other))
+    if not u or not w or parallel(u, w):
+        return False
+    w = towards(w, u)
+    sizes = [
+        q.define(ids.velocity_projection(point, base + point), part)
+        for base, axis in ((one, u), (other, w))
+        if (part := along(q, board.velocity(base), axis)) is not None
+    ]
+    if not sizes:
+        q.give(ids.velocity(point), 0.0)
+        board.steps.append(Step("projection-nothing", (), body, point, one, other=other))
+        return True
+    whole = size_of(q, sizes)
+    if not perpendicular(u, w):
+        γ = angle(q, math.acos((u.conjugate() * w).real))
+        if len(sizes) == 2:
+            p, r = sizes
+            whole = sqrt(total([p**2, r**2, Negative(2 * p * r * cos(γ))]))
+        whole = whole / sin(γ)
+    v = q.define(ids.velocity(point), whole)
+    board.steps.append(Step("projections", (*(size.id for size in sizes), v.id), body, point, one, other=other))
+    return True

@@ -15,12 +15,13 @@ from typing import Any
 from reportgen.base.units import MM
 from reportgen.exercise.board import Axis, Step, Vector
 from reportgen.exercise.centres import SAME_PLACE
+from reportgen.exercise.file import Asked
 from reportgen.exercise.places import parallel
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
-from reportgen.report import Equation, InlineMath, Inlines, Text, Value
+from reportgen.report import Equation, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.prose import NamedPoint
 
 AT = 1
@@ -40,7 +41,7 @@ class StepView:
     centre: NamedPoint
     one: NamedPoint
     other: NamedPoint
-    """The points whose normals meet in the centre."""
+    """The points whose normals meet in the centre; a second base point stands in place of the other."""
     lines: tuple[Equation, ...]
     equation: tuple[Equation, ...]
     angles: tuple[Inlines, ...]
@@ -64,11 +65,20 @@ class StepView:
 
 
 @dataclass(frozen=True)
+class Unfound:
+    """What is asked and a method does not lead to by itself; the reason is the key of its words."""
+
+    reason: str
+    symbols: Inlines
+
+
+@dataclass(frozen=True)
 class FurtherView:
     """A further solution as templates name it."""
 
     name: str
     steps: tuple[StepView, ...]
+    unfound: tuple[Unfound, ...]
 
 
 @dataclass(frozen=True)
@@ -96,6 +106,20 @@ class Solution:
         """What its method is called; "" where it is chosen for each step."""
         return str(self.case.words["instant"]["methods"][self.worked.method]) if self.worked.method else ""
 
+    def unfound(self, alone: Worked) -> tuple[Unfound, ...]:
+        """The velocities asked that its method `alone` does not lead to, by the reasons why."""
+        missing: dict[str, list[Symbol]] = {}
+        for one in self.case.exercise.asked:
+            if one.what in ("v", "omega") and one.id not in alone.ledger:
+                missing.setdefault(self._why_unfound(one, alone), []).append(vocabulary.symbol(one.id))
+        return tuple(Unfound(reason, listed(map(InlineMath, symbols))) for reason, symbols in missing.items())
+
+    def _why_unfound(self, asked: Asked, alone: Worked) -> str:
+        """Projections tell no rotation, and no velocity of a point in line with all those that are guided."""
+        if alone.method != "projection":
+            return "way"
+        return "turn" if asked.of_body else "in-line" if alone.layout.in_line(asked.of) else "way"
+
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.printed, worked.layout
@@ -115,7 +139,7 @@ class Solution:
             base=NamedPoint(step.base),
             centre=NamedPoint(centre.name if centre is not None else ""),
             one=NamedPoint(others[0]),
-            other=NamedPoint(others[1]),
+            other=NamedPoint(step.other or others[1]),
             lines=(Equation(tuple(map(self._chain, shown))),) if shown else (),
             equation=(self._equation(step),) if step.equation is not None and step.equation.left else (),
             angles=tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
@@ -137,7 +161,7 @@ class Solution:
         return [one for one in refs(definition) if one in ids.inner_angle] if definition is not None else []
 
     def _heading(self, step: Step) -> str:
-        """Where the velocity or the acceleration of the step's point goes, in words; "" for several points."""
+        """Where the vector of the step's point goes, in words; "" for several points or a zero vector."""
         motion, layout = self.case.exercise.motion, self.worked.layout
         if step.kind.startswith("acceleration") and step.point in motion.system.points:
             return self._towards(motion.a(step.point))
@@ -212,13 +236,15 @@ class Solution:
 
     def _towards(self, vector: complex) -> str:
         if vector == 0:
-            return "–"
+            return ""
         degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0
         quadrant, within = divmod(degrees, 90.0)
         return str(self.case.words["headings"][int(2 * quadrant) + (within > 0)])
 
-    def _sense(self, value: float) -> str:
+    def _sense(self, value: float, known: bool = True) -> str:
         words = self.case.words["sense"]
+        if not known:
+            return str(self.case.words["instant"]["open_sense"])
         return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
 
     def _coordinate(self, value: float) -> Number:

@@ -169,6 +169,7 @@ direction = Name("dir.{what}.{point}")
 velocity_component = Name("v.{point}.{axis}")
 acceleration_component = Name("a.{point}.{axis}")
 COMPONENT: Mapping[str, Name] = {"v": velocity_component, "a": acceleration_component}
+velocity_projection = Name("v.{point}.along.{line}")
 sliding_velocity = Name("v.{point}.r")
 centre_coordinate = Name("centre.{link}.{axis}")
 velocity_factor = Name("k.{point}")

@@ -226,6 +226,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.direction.only(what="a"), "α", "direction", _A, below="a{point}", around=True, name="direction"),
     # exercises of plane motion: components, the velocity along a moving line, instant centres, angles of projection
     VocabularyRow(ids.velocity_component, "v", "velocity", _V, name="velocity component"),
+    VocabularyRow(ids.velocity_projection, "p", "velocity", _V, below="{line}", name="velocity projection"),
     VocabularyRow(ids.acceleration_component, "a", "acceleration", _A, name="acceleration component"),
     VocabularyRow(ids.sliding_velocity, "v", "velocity", _V, name="sliding velocity"),
     VocabularyRow(ids.centre_coordinate, "x", "length", _V, name="centre coordinate"),

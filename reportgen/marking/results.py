@@ -27,13 +27,10 @@ from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
 FORMAT = "reportgen-results/1"
 
 
-def results(case: Opened, written: Ledger, positions: list[Any], **more: Any) -> dict[str, Any]:
-    """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it.
-
-    What the report prints, from the ledger as `written` down, stands behind it.
-    """
+def results(case: Opened, positions: list[Any], **more: Any) -> dict[str, Any]:
+    """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it."""
     about = {"format": FORMAT, "kind": case.assignment.kind, "variant": case.assignment.variant, "units": "SI"}
-    return {**about, **more, "positions": positions, "printed": printed_values(written)}
+    return {**about, **more, "positions": positions}
 
 
 def printed_values(written: Ledger) -> dict[str, Any]:
@@ -57,9 +54,7 @@ def machine_results(case: Calculation) -> dict[str, Any]:
     """The object of a machine, an entry a position."""
     analysis = case.analysis
     signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
-    return results(
-        case, case.printed, [_position(analysis, k) for k in range(len(analysis.cycle_angle))], dyad_signs=signs
-    )
+    return results(case, [_position(analysis, k) for k in range(len(analysis.cycle_angle))], dyad_signs=signs)
 
 
 def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:

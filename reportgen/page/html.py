@@ -71,7 +71,25 @@ def report(document: tree.Document) -> WrittenReport:
         f"@page {name}{{size:{width:g}mm {height:g}mm;margin:12mm}}.{name}{{page:{name}}}"
         for name, (width, height) in blocks.papers.items()
     )
-    return WrittenReport(body, "\n".join((pens.rules(), *papers)))
+    return WrittenReport(body, "\n".join((pens.rules(), running(document), *papers)))
+
+
+def running(document: tree.Document) -> str:
+    """What printed sheets have above and below their text, as the PDF has it."""
+    left, right = document.header
+    below, word = document.footer
+    texts = {
+        "top-left": quoted(left),
+        "top-right": quoted(right),
+        "bottom-left": quoted(below),
+        "bottom-center": f"{quoted(word)} ' ' counter(page)",
+    }
+    return f"@page{{{''.join(f'@{place}{{content:{text}}}' for place, text in texts.items())}}}"
+
+
+def quoted(text: str) -> str:
+    """A text as a string of a style sheet, which nothing in it can end."""
+    return "'" + "".join(one if one.isalnum() else f"\\{ord(one):x} " for one in text) + "'"
 
 
 def write(

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import Language, write
-from reportgen.drawing import Content, Label
+from reportgen.drawing import Content, Label, Line, Pen
 from reportgen.drawing.film import (
     LAYERS,
     Carried,
@@ -28,8 +28,8 @@ from reportgen.drawing.film import (
     Still,
     Track,
 )
-from reportgen.drawing.geometry import frame
-from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
+from reportgen.drawing.geometry import POINT, frame
+from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, VISIBLE, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
@@ -37,10 +37,12 @@ from reportgen.page.html import Panel, data, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
-MACHINE, PLAN = (120.0, 110.0), (75.0, 75.0)
-"""What a machine and a plan take of a screen, about (mm): letters and arrows of larger ones grow as those shrink."""
-MOST = 4.0
-"""They never grow more than so many times."""
+BARS, STRIP, UP = 2, 7.0, 1.5
+"""How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
+TICK = 0.8
+"""Half the strokes at the ends of a scale bar (mm)."""
+LINE = 0.42
+"""Half the height of a line of letters, in font sizes."""
 HIT = 4.0
 """How near (mm) a pointer must come to a point."""
 HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "a_y (m/s²)", "a (m/s²)")
@@ -86,9 +88,9 @@ class _Drawn:
     width: str
     height: str
     box: str
+    room: str
+    """Left, upper, right and lower edge of what labels may fill."""
     body: str
-    notes: str
-    scales: tuple[str, ...]
     spots: tuple[str, ...]
     reach: str
 
@@ -122,8 +124,8 @@ class _Writer:
             film=film,
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
-            machine=self.stage(machine, MACHINE),
-            plans=[self.stage(stage, PLAN) for stage in plans],
+            machine=self.stage(machine),
+            plans=list(map(self.stage, plans)),
             rates=[
                 ("v", formula(Symbol("v")), KINDS["velocity"].unit),
                 ("a", formula(Symbol("a")), KINDS["acceleration"].unit),
@@ -155,10 +157,10 @@ class _Writer:
                 }
                 for spot in film.stages[0].spots
             ],
-            "scales": {
-                stage.key: {"at": number(stage.scales.at), "times": stage.scales.times}
+            "finer": {
+                stage.key: {"at": number(stage.finer), "times": [stage.scales[0].per / one.per for one in stage.scales]}
                 for stage in film.stages
-                if stage.scales
+                if stage.finer
             },
             "charts": list(map(self.axes, film.charts)),
             "values": [[number(value.values), value.decimals] for value in film.values],
@@ -181,10 +183,11 @@ class _Writer:
 
     # --- drawings
 
-    def stage(self, stage: Stage, room: tuple[float, float]) -> _Drawn:
-        """A drawing in the box of all that it ever shows, about the origin of its places, y downwards."""
-        size = stage.high - stage.low
-        self.grown = min(max(size.real / room[0], size.imag / room[1], 1.0), MOST)
+    def stage(self, stage: Stage) -> _Drawn:
+        """A drawing in the box of all that it ever shows, about the origin of its places, y downwards; bars below."""
+        self.grown = stage.grown
+        strips = 1 if stage.finer else math.ceil(len(stage.scales) / BARS)
+        size = stage.high - stage.low + 1j * strips * STRIP * self.grown
         width, height = decimal(size.real), decimal(size.imag)
         return _Drawn(
             key=stage.key,
@@ -192,12 +195,33 @@ class _Writer:
             width=width,
             height=height,
             box=f"{decimal(stage.low.real)} {decimal(-stage.high.imag)} {width} {height}",
-            body="".join(map(self.item, stage.items)),
-            notes=", ".join(map(self.formulas.content, stage.notes)),
-            scales=tuple(map(self.formulas.content, stage.scales.printed)) if stage.scales else (),
+            room=" ".join(map(decimal, (stage.low.real, -stage.high.imag, stage.high.real, -stage.low.imag))),
+            body="".join(map(self.item, stage.items)) + "".join(self.bars(stage)),
             spots=tuple(spot.name for spot in stage.spots),
             reach=decimal(HIT * self.grown),
         )
+
+    def bars(self, stage: Stage) -> Iterator[str]:
+        """A bar for each scale, its value above it; of scales in use in turns all in one place."""
+        grown, room = self.grown, (stage.high - stage.low).real / BARS
+        tick, stroke = 1j * TICK * grown, Pen(round(VISIBLE.width * grown, 3))
+        for number, scale in enumerate(stage.scales):
+            strip, column = divmod(0 if stage.finer else number, BARS)
+            value, length = scale.bar(room)
+            start = stage.low + (column * room + grown) - 1j * ((strip + 1) * STRIP - UP) * grown
+            end = start + length
+            lines = (
+                Line(start, end, stroke),
+                Line(start - tick, start + tick, stroke),
+                Line(end - tick, end + tick, stroke),
+            )
+            shown = Label(start + 1.5 * tick, value, "bottom-left", SMALL * grown)
+            attributes = f' data-bar="{number}"'
+            if stage.finer:
+                attributes += f' data-scale="{number}"' + " hidden" * bool(number)
+            if scale.layers:
+                attributes += f' data-of-layer="{" ".join(scale.layers)}" hidden'
+            yield f"<g{attributes}>{self.painter.items((*lines, shown))}</g>"
 
     def item(self, item: MovingItem) -> str:
         """The element of an item; if it moves it gets a number, and what it follows goes into the data."""
@@ -256,9 +280,9 @@ class _Writer:
         return self.painter.label(Label(0j, content, size=size * self.grown))
 
     def half_size(self, content: Content, size: float) -> list[float]:
-        """Half the width and height of a label (mm)."""
+        """Half the width and height of a label (mm), which is that of a line at least."""
         _, half = frame(Label(0j, content, size=size * self.grown))
-        return [round(half.real, 2), round(half.imag, 2)]
+        return [round(half.real, 2), round(max(half.imag, LINE * size * self.grown * POINT), 2)]
 
     # --- curves
 

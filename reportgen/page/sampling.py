@@ -13,34 +13,40 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.units import MM, nice_up, significant_decimals
+from reportgen.base.units import MM, significant_decimals
 from reportgen.drawing import Circle, Content, Pen, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.film import (
     LAYERS,
+    PANEL,
+    BarScale,
     Carried,
     Chart,
     Curve,
     Errors,
     Film,
+    Fitted,
     MomentValue,
     MovingItem,
     MovingName,
     MovingVector,
-    Scales,
     Spot,
     Stage,
     Track,
     extent,
+    fitted,
+    lever_items,
     linkage_items,
     path_items,
     plan_items,
 )
-from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
+from reportgen.drawing.plan import Construction
+from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import KINDS
+from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motion_at
-from reportgen.machine.forces import Load
+from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.loads import FULL_TURN
 from reportgen.machine.motion import Motion
 from reportgen.plans import enter_plans
@@ -48,7 +54,7 @@ from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
 from reportgen.report.case import Calculation
 from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
-from reportgen.report.figures import drawing_scale, looks, short
+from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
 
@@ -65,8 +71,10 @@ ARROW = 34.0
 FAR = 2.5
 """A centre farther off than so many diagonals of the drawing is not drawn."""
 DIGITS, MOST_DECIMALS = 5, 5
-STILL = Track(np.zeros(1, complex))
-"""The pole of a plan."""
+FORCES = ("loads", "inertia", "weights", "reactions")
+"""The layers of forces, which have one scale."""
+LEVER, LONGER = 0.45, 0.2
+"""The arrows of forces on the lever, and by how much one at the place of another is longer: shares of the lever."""
 
 
 def film(case: Calculation) -> Film:
@@ -126,11 +134,12 @@ class _Samples:
 
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
-        """The corners of all plans at the samples, and the scales of force plans, by id."""
+        """The corners of all plans at the samples, and their scales, by id."""
         worked = [self._sample(k) + 1 for k in self.case.assignment.worked_positions]
         sheet, _ = enter_plans(self.analysis, worked)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
-        return {id: sheet.value(id) for id in sheet.families if any(id in name for name in drawn)}
+        scales = [ids.scale("v"), ids.scale("a")]
+        return {id: sheet.value(id) for id in sheet.families if id in scales or any(id in name for name in drawn)}
 
     def _sample(self, k: int) -> int:
         """The sample that is the numbered position `k`."""
@@ -164,14 +173,14 @@ class _Samples:
     def stages(self) -> Iterator[Stage]:
         report, words = self.report, self.report.words["page"]
         yield self.mechanism()
-        names: tuple[tuple[What, str], ...] = (("v", "velocity_plan"), ("a", "acceleration_plan"))
-        for what, name in names:
-            items = self._plan_of_motion(what)
-            yield Stage(what, words[name], tuple(items), *extent(items), (self._scale(ids.scale(what)),))
+        yield self._plan_of_motion("v", words["velocity_plan"], "velocity")
+        yield self._plan_of_motion("a", words["acceleration_plan"], "acceleration")
         titles = {group.polygon.name: f"{group.i}, {group.j}" for group in report.groups if group.polygon is not None}
         for polygon in self.case.polygons:
             of = titles.get(polygon.name)
             yield self._plan_of_forces(polygon, words["force_plan"].format(name=of) if of else words["driver_plan"])
+        if report.arms_about("p"):
+            yield self._lever(words["lever"])
 
     def mechanism(self) -> Stage:
         """The machine itself, true to shape."""
@@ -183,14 +192,15 @@ class _Samples:
         low, high = extent(items)
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = path_items(linkage, motion, names, scale) + items
-        scales: list[Content] = list(look.notes)
-        for base, rate, layer in (("v", "v", "velocities"), ("a", "a", "accelerations")):
-            items += self._rates(base, rate, layer, scale)
+        scales = [BarScale(1 / scale, "segment")]
+        for kind, rate, layer in (("velocity", "v", "velocities"), ("acceleration", "a", "accelerations")):
+            arrows, per = self._rates(rate, layer, scale)
+            items += arrows
+            scales += [BarScale(per, kind, (layer,))] if arrows else []
         items += self._centres(scale, low, high)
         forces, per = self._forces(scale)
         items += forces
-        if per:
-            scales.append(Chain((Symbol("μ", "P"), short(Number(per, 6, KINDS["force scale"].unit)))))
+        scales += [BarScale(per, "force", FORCES)] if forces else []
         spots = tuple(
             Spot(
                 name,
@@ -208,7 +218,7 @@ class _Samples:
             items=tuple(items),
             low=low,
             high=high,
-            notes=tuple(scales),
+            scales=tuple(scales),
             spots=spots,
         )
 
@@ -217,24 +227,27 @@ class _Samples:
         """The motion at the samples of one turn."""
         return motion_at(self.machine, self.knots)
 
-    def _rates(self, base: str, rate: str, layer: str, scale: float) -> list[MovingItem]:
-        """The velocities or accelerations of the points as arrows at them, the longest as long as it may be."""
+    def _rates(self, rate: str, layer: str, scale: float) -> tuple[list[MovingItem], float]:
+        """The velocities or accelerations of the points as arrows at them, the longest as long as it may be, to scale.
+
+        The scale is that of a millimetre.
+        """
         points = {n: p for n, p in self._one_turn.points.items() if n not in self.machine.linkage.ground}
         greatest = max(float(np.nanmax(np.abs(getattr(p, rate)))) for p in points.values())
         if not greatest:
-            return []
-        per = ARROW / greatest
+            return [], 0.0
+        per = greatest / ARROW
         return [
             MovingVector(
                 Track(p.p * scale),
-                Track(p.p * scale + getattr(p, rate) * per),
-                style.RELATIVE if base == "v" else style.FOUND,
-                label=Symbol(base, name, over="vector"),
-                name=ids.POINT_RATE[base](name),
+                Track(p.p * scale + getattr(p, rate) / per),
+                style.RELATIVE if rate == "v" else style.FOUND,
+                label=Symbol(rate, name, over="vector"),
+                name=ids.POINT_RATE[rate](name),
                 layer=layer,
             )
             for name, p in points.items()
-        ]
+        ], per
 
     def _centres(self, scale: float, low: complex, high: complex) -> list[MovingItem]:
         """Instant centres with the normals that meet in them, where they are near enough to be drawn."""
@@ -264,14 +277,14 @@ class _Samples:
         )
         for layer, loads in groups:
             arrows += [(layer, load.name, load.force, load.point) for load in loads]
-        for name, reaction in found.forces.reactions.items():
-            if found.loads and not any(_pair(name) == _pair(other) for _, other, *_ in arrows):
-                arrows.append(("reactions", name, reaction.force, reaction.point))
+        for name in self._reactions:
+            reaction = found.forces.reactions[name]
+            arrows.append(("reactions", name, reaction.force, reaction.point))
         sizes = {name: np.abs(force) for _, name, force, _ in arrows}
         greatest = max((float(np.nanmax(size, initial=0.0)) for size in sizes.values()), default=0.0)
         if not greatest:
             return [], 0.0
-        per = nice_up(greatest / ARROW)
+        per = greatest / ARROW
         return [
             MovingVector(
                 Track(at * scale),
@@ -289,39 +302,66 @@ class _Samples:
         entered = ids.force_vector(name) in self.report.ledger
         return self.report.force_vector(name) if entered else vocabulary.vector(vocabulary.symbol(ids.of_force(name)))
 
-    def _plan_of_motion(self, what: What) -> list[MovingItem]:
+    @cached_property
+    def _reactions(self) -> list[str]:
+        """The reactions, each once, as the force plans find them: R54 where the force of link 5 on link 4 is read."""
+        found = self.analysis.forces.reactions
+        edges = (edge for polygon in self.case.polygons for edge in (*polygon.edges, *polygon.reads))
+        return list(dict.fromkeys(edge.name for edge in edges if edge.unknown and edge.name in found))
+
+    def _plan_of_motion(self, what: What, title: str, kind: str) -> Stage:
         """The plan of velocities or accelerations."""
         plan = motion_construction(self.report, what)
-        tracks = {id: self.turn(_places(self.corners[id])) for id in plan.corners if id != POLE}
-        return plan_items(plan, {POLE: STILL, **tracks})
+        found = fitted(self._rates_on(plan, what), kind, self.knots.size)
+        return _plan(what, title, plan_items(plan, found.tracks), found)
+
+    def _rates_on(self, plan: Construction[str], what: What) -> dict[str, np.ndarray]:
+        """The corners of a plan of velocities or accelerations, in SI units."""
+        per = float(self.corners[ids.scale(what)].flat[0])
+        return {id: np.zeros(1, complex) if id == POLE else self.corners[id] * per for id in plan.corners}
 
     def _plan_of_forces(self, polygon: Polygon, title: str) -> Stage:
-        """A force plan, at each sample at the scale that the report would draw it to.
+        plan, per = force_construction(self.report, polygon), self.corners[ids.force_scale(polygon.name)]
+        found = fitted({corner: self.corners[corner] * per for corner in plan.corners}, "force", self.angles.size)
+        return _plan(f"R{polygon.name}", title, plan_items(plan, found.tracks), found)
 
-        Forces of combustion are many times those of the other strokes: at one scale those would be points.
+    def _lever(self, title: str) -> Stage:
+        """Zhukovsky's lever: the velocity plan turned by 90° against ω1, the line of every load through its image.
+
+        All arrows are of one length but where two would cover each other: arms count, with the force's size.
         """
-        id, plan = ids.force_scale(polygon.name), force_construction(self.report, polygon)
-        places = {corner: _places(self.corners[corner]) for corner in plan.corners}
-        own = np.broadcast_to(self.corners[id], self.angles.shape)
-        each, at = np.unique(own, return_inverse=True)
-        coarsest = float(each[-1])
-        items = plan_items(plan, {corner: Track(place * (own / coarsest)) for corner, place in places.items()})
-        low, high = extent(plan_items(plan, {corner: Track(place) for corner, place in places.items()}))
-        scales = Scales(
-            tuple(self._printed(id, float(one)) for one in each),
-            tuple(coarsest / float(one) for one in each),
-            Track(at.astype(float)),
-        )
-        return Stage(f"R{polygon.name}", title, tuple(items), low, high, scales=scales)
-
-    def _scale(self, id: str) -> Chain:
-        return self._printed(id, float(self.report.ledger[id].at(None)))
-
-    def _printed(self, id: str, scale: float) -> Chain:
-        """A scale with the figures of its kind: no decimals are chosen for drawings."""
-        how = self.report.ledger[id].how
-        value = float(f"{scale / how.scale:.{how.digits}g}")
-        return Chain((self.report.ledger.symbol(id), Number(value, None, how.unit)))
+        plan, quarter = motion_construction(self.report, "v"), -1j * self.machine.turn
+        corners = {id: place * quarter for id, place in self._rates_on(plan, "v").items()}
+        reach = max(float(np.nanmax(np.abs(place))) for place in corners.values())
+        motion = self.analysis.motion
+        drawn: list[str] = []
+        acting = [(load.name, load.force, load.link, as_single_force(load)) for load in self.analysis.loads]
+        if self.machine.span:
+            pin = motion.points[self.report.driver.pin]
+            acting.append(("Rcb", self.analysis.torque * pin.v, DRIVER, pin.p))
+        for name, force, link, at in acting:
+            size = np.abs(force)
+            if not np.nanmax(size, initial=0.0):
+                continue
+            image = motion.of(link, at).v * quarter
+            # A force that is nearly nothing may act alone far away: with its couple it has no place on the sheet.
+            image = np.where((size > 0) & (np.abs(image) < FAR * reach), image, complex(np.nan, np.nan))
+            before = sum(np.allclose(image, corners[other], equal_nan=True) for other in drawn)
+            start, end = f"{name} start", f"{name} end"
+            corners[start] = image
+            with np.errstate(invalid="ignore"):
+                corners[end] = image + (LEVER + LONGER * before) * reach * force / size
+            drawn.append(start)
+        found = fitted(corners, "velocity", self.angles.size)
+        items = lever_items(plan, found.tracks)
+        for start in drawn:
+            name = start.removesuffix(" start")
+            ends = found.tracks[start], found.tracks[f"{name} end"]
+            balance = name == "Rcb"
+            items.append(MovingVector(*ends, style.REACTION if balance else style.ACTIVE, name=name))
+            shown = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
+            items.append(MovingName(shown, ends[1], ends[:1], 0.6))
+        return _plan("lever", title, items, found)
 
     # --- curves and numbers
 
@@ -361,11 +401,8 @@ class _Samples:
         for load in found.applied:
             if np.nanmax(np.abs(load.force)) > 0:
                 yield _value(_scalar(self._force_symbol(load.name)), "force", np.abs(load.force))
-        shown: set[tuple[str, ...]] = set()
-        for name, reaction in found.forces.reactions.items():
-            if _pair(name) not in shown:
-                shown.add(_pair(name))
-                yield _value(_scalar(self._force_symbol(name)), "force", np.abs(reaction.force))
+        for name in self._reactions:
+            yield _value(_scalar(self._force_symbol(name)), "force", np.abs(found.forces.reactions[name].force))
         yield _value(self.report.balance_symbol(), ledger["M.eq"].kind, found.torque)
 
     # --- what interpolation costs
@@ -401,9 +438,8 @@ class _Samples:
         return Errors(bound * scale, crank, share)
 
 
-def _places(corner: np.ndarray) -> np.ndarray:
-    """A corner of a plan in mm; one that stays at 0 is a place, too."""
-    return np.asarray(corner * MM, dtype=np.complex128)
+def _plan(key: str, title: str, items: list[MovingItem], found: Fitted) -> Stage:
+    return Stage(key, title, tuple(items), -PANEL / 2, PANEL / 2, found.scales, finer=found.finer)
 
 
 def _chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:
@@ -424,9 +460,3 @@ def _value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:
 
 def _scalar(symbol: Symbol) -> Symbol:
     return Symbol(symbol.base, symbol.sub, symbol.sup)
-
-
-def _pair(name: str) -> tuple[str, ...]:
-    """The two links of a reaction, whichever acts on the other; a load is its own."""
-    found = ids.reaction_force.read(name)
-    return tuple(sorted(ids.linked(found["joint"]))) if found else (name,)

@@ -266,8 +266,8 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
         scale=most,
     )
     most_energy, least_energy = (
-        A - q.define(ids.bound_of_speed(name), ω1 * (1 + side * δ / 2)) ** 2 * J_r / 2
-        for name, side in (("max", 1), ("min", -1))
+        A - q.define(ids.bound_of_speed(name), ω1 * share) ** 2 * J_r / 2
+        for name, share in (("max", 1 + δ / 2), ("min", 1 - δ / 2))
     )
     a = _with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
     b = _with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.formula import Number, Symbol, ids, vocabulary, walk
+from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary, walk
 from reportgen.formula.vocabulary import on_plan
 from reportgen.machine.loads import Applied
 from reportgen.report import Block, Cell, Column, Inline, InlineMath, Inlines, Paragraph, Table, Text, Value, listed
 from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
+from reportgen.report.phrases import sign
 from reportgen.report.report import Report
 
 UNIFORM = Number(12.0)
@@ -172,11 +173,17 @@ def _row(one: Peak) -> tuple[Inlines, Inlines, Inlines]:
 
 def main_figures(report: Report) -> Iterator[Sequence[object]]:
     """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
-    ledger = report.ledger
     for one, name in report.words["main_figures"].items():
-        id = of_kind(report, one)
-        if id:
-            yield name, ledger.symbol(id), Value(ledger.number(id)), extreme_place(report, id)
+        if id := of_kind(report, one):
+            yield *_figure(report, id, name), extreme_place(report, id)
+
+
+def _figure(report: Report, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
+    """Words, symbol and value; an extreme of the balance is called by its sense, and its size is shown."""
+    symbol, way = report.ledger.symbol(id), sign(report, id)
+    if isinstance(name, str):
+        return name, symbol, Value(report.ledger.number(id))
+    return name[way], size(symbol) if way == "negative" else symbol, Value(report.ledger.number(id, size=True))
 
 
 def of_kind(report: Report, name: str) -> str:

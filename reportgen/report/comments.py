@@ -254,7 +254,8 @@ def balance_senses(report: Report) -> list[Inlines]:
     """What the balancing torque does to the motion, and at which positions."""
     course, words = balance_course(report), report.words["remarks"]["balance"]
     found = {"against": course.against, "along": course.along, "none": course.none}
-    return [say(report, words[way], where=where(report, there)) for way, there in found.items() if there]
+    motion = report.words["driven"][report.driver.kind]["motion_of"]
+    return [say(report, words[way], where=where(report, there), motion=motion) for way, there in found.items() if there]
 
 
 def balance_gaps(report: Report) -> list[Peak]:
@@ -265,7 +266,8 @@ def balance_gaps(report: Report) -> list[Peak]:
 def balance_mean(report: Report) -> Inlines:
     """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
     words = report.words["remarks"]["mean"]
-    return say(report, words[balance_course(report).mean], cycle=report.words["driven"][report.driver.kind]["cycle"])
+    driven = report.words["driven"][report.driver.kind]
+    return say(report, words[balance_course(report).mean], driven, motion=driven["motion_of"])
 
 
 @dataclass(frozen=True, slots=True)

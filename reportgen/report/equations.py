@@ -53,6 +53,12 @@ def value(report: Report, id: str, position: int | None = None, size: bool = Fal
     return Value(report.ledger.number(id, position, size=size))
 
 
+def typed(report: Report, id: str) -> Inline:
+    """A datum as its file has it: a ratio 1/30 as such."""
+    ratio = report.ledger[id].definition
+    return value(report, id) if ratio is None else InlineMath(ratio, slashed=True)
+
+
 def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
     """A quantity as "symbol = number" in running text."""
     return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
@@ -132,10 +138,10 @@ def force_list(report: Report, group: GroupView, position: int) -> Inlines:
 # --- the sense of forces
 
 
-def assumed(report: Report, group: GroupView, position: int) -> Inlines:
-    """The reactions of a group that are drawn on its links in an assumed sense."""
-    sought = (id for id in group.assumed if not report.is_zero(id, position))
-    return listed(InlineMath(vocabulary.vector(report.ledger.symbol(id))) for id in sought)
+def by_moments(report: Report, group: GroupView, position: int) -> Inlines:
+    """The reactions of a group that moments give, with their signs."""
+    sought = (id for id in group.by_moments if not report.is_zero(id, position))
+    return listed(InlineMath(report.ledger.symbol(id)) for id in sought)
 
 
 def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
@@ -145,8 +151,7 @@ def senses(report: Report, joints: Iterable[str], position: int) -> Inlines:
         if not report.is_zero(ids.reaction(digits), position):
             force = ids.reaction_force(digits)
             vector, angle = report.force_vector(force), report.ledger.number(ids.force_direction(force), position)
-            way = Text(f" {heading_words(report, angle.shown)} (")
-            shown += [*((Text("; "),) if shown else ()), InlineMath(vector), way, Value(angle), Text(")")]
+            shown += [*((Text("; "),) if shown else ()), InlineMath(vector), *_pointing(report, angle)]
     return tuple(shown)
 
 
@@ -156,9 +161,14 @@ def slider_ways(report: Report) -> Inlines:
     for pin, way in report.slider_senses.items():
         degrees = round(float(np.degrees(np.angle(way))), 2) % 360.0
         symbols = InlineMath(Symbol("v", pin)), Text(", "), InlineMath(Symbol("a", pin))
-        place = Text(f" {heading_words(report, degrees)} ("), Value(Number(degrees, unit="°")), Text(")")
-        shown += [*((Text("; "),) if shown else ()), *symbols, *place]
+        shown += [*((Text("; "),) if shown else ()), *symbols, *_pointing(report, Number(degrees, unit="°"))]
     return tuple(shown)
+
+
+def _pointing(report: Report, angle: Number) -> Inlines:
+    """Where a vector points, in words, and its angle from +x."""
+    before, after = report.words["pointing"].format(heading=heading_words(report, angle.shown), angle="|").split("|")
+    return Text(f" {before}"), Value(angle), Text(after)
 
 
 def heading_words(report: Report, degrees: float) -> str:

@@ -71,10 +71,8 @@ class _Bodies:
                 continue
             torque = _is_torque(report, load)
             if torque or report.is_zero(load.name, self.k):
-                shown: Expression = report.ledger.symbol(load.name if torque else ids.inertia_couple(load.link))
-                if torque and load.couple[index] < 0:
-                    # The arc shows the true sense: a torque with a minus acts so with its size.
-                    shown = size(shown)
+                symbol = report.ledger.symbol(load.name if torque else ids.inertia_couple(load.link))
+                shown = _of_arc(symbol, float(load.couple[index])) if torque else symbol
                 result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
         return result
 
@@ -86,8 +84,8 @@ class _Bodies:
     # --- reactions
 
     def reaction(self, name: str, at: complex) -> Force:
-        """A reaction R12 in its true sense, or a component R12.t with a sign in the sense assumed."""
-        direction = drawn_sense(self.report, name, self.k)
+        """A reaction R12, or a component R12.t of one, in its true sense."""
+        direction = true_sense(self.report, name, self.k)
         return Force(self.report.force_vector(name), at, direction, "reaction", name)
 
     def found_before(self, polygon: Polygon) -> list[Force]:
@@ -110,27 +108,18 @@ class _Bodies:
         return [self.reaction(name, self.at(pin)) for name in (parts if by_parts else [whole])]
 
     def inner(self, group: GroupView, link: int) -> Force:
-        """The reaction in the inner joint on one link of the group: as moments assume it, else as the plan gives it."""
+        """The reaction in the inner joint on one link of the group."""
         # Of an RPP the inner joint is the slide of the block, which stands at its pin.
         at, on_i = self.at(group.P if group.kind == "RPP" else group.Q), link == group.i
-        if group.by_slot in self.report.ledger:
-            sense = drawn_sense(self.report, ids.reaction_force(group.across, "s"), self.k) * (-1 if on_i else 1)
-        else:
-            sense = drawn_sense(self.report, ids.reaction_force(group.inner), self.k) * (1 if on_i else -1)
+        sense = true_sense(self.report, ids.reaction_force(group.inner), self.k) * (1 if on_i else -1)
         digits = group.inner if on_i else group.across
         return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", ids.reaction_force(digits))
 
 
-def drawn_sense(report: Report, name: str, k: int) -> complex:
-    """How a reaction is drawn on a separated link: as its formula assumes it if it has a sign; 0 where it is nothing.
-
-    The formula's value times the arrow drawn is then the true force.
-    """
-    ledger, vector = report.ledger, report.ledger[ids.force_vector(name)]
-    if report.is_zero(vector.of, k):
-        return 0j
-    assumed = ledger.known((ids.assumed(name), ids.force_vector(name)))[0]
-    return complex(ledger[assumed].at(k))
+def true_sense(report: Report, name: str, k: int) -> complex:
+    """How a reaction is drawn on a separated link: where it points; 0 where it is nothing."""
+    vector = report.ledger[ids.force_vector(name)]
+    return 0j if report.is_zero(vector.of, k) else complex(vector.at(k))
 
 
 # --- groups and the driver
@@ -193,13 +182,18 @@ def separated_driver(report: Report, k: int) -> Scene:
     closing = (body.reaction(edge.name, pin) for edge in polygon.edges if edge.unknown)
     forces = [*body.loads(), *body.found_before(polygon), *closing]
     if centre:
-        # Assumed anticlockwise, as its formula counts it.
-        balance = Couple(report.balance_symbol(), pin, float(not report.is_zero("M.eq", k)))
+        torque = 0.0 if report.is_zero("M.eq", k) else float(report.ledger["M.eq"].at(k).real)
+        balance = Couple(_of_arc(report.balance_symbol(), torque), pin, torque)
         return body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
     return body.scene(forces)
 
 
 # --- loads
+
+
+def _of_arc(torque: Symbol, value: float) -> Expression:
+    """What stands at the arc of a torque, which shows its true sense: one with a minus acts so with its size."""
+    return size(torque) if value < 0 else torque
 
 
 def _has_force(report: Report, load: Load, k: int) -> bool:
@@ -281,7 +275,7 @@ def lever(report: Report, k: int) -> FigureScenes:
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per
         shown = vocabulary.vector(report.balance_symbol())
-        forces.append(Force(shown, image, drawn_sense(report, "Rcb", k), "reaction", "Rcb"))
+        forces.append(Force(shown, image, true_sense(report, "Rcb", k), "reaction", "Rcb"))
         arms.append(ArmOf(ledger.symbol(report.driver.velocity_segment), 0j, "Rcb"))
     scale = Chain((ledger.symbol("mu.v"), ledger.number("mu.v")))
     drawing = motion_plan(report, "v", k)

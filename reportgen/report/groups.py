@@ -360,14 +360,9 @@ class GroupView:
         )
 
     @property
-    def by_slot(self) -> str:
-        """The reaction of the block on a slotted link, which moments give with its sign."""
-        return ids.reaction(self.across, "s")
-
-    @property
-    def assumed(self) -> list[str]:
-        """What moments give, each drawn in an assumed sense, so that it has a sign."""
-        return [*self.tangential, *self.ledger.known([self.by_slot])]
+    def by_moments(self) -> list[str]:
+        """What moments give, each with a sign: its own moment balances those of the other forces."""
+        return [*self.tangential, *self.ledger.known([ids.reaction(self.across, "s")])]
 
     @property
     def tangential(self) -> list[str]:

@@ -341,6 +341,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "points": equations.points,
     "quantity": equations.quantity,
     "symbol": equations.symbol,
+    "typed": equations.typed,
     "v": equations.v,
     "value": equations.value,
     "vector": equations.vector,
@@ -356,8 +357,8 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "through_pin": equations.through_pin,
     "velocity_equation": equations.velocity_equation,
     # words
-    "assumed": equations.assumed,
     "balance_sign": phrases.balance_sign,
+    "by_moments": equations.by_moments,
     "centre_state": centres.centre_state,
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,

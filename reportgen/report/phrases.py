@@ -282,7 +282,7 @@ def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) 
 def found_senses(report: Report, group: GroupView, position: int) -> Inlines:
     """What the signs of the reactions say that moments gave."""
     words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")
-    found = [(id, sign(report, id, position)) for id in group.assumed]
+    found = [(id, sign(report, id, position)) for id in group.by_moments]
     return tuple(
         part
         for id, way in found

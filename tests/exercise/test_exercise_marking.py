@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pymupdf
@@ -13,9 +14,10 @@ from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
-from reportgen.marking.marking import compare
+from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
+from reportgen.report import text_of
 from tests.marking import demo, students
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
@@ -99,8 +101,28 @@ def test_the_task_holds_no_answer(drawn: tuple[str, Path]) -> None:
     task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
     texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
     rows = open_case(file, "en").key().asked
-    shown = [write(abs(float(row.values[0])), row.decimals, "en") for row in rows if row.decimals is not None]
+    shown = [write(abs(float(row.printed[0])), row.decimals, "en") for row in rows if row.decimals is not None]
     telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
     assert telling
     assert [text for text in telling if text in texts[0]] == []
     assert [text for text in telling if text not in texts[1]] == []
+
+
+def test_an_open_sense_is_said_and_any_sign_is_right() -> None:
+    """Accelerations tell ω² alone (exercise 19): text, answers, key and marks have the size of ω, and ε its sign."""
+    case = open_case(FOLDER / "19.yaml", "en")
+    key = case.key()
+    assert key.find("turn.omega.1") is None
+    row = key.row("omega.1")
+    assert row.open_sense
+    assert row.positive == "magnitude"
+    assert row.sense == ("",)
+    assert key.row("turn.eps.1").sense == ("anticlockwise",)
+    page = text_of(case.document())
+    assert "its sense cannot be determined" in page
+    assert re.search(r"\|ω_1\|[^\n]*1\.4142 rad/s[^\n]*not determined by the data", page)
+    scheme = marking_scheme(case)
+    for other in ("", "omega.1"):
+        turned = students.sheet(scheme, lambda row, _, value, other=other: -value if row.id == other else value)
+        marking = mark(scheme, turned)
+        assert marking.points == marking.out_of

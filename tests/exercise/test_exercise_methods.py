@@ -10,18 +10,21 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
-from reportgen import catalogue
+from reportgen import api, catalogue
 from reportgen.base.errors import AssignmentError
-from reportgen.exercise.case import ExerciseCase
+from reportgen.exercise import centres
+from reportgen.exercise.case import ExerciseCase, solution
 from reportgen.exercise.centres import lay_out
 from reportgen.exercise.file import Method
 from reportgen.exercise.plane_motion import why_not
 from reportgen.exercise.solution import Worked, belongs, work_out
+from reportgen.report import text_of
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 FILES = sorted(FOLDER.glob("*.yaml"))
-NOWHERE = {("12", "base point")}
-"""Where a method has what it needs and still leads to nothing asked: the lever of 12 has no end to begin at."""
+NOWHERE = {("12", "base point"), ("08", "base point"), ("08", "projection")}
+"""Where a method has what it needs and still leads to nothing asked: the lever of 12 has no end to begin at, and only
+instant centres tell how D of 8 moves, by which its crank is joined to the rest."""
 METHODS: tuple[Any, ...] = get_args(Method)
 
 FOUR_BAR = """\
@@ -140,8 +143,9 @@ def test_all_methods_that_apply_agree(tmp_path: Path, form: str, a: int, b: int,
     assert applying
     for method in applying:
         assert agrees(case, by(case, method)) > 0
-        if method != "projection":
-            assert by(case, method).missing == (), method
+        # A point off the line of the others follows from projections, a rotation never does.
+        left = set(by(case, method).missing)
+        assert not left or (method == "projection" and left <= {"v.M", *(f"omega.{body}" for body in (1, 2, 3))}), left
 
 
 def test_a_file_may_ask_for_several(tmp_path: Path) -> None:
@@ -159,3 +163,64 @@ def test_a_file_may_ask_for_several(tmp_path: Path) -> None:
     assert kinds[2] >= {"rate-normals", "speed-normals"}
     for worked in (case.worked, *case.further):
         assert float(worked.ledger["v.B"].values[0]) == pytest.approx(0.1 * math.sqrt(3), rel=1e-12)
+
+
+TRAMMEL = """\
+kind: plane-motion
+parameters:
+  points:
+    O: {{at: [0 cm, 0 cm]}}
+    A: {{at: [-12 cm, 0 cm]}}
+    B: {{at: [0 cm, 9 cm]}}
+    M: {{at: {m}}}
+  bodies:
+    1: {{points: [A, M, B]}}
+  joints:
+    - {{type: slot, point: A, body: 1, angle: 0 deg}}
+    - {{type: slot, point: B, body: 1, angle: 90 deg}}
+  given: [{{type: velocity, point: A, size: 9 cm/s, direction: 0 deg}}]
+  find: [v.B, v.M, omega.1]
+  methods: [base point, projection]
+"""
+"""A trammel of 3, 4 and 5, turning at 1 rad/s about (-12, 9) cm."""
+
+
+def trammel(tmp_path: Path, m: str) -> ExerciseCase:
+    path = tmp_path / "file.yaml"
+    path.write_text(TRAMMEL.format(m=m), encoding="utf-8")
+    return ExerciseCase(api.load(path, "en"))
+
+
+def test_projection_alone_tells_nothing_across_its_line(tmp_path: Path) -> None:
+    """Of the middle M of AB it has but the component along AB, and of the rotation nothing: both are said."""
+    case = trammel(tmp_path, "[-6 cm, 4.5 cm]")
+    base, projection = case.alone
+    assert base.missing == ()
+    assert projection.missing == ("v.M", "omega.1")
+    assert {step.kind for step in projection.steps} == {"projection"}
+    page = text_of(solution(case))
+    assert "Projection alone cannot give v_M: the point lies on one line" in page
+    assert "contains no angular velocity, so that it alone cannot give ω_1" in page
+
+
+@pytest.mark.parametrize(
+    ("m", "v"),
+    [("[0 cm, 0 cm]", math.hypot(9, 12)), ("[-12 cm, 4 cm]", 5.0), ("[3 cm, 9 cm]", 15.0), ("[-12 cm, 9 cm]", 0.0)],
+    ids=["corner", "above A", "beyond B", "instant centre"],
+)
+def test_projections_on_two_lines_tell_a_velocity(tmp_path: Path, m: str, v: float) -> None:
+    """v = ω · distance from (-12, 9) cm, with ω = 1 rad/s."""
+    projection = trammel(tmp_path, m).alone[1]
+    assert projection.missing == ("omega.1",)
+    assert float(projection.ledger["v.M"].values[0]) == pytest.approx(v / 100, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("method", ["base point", "projection"])
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_no_method_borrows_from_instant_centres(path: Path, method: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Who knows nothing of normals to velocities finds the same by base points and by projections."""
+    case = ExerciseCase(catalogue.load(path))
+    own = by(case, method)
+    monkeypatch.setattr(centres, "_next_centre", lambda _: False)
+    found = [step.ids for step in by(case, method).steps if step.kind != "centre-rate"]
+    assert found == [step.ids for step in own.steps if step.kind != "centre-rate"]

@@ -76,7 +76,13 @@ def test_each_section_can_be_printed_by_itself(tmp_path: Path) -> None:
     path.write_bytes(write_xlsx(answer_book(asked, by_section=True)))
     page = load_workbook(path).worksheets[0]
     after = [page.cell(one.id + 1, 2).value for one in page.row_breaks.brk]
-    titles = ("Velocities", "Accelerations", "Loads and forces", "Reactions in the joints", "Balance of the driving")
+    titles = (
+        "Velocities",
+        "Accelerations",
+        "Loads and inertia forces",
+        "Reactions in the joints",
+        "Balance of the driving",
+    )
     # The data and the first section begin the sheet.
     assert after[0] == "Dimensions and drawn lengths"
     assert all(str(one).startswith(title) for one, title in zip(after[1:], titles, strict=True))

@@ -53,6 +53,17 @@ def test_right_sheet_scores_full(name: str, digits: int) -> None:
 
 
 @pytest.mark.parametrize("name", matrix(KINDS, TELLING))
+def test_what_the_report_prints_is_right(name: str) -> None:
+    """The values of the report's own lines and tables, handed in as they are printed, in every cell."""
+    scheme = students.scheme(name)
+    printed = students.sheet(scheme, lambda row, k, _: float(row.printed[row.at(k)]))
+    marking = mark(scheme, printed)
+    assert marking.points == marking.out_of > 0
+    assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
+    assert marking.warnings == ()
+
+
+@pytest.mark.parametrize("name", matrix(KINDS, TELLING))
 def test_careful_drawing_is_right(name: str) -> None:
     """Every point off by up to 0.5 mm, every value written with three figures: at most 3 values in 1000 fail.
 

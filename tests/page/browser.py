@@ -59,6 +59,42 @@ return found;
 """
 """What is drawn at each angle of the argument, by stages: vectors by name as [x1, y1, x2, y2], corners of links."""
 
+LABELS = """
+moving.pause();
+const canvas = document.createElement("canvas").getContext("2d");
+const union = (boxes) => [0, 1, 2, 3].map((edge) => Math[edge < 2 ? "min" : "max"](...boxes.map((box) => box[edge])));
+const inked = (text) => {
+  const matrix = text.getScreenCTM(), boxes = [];
+  let at = 0;
+  for (const run of text.childNodes) {
+    const look = getComputedStyle(run.nodeType === 3 ? text : run);
+    canvas.font = `${look.fontStyle} ${100 * parseFloat(look.fontSize)}px ${look.fontFamily}`;
+    for (const letter of run.textContent) {
+      const ink = canvas.measureText(letter), start = text.getStartPositionOfChar(at);
+      const place = (x, y) => new DOMPoint(start.x + x / 100, start.y + y / 100).matrixTransform(matrix);
+      const low = place(-ink.actualBoundingBoxLeft, -ink.actualBoundingBoxAscent);
+      const high = place(ink.actualBoundingBoxRight, ink.actualBoundingBoxDescent);
+      boxes.push([low.x, low.y, high.x, high.y]);
+      at += letter.length;
+    }
+  }
+  return union(boxes);
+};
+const edges = (box) => [box.left, box.top, box.right, box.bottom];
+const labelled = (text) => {
+  const over = [...text.parentElement.children].filter((one) => one !== text);
+  return [...union([inked(text), ...over.map((one) => edges(one.getBoundingClientRect()))]), text.textContent];
+};
+return arguments[0].map((angle) => {
+  moving.seek(angle);
+  return Object.fromEntries([...document.querySelectorAll("[data-stage]")].map((stage) => {
+    const shown = [...stage.querySelectorAll("text")].filter((text) => text.getBoundingClientRect().width);
+    return [stage.dataset.stage, shown.map(labelled)];
+  }));
+});
+"""
+"""The labels at each angle of the argument, by stages: left, upper, right, lower edge of their ink (px), the text."""
+
 
 @contextmanager
 def opened() -> Iterator[Browser]:
@@ -143,6 +179,11 @@ class Browser:
     def drawn(self, angles: Sequence[float]) -> list[Mapping[str, Any]]:
         """What is drawn at these cycle angles (degrees), see `DRAWN`; y is downwards."""
         found: list[Mapping[str, Any]] = self.run(DRAWN, list(map(float, angles)))
+        return found
+
+    def labels(self, angles: Sequence[float]) -> list[Mapping[str, list[Any]]]:
+        """The labels at these cycle angles (degrees), see `LABELS`."""
+        found: list[Mapping[str, list[Any]]] = self.run(LABELS, list(map(float, angles)))
         return found
 
     def violations(self, source: str) -> list[str]:

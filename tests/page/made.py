@@ -60,6 +60,14 @@ class Made:
     def stage(self, key: str) -> Stage:
         return next(stage for stage in self.film.stages if stage.key == key)
 
+    def per(self, key: str, degrees: float) -> float:
+        """What a millimetre of a plan stands for at a cycle angle, in SI units."""
+        stage, cycle = self.stage(key), np.append(self.film.knots[:-1], self.film.knots[:-1] + 360.0)
+        if stage.finer is None:
+            return stage.scales[0].per
+        at = int(np.abs(cycle - degrees).argmin())
+        return stage.scales[int(stage.finer.values[at % stage.finer.values.size])].per
+
     def solved(self, degrees: Any) -> Analysis:
         """The solver's own answer at cycle angles."""
         return analyse(self.case.analysis.machine, np.radians(degrees))

@@ -15,6 +15,7 @@ import pytest
 from reportgen import api
 from reportgen.cases import MachineCase, opened
 from reportgen.page import moving_part, page
+from reportgen.page.html import quoted
 from reportgen.workbook import read
 from tests.lanes import proof
 from tests.page.made import made
@@ -62,6 +63,12 @@ def test_the_policy_allows_its_own_style_and_script_alone(file: Path) -> None:
     assert not found & {"img", "iframe", "object", "embed", "audio", "video"}
     # An exercise has one instant: nothing on its page moves.
     assert ('id="moving"' in text) == (file != EXERCISE)
+
+
+def test_running_lines_cannot_end_their_style() -> None:
+    """A course may be called anything: in a style sheet every mark is an escape, every letter stays."""
+    assert quoted("Nguyên lý máy 2") == "'Nguyên\\20 lý\\20 máy\\20 2'"
+    assert not set(quoted("</style>'\"\\;}<!--\n")[1:-1]) & set("</>'\";}!-\n")
 
 
 def test_formats_of_a_report(tmp_path: Path) -> None:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from reportgen import report as tree
 from reportgen.base.units import Language
 from reportgen.drawing import Arrow, Scene
 from reportgen.drawing.style import arrow_head
@@ -58,6 +59,30 @@ def test_segments_are_printed_in_their_length(path: Path, language: Language, br
     assert sizes == {(210, 297), *(tuple(map(round, paper)) for paper in papers)}
     # Of the page's own buttons nothing is printed; ink is dark whatever the screen shows.
     assert made(path, language).case.words["page"]["theme"] not in text
+
+
+@proof
+def test_paper_has_what_the_pdf_has(browser: Browser) -> None:
+    """Its running lines and page numbers but on the cover, all its headings in their order, nothing of the panel."""
+    pymupdf = pytest.importorskip("pymupdf")
+    one = made(built.SAMPLE, "vi")
+    document, words = built.written(built.SAMPLE, "vi").document, one.case.words["page"]
+    browser.show(one.file)
+    with pymupdf.open(stream=browser.printed(), filetype="pdf") as printed:
+        cover, *sheets = (" ".join(sheet.get_text().split()) for sheet in printed)
+    (left, right), (_, word) = document.header, document.footer
+    for number, sheet in enumerate(sheets, 2):
+        assert left in sheet, number
+        assert right in sheet, number
+        assert f"{word} {number}" in sheet
+    assert left not in cover
+    text = "".join(" ".join(sheets).split())
+    titles = [block.title for block in document.blocks if isinstance(block, tree.Section)]
+    behind = text.index("".join(tree.plain(titles[-1], "vi").split())) + 1
+    for title in titles:
+        behind = text.index("".join(tree.plain(title, "vi").split()), behind) + 1
+    for key in ("moving", "moment", "keep", "show", "skip"):
+        assert words[key] not in cover + " ".join(sheets)
 
 
 @proof

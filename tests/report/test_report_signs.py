@@ -1,14 +1,16 @@
-"""Signs: an arrow on a separated link times its formula's value is the true force; no number lacks its line."""
+"""Signs: an arrow on a separated link times the size is the true force; no number lacks its line."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.base.words import load_words, search_path
 from reportgen.drawing import Arc, Arrow, Scene
 from reportgen.drawing.forces import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk
@@ -64,17 +66,17 @@ def positions(report: Report) -> list[int]:
 
 
 def value(report: Report, name: str, k: int) -> float:
-    """What the formula or the plan of a reaction gives: with the sign of its moments if it has one."""
+    """The size that the formula or the plan of a reaction gives."""
     ledger, digits = report.ledger, name.removeprefix("R")
     if name == "Rcb":
-        return float(ledger["M.eq"].at(k))
+        return abs(float(ledger["M.eq"].at(k)))
     both = (digits, digits[::-1])
     ids = ledger.known([*(f"R.{one}.s" for one in both), *(f"R.{one}" for one in both)])
-    return float(ledger[ids[0]].at(k))
+    return abs(float(ledger[ids[0]].at(k)))
 
 
 def true(report: Report, name: str, k: int) -> complex:
-    """The force on the link by the equations of equilibrium, which know neither plans nor assumed senses."""
+    """The force on the link by the equations of equilibrium, which know no plans."""
     analysis = report.analysis
     if name == "Rcb":
         driver = report.machine.linkage.driver
@@ -88,7 +90,7 @@ def true(report: Report, name: str, k: int) -> complex:
 
 
 def off(report: Report, scene: Scene, k: int) -> list[str]:
-    """The reactions of a scene whose arrow, times the value, is not their true force along the arrow."""
+    """The reactions of a scene whose arrow, times the size, is not their true force along the arrow."""
     wrong = []
     for item in scene.items:
         if isinstance(item, Arrow) and item.name.startswith("R"):
@@ -100,7 +102,7 @@ def off(report: Report, scene: Scene, k: int) -> list[str]:
     return wrong
 
 
-def test_an_arrow_times_its_value_is_the_true_force(report: Report) -> None:
+def test_an_arrow_times_its_size_is_the_true_force(report: Report) -> None:
     found, seen = [], 0
     for k in positions(report):
         for group in report.groups:
@@ -111,7 +113,7 @@ def test_an_arrow_times_its_value_is_the_true_force(report: Report) -> None:
     assert seen > 0
 
 
-def test_what_balances_the_driver_is_drawn_in_the_sense_assumed(report: Report) -> None:
+def test_what_balances_the_driver_is_drawn_in_its_true_sense(report: Report) -> None:
     for k in positions(report):
         drawing = force_figures.driver(report, k).scenes[0]
         assert off(report, drawing, k) == []
@@ -121,9 +123,45 @@ def test_what_balances_the_driver_is_drawn_in_the_sense_assumed(report: Report) 
         arcs = [item for item in drawing.items if isinstance(item, Arc) and item.radius == COUPLE_RADIUS]
         if report.driver.centre and not report.is_zero("M.eq", k) and not report.machine.torques:
             (arc,) = arcs
-            assert np.sign(arc.stop - arc.start) * report.ledger["M.eq"].at(k) == pytest.approx(
-                report.analysis.torque[k - 1], abs=ROUNDED * np.abs(report.analysis.torque).max()
+            assert np.sign(arc.stop - arc.start) * abs(report.ledger["M.eq"].at(k)) == pytest.approx(
+                report.analysis.torque[k - 1], abs=ROUNDED * np.max(np.abs(report.analysis.torque))
             )
+
+
+def test_what_moments_give_is_positive_with_a_clockwise_moment(report: Report) -> None:
+    """As the words beside the figure say: the moment of the true force about the centre of the link's moments."""
+    for k in positions(report):
+        at = {name: complex(one.p[k - 1]) for name, one in report.analysis.motion.points.items()}
+        for group in report.groups:
+            by_rod = [(group.outer, group.P, group.Q), (group.guide, group.T, group.Q)]
+            for digits, pin, centre in (*by_rod, (group.across, group.Q, group.T)):
+                for part in "ts" if digits != group.across else "s":
+                    id = f"R.{digits}.{part}"
+                    if id in group.by_moments and not report.is_zero(id, k):
+                        force = complex(report.ledger[f"F.R{digits}.{part}"].at(k))
+                        moment = ((at[pin] - at[centre]).conjugate() * force).imag
+                        assert np.sign(moment) == -np.sign(float(report.ledger[id].at(k)))
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_power_is_the_moment_in_the_sense_of_rotation(report: Report, language: Any) -> None:
+    """Force times velocity is μ_v times the moment on the lever where both turn one way; the words say which way."""
+    words = load_words(search_path(language, report.machine.kind))["lever"]
+    said = {"vi": "mômen dương theo chiều {ω}", "en": "moments counted positive in the sense of {ω}"}[language]
+    assert all(said in words[how]["power"] for how in ("round", "crank"))
+    if not report.driver.centre:
+        return
+    turn, ω = report.machine.turn, float(report.ledger["omega.1"].values[0])
+    for load in report.analysis.loads:
+        if f"M.{load.name}.p" in report.ledger:
+            for k in positions(report):
+                moving = report.analysis.motion.of(load.link, load.point)
+                spin = float(report.analysis.motion.links[load.link].omega[k - 1])
+                power = (complex(load.force[k - 1]).conjugate() * complex(moving.v[k - 1])).real
+                power += float(load.couple[k - 1]) * spin
+                moment = float(report.ledger[f"M.{load.name}.p"].at(k))
+                scale = float(np.max(np.abs(report.analysis.torque))) * ω
+                assert turn * moment * ω == pytest.approx(power, abs=ROUNDED * scale)
 
 
 # --- every number has its line

@@ -3,6 +3,10 @@
 // a track is an array over the samples, an item names the tracks that it follows.
 const moving = (() => {
   const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02, READABLE = 120, SLOW = 22;
+  // Where labels stand: shares of a vector, turns from the first side of a point; what a later place costs, beside a
+  // line through the label; what staying is worth; white between two (mm); half of what a point covers (mm).
+  const SHARES = [0.5, 0.38, 0.62, 0.27, 0.73], ABOUT = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => eighth * Math.PI / 4);
+  const RANK = 0.06, STAYS = 0.3, CLEAR = 0.25, DOT = 0.3;
   const root = document.getElementById("moving");
   const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
   let film, values, starts, drawing, now;
@@ -36,11 +40,11 @@ const moving = (() => {
 
   // A drawing that is small at the moment is shown at a finer scale, that of the sample nearest by.
   const rescale = (part) => {
-    const scales = film.scales[part.element.dataset.stage];
-    if (!scales) return;
-    const index = sample(scales.at, now.cycle + (now.share > 0.5 ? 1 : 0));
-    part.zoom = scales.times[index];
-    part.printed.forEach((one, number) => { one.hidden = number !== index; });
+    const finer = film.finer[part.element.dataset.stage];
+    if (!finer) return;
+    const index = sample(finer.at, now.cycle + (now.share > 0.5 ? 1 : 0));
+    part.zoom = finer.times[index];
+    part.bars.forEach((one, number) => one.toggleAttribute("hidden", number !== index));
   };
 
   const sample = (track, index) => values[starts[track] + (film.lengths[track] === 1 ? 0 : index)];
@@ -68,13 +72,48 @@ const moving = (() => {
     element.setAttribute("transform", `translate(${short(x)} ${short(y)})${turn}`);
   };
 
-  // Whether a label of half the size (w, h) stands clear of those placed before it.
-  const free = (stage, x, y, w, h) => !stage.names.some(([a, b, c, d]) => Math.abs(x - a) < w + c && Math.abs(y - b) < h + d);
-  const SHARES = [0.5, 0.36, 0.64, 0.24, 0.76];
+  // --- labels
+
+  // Whether a line, given by its middle and half of its way, runs through the box of half the size (w, h) at (x, y).
+  const runsThrough = ([mx, my, hx, hy], x, y, w, h) => {
+    const dx = Math.abs(mx - x), dy = Math.abs(my - y);
+    return dx < Math.abs(hx) + w && dy < Math.abs(hy) + h &&
+      Math.abs((mx - x) * hy - (my - y) * hx) < w * Math.abs(hy) + h * Math.abs(hx);
+  };
+  const line = (stage, x1, y1, x2, y2) => stage.lines.push([(x1 + x2) / 2, (y1 + y2) / 2, (x2 - x1) / 2, (y2 - y1) / 2]);
+
+  // A label stands where fewest lines run through it, of such places at the first; on no other label, and whole.
+  // Where there is no such place it is left out.  It stays where it was as long as that is hardly worse.
+  const settle = (stage, { element, places, w, h, item }) => {
+    const [left, top, right, bottom] = stage.room;
+    let best = null, least = Infinity, number = -1;
+    const attempt = (index, rank) => {
+      const [x, y] = places[index];
+      if (x - w < left || x + w > right || y - h < top || y + h > bottom) return;
+      if (stage.names.some(([a, b, c, d]) => Math.abs(x - a) < w + c + CLEAR && Math.abs(y - b) < h + d + CLEAR)) return;
+      let cost = rank;
+      for (const one of stage.lines) if (runsThrough(one, x, y, w, h) && (cost += 1) >= least) return;
+      if (cost < least) { best = places[index]; least = cost; number = index; }
+    };
+    if (item.last >= 0) attempt(item.last, RANK * item.last - STAYS);
+    for (let index = 0; index < places.length && RANK * index < least; index += 1) attempt(index, RANK * index);
+    item.last = number;
+    show(element, best !== null);
+    if (!best) return;
+    stage.names.push([...best, w, h]);
+    element.setAttribute("transform", `translate(${short(best[0])} ${short(best[1])})`);
+  };
+
+  // Half the size of a label: as the report's letters have it, or the reader's if they are wider.
+  const halfSize = (element, size) => {
+    const text = element.querySelector("text");
+    return [Math.max(size[0], text ? text.getComputedTextLength() / 2 : 0), size[1]];
+  };
 
   const vector = (element, item, stage) => {
     const [shaft, ...others] = element.children;
     const head = item.head ? others[0] : null, label = item.size ? others[others.length - 1] : null;
+    const [w, h] = label ? halfSize(label, item.size) : [0, 0];
     return () => {
       const z = stage.zoom;
       const x1 = z * value(item.from), y1 = -z * value(item.from + 1), x2 = z * value(item.to), y2 = -z * value(item.to + 1);
@@ -91,37 +130,39 @@ const moving = (() => {
         end = length - 0.7 * size;
       }
       shaft.setAttribute("d", `M${short(x1)} ${short(y1)}L${short(x1 + ux * end)} ${short(y1 + uy * end)}`);
+      line(stage, x1, y1, x2, y2);
       if (!label) return;
-      // Beside its middle or, where another label stands there, elsewhere along it or on its other side, or not at all.
-      const [w, h] = item.size, off = Math.abs(uy) * w + Math.abs(ux) * h + 0.9;
-      const places = SHARES.flatMap((share) => [off, -off].map((side) => [x1 + dx * share + uy * side, y1 + dy * share - ux * side]));
-      const at = length > SHORT ? places.find(([x, y]) => free(stage, x, y, w, h)) : undefined;
-      show(label, at !== undefined);
-      if (!at) return;
-      stage.names.push([...at, w, h]);
-      label.setAttribute("transform", `translate(${short(at[0])} ${short(at[1])})`);
+      show(label, length > SHORT);
+      if (length <= SHORT) return;
+      // Beside its middle or elsewhere along it, on either side, close to it or a little off.
+      const places = [0.9, 2.2].flatMap((gap) => SHARES.flatMap((share) => [1, -1].map((side) => {
+        const off = side * (Math.abs(uy) * w + Math.abs(ux) * h + gap);
+        return [x1 + dx * share + uy * off, y1 + dy * share - ux * off];
+      })));
+      stage.labels.push({ element: label, places, w, h, item });
     };
   };
 
-  // A name stands on the side away from what its point is joined to, or elsewhere about it where another name stands.
-  const name = (element, item, stage) => () => {
-    const z = stage.zoom, x = z * value(item.label), y = -z * value(item.label + 1), there = isFinite(x + y);
-    if (!there) { show(element, false); return; }
-    let ux = 0, uy = 0, px = 0, py = 0;
-    for (const other of item.off) {
-      const dx = x - z * value(other), dy = y + z * value(other + 1), length = Math.hypot(dx, dy);
-      if (length > 0.5) { ux += dx / length; uy += dy / length; px = -dy / length; py = dx / length; }
-    }
-    let size = Math.hypot(ux, uy);
-    if (size < 0.35) { ux = ux + (px || 0.8); uy = uy + (py || -0.6); size = Math.hypot(ux, uy); }
-    ux /= size; uy /= size;
-    const [w, h] = item.size, off = item.gap + Math.abs(ux) * w + Math.abs(uy) * h;
-    const places = [[ux, uy], [-ux, -uy], [-uy, ux], [uy, -ux]].map(([a, b]) => [x + a * off, y + b * off]);
-    const at = places.find(([a, b]) => free(stage, a, b, w, h));
-    show(element, at !== undefined);
-    if (!at) return;
-    stage.names.push([...at, w, h]);
-    element.setAttribute("transform", `translate(${short(at[0])} ${short(at[1])})`);
+  // A name stands on the side away from what its point is joined to, or elsewhere about it.
+  const name = (element, item, stage) => {
+    const [w, h] = halfSize(element, item.size);
+    return () => {
+      const z = stage.zoom, x = z * value(item.label), y = -z * value(item.label + 1), there = isFinite(x + y);
+      if (!there) { show(element, false); return; }
+      let ux = 0, uy = 0, px = 0, py = 0;
+      for (const other of item.off) {
+        const dx = x - z * value(other), dy = y + z * value(other + 1), length = Math.hypot(dx, dy);
+        if (length > 0.5) { ux += dx / length; uy += dy / length; px = -dy / length; py = dx / length; line(stage, x, y, x - dx, y - dy); }
+      }
+      if (Math.hypot(ux, uy) < 0.35) { ux += px || 0.8; uy += py || -0.6; }
+      const first = Math.atan2(uy, ux);
+      const places = [0, 1.2, 3].flatMap((further) => ABOUT.map((turn) => {
+        const a = Math.cos(first + turn), b = Math.sin(first + turn), off = item.gap + further + Math.min(w / Math.abs(a), h / Math.abs(b));
+        return [x + a * off, y + b * off];
+      }));
+      stage.names.push([x, y, DOT, DOT]);
+      stage.labels.unshift({ element, places, w, h, item });
+    };
   };
 
   const follower = (element, stage) => {
@@ -190,8 +231,11 @@ const moving = (() => {
       // Where frames take long the machine goes on smoothly, and plans follow in turns.
       if (index && (index + drawing.count) % turns) continue;
       part.names = [];
+      part.labels = [];
+      part.lines = [];
       rescale(part);
-      for (const { element, update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
+      for (const { update, layer } of part.followers) if (!layer || drawing.layers[layer]) update();
+      for (const one of part.labels) settle(part, one);
     }
     // Figures that change faster than this cannot be read.
     if (readable && visible(drawing.numbers)) {
@@ -332,7 +376,8 @@ const moving = (() => {
       rates: { v: find('[data-of="v"]'), a: find('[data-of="a"]') },
     };
     drawing.parts = all("[data-stage]").map((element) => {
-      const part = { element, names: [], followers: [], zoom: 1, printed: [...element.querySelectorAll("[data-scale]")] };
+      const part = { element, names: [], labels: [], lines: [], followers: [], zoom: 1, bars: [...element.querySelectorAll("[data-scale]")] };
+      part.room = element.querySelector("svg").dataset.room.split(" ").map(Number);
       part.followers = [...element.querySelectorAll("[data-i]")].map((one) => (
         { element: one, update: follower(one, part), layer: one.dataset.ofLayer }));
       element.querySelectorAll(".spot").forEach((one) => {
@@ -356,7 +401,8 @@ const moving = (() => {
       const layer = box.dataset.layer;
       const switched = () => {
         drawing.layers[layer] = box.checked;
-        all(`[data-of-layer="${layer}"]`).forEach((element) => element.toggleAttribute("hidden", !box.checked));
+        all(`[data-of-layer~="${layer}"]`).forEach((element) => (
+          element.toggleAttribute("hidden", !element.dataset.ofLayer.split(" ").some((one) => drawing.layers[one]))));
         if (now) draw();
       };
       box.addEventListener("change", switched);
