@@ -19,7 +19,7 @@ from pathlib import Path
 from string import Formatter
 from typing import Any
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError
+from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_words
 from reportgen.base.units import Language
 
@@ -196,7 +196,7 @@ def unexpected(error: BaseException, language: Language | None) -> str:
     return word("unexpected", language, name=type(error).__name__, text=" ".join(str(error).split()))
 
 
-def as_problem(fault: Fault, language: Language | None) -> Problem:
+def as_problem(fault: Fault, language: Language | None, level: Level = "error") -> Problem:
     """The fault in words; its hint is given when the arguments it speaks of are known."""
     table = messages(language or DEFAULT_LANGUAGE)
     # What is known is the program's own, and told in full.
@@ -208,7 +208,7 @@ def as_problem(fault: Fault, language: Language | None) -> Problem:
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
     hint = next((hint for hint in hints if _fields(hint) <= arguments.keys()), None)
-    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None)
+    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None, level)
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:

@@ -11,7 +11,7 @@ from string import Formatter
 from typing import TYPE_CHECKING, Any
 
 from reportgen.formula import Expression, Number, Symbol, ids, vocabulary
-from reportgen.machine.loads import Opposing
+from reportgen.machine.loads import ConstantLaw, Law, Opposing, TableLaw
 from reportgen.plans.motion import POLES
 from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
@@ -193,6 +193,32 @@ def energy_key(report: Report) -> str:
     if report.has_gas or not report.driver.centre:
         return "gas" if report.has_gas else "stroke"
     return "idle" if report.is_zero("W", 1) else "turn"
+
+
+def no_mean(report: Report) -> Inlines:
+    """Why the mean of what balances the driver is nothing; nothing where it is something."""
+    if not report.has_forces or not report.is_zero("M.mean"):
+        return ()
+    laws = [load.law for load in report.loads]
+    key = "free" if not laws else "constant" if all(map(_is_constant, laws)) else "other"
+    return say(report, report.words["no_mean"][key], report.words["driven"][report.driver.kind])
+
+
+def _is_constant(law: Law) -> bool:
+    """Whether a load has one size over the whole cycle."""
+    in_table = {size for row in law.table.rows for size in row} if isinstance(law, TableLaw) else set()
+    return isinstance(law, ConstantLaw) or len(in_table) == 1
+
+
+def label_pairs(report: Report) -> str:
+    """Which labels the first numbers of positions stand for, up to behind the first letter; "" where they are alike."""
+    machine = report.machine
+    turn = machine.numbered(range(1, machine.count + 1))
+    if all(k.label == f"{int(k)}" for k in turn):
+        return ""
+    first = next((k for k in turn if k.label.isalpha()), turn[0])
+    pairs = [report.words["label_pair"].format(number=int(k), label=k.label) for k in turn[: first + 1]]
+    return ", ".join((*pairs, "…"))
 
 
 def load_sense(report: Report, name: str) -> Inlines:
