@@ -196,7 +196,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=courses,
         positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},
         paths=("D",) if on_rod else (),
-        facts={"joint": given.joint, "form": "articulated" if on_rod else "common"},
+        facts={"joint": given.joint, "top": given.second_top - 1, "form": "articulated" if on_rod else "common"},
         compared=compared(plans),
         places=places,
         labels=labels,

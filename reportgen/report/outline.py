@@ -103,11 +103,13 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "variant_words": chapters.variant_words,
     "worked_at": comments.worked_at,
     # words that follow from what the report has
+    "constant_force": phrases.constant_force,
     "coupler": phrases.coupler,
     "diagram_words": chapters.diagram_words,
     "driven": phrases.driven,
     "driver_loads": phrases.driver_loads,
     "energy_key": phrases.energy_key,
+    "first_position": phrases.first_position,
     "form": phrases.form,
     "lever": phrases.lever,
     "label_pairs": phrases.label_pairs,
@@ -120,6 +122,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "slide_reactions": phrases.slide_reactions,
     "slider_convention": phrases.slider_convention,
     "stores": chapters.stores,
+    "strokes_at_start": phrases.strokes_at_start,
     "study": phrases.study,
     "turning": phrases.turning,
     # what is set out together, by ids
