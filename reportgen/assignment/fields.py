@@ -252,9 +252,7 @@ class WorkedPositions(Reader):
             raise fault("too-few", least="1")
         if len(value) > MOST_WORKED:
             raise fault("too-many", most=str(MOST_WORKED))
-        named = tuple(
-            str(item) if _is_label(item) else Whole(1, MOST_WORKED).read(item) for item in value
-        )
+        named = tuple(str(item) if _is_label(item) else Whole(1, MOST_WORKED).read(item) for item in value)
         if len(set(named)) < len(named):
             raise fault("repeated", text=next(str(n) for n in named if named.count(n) > 1))
         return named

@@ -126,6 +126,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "study": phrases.study,
     "turning": phrases.turning,
     # what is set out together, by ids
+    "constant_group": chapters.constant_group,
     "crank_lines": chapters.crank_lines,
     "driver_joints": chapters.driver_joints,
     "driver_reactions": chapters.driver_reactions,
@@ -136,6 +137,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "mean_lines": chapters.mean_lines,
     "speed_limits": chapters.speed_limits,
     "tabled_forces": chapters.tabled_forces,
+    "tangent_lines": chapters.tangent_lines,
     "uniform_rods": chapters.uniform_rods,
     "without_mass": chapters.without_mass,
     "work_lines": chapters.work_lines,

@@ -15,7 +15,16 @@ COMMON = {"n": "n", "ω_1": "omega1", "g": "g"}
 LENGTHS = {
     "engine-single": {"H": "H", "K": "K", "e": "e", "R": "R", "L": "L", "D": "D", "s": "s", "ρ": "rho"},
     "engine-twin": {"H": "H", "λ": "lambda", "D": "D", "s": "s", "δ": "crank_angle"},
-    "engine-v": {"l_AB": "AB", "l_BC": "BC", "l_BD": "BD", "l_DE": "DE", "l_BE": "DE", "D": "D", "P_C": "PC", "P_E": "PE"}
+    "engine-v": {
+        "l_AB": "AB",
+        "l_BC": "BC",
+        "l_BD": "BD",
+        "l_DE": "DE",
+        "l_BE": "DE",
+        "D": "D",
+        "P_C": "PC",
+        "P_E": "PE",
+    }
     | {"α": "alpha", "β": "beta"},
     "four-bar": {"l_AB": "AB", "l_BC": "BC", "l_CD": "CD", "l_AD": "AD", "α": "frame", "l_BF": "BF"},
     "lever-six-bar": {f"l_{rod}": rod for rod in ("AB", "AC", "CD", "CE", "EF")} | {"y_F": "guide"},
@@ -286,7 +295,9 @@ def _group(row: Sequence[str], data: Mapping[str, str], guides: Mapping[str, Seq
             group["end"] = "near" if "less far" in row[3] else "far"
         case "RPR":
             group["axis"] = "away" if "away" in row[3] else "towards"
-            if offset := task.find(rf"The line of the slot of link {links[1]} passes .*? at a distance of ([^.]*\S mm)"):
+            if offset := task.find(
+                rf"The line of the slot of link {links[1]} passes .*? at a distance of ([^.]*\S mm)"
+            ):
                 group["offset"] = typed(offset)
         case "PRP":
             group["guides"] = [_guide(guides[link]) for link in links]

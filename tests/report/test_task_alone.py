@@ -33,7 +33,12 @@ CHANGES: tuple[tuple[str, Mapping[str, Any]], ...] = (
         {
             "positions": {"start": "12.5 deg"},
             "parameters": {
-                "force": {"by": "crank_angle", "unit": "N", "angle": ["0 deg", "90 deg", "360 deg"], "F": ["0", "60", "0"]}
+                "force": {
+                    "by": "crank_angle",
+                    "unit": "N",
+                    "angle": ["0 deg", "90 deg", "360 deg"],
+                    "F": ["0", "60", "0"],
+                }
             },
         },
     ),
@@ -47,7 +52,10 @@ CHANGES: tuple[tuple[str, Mapping[str, Any]], ...] = (
     ("lever-six-bar-01", {"parameters": {"force": {"P": "400 N", "sense": "left"}}}),
     ("slotted-lever-02", {"parameters": {"axis": "75 deg", "torque": {"M": "24 N m", "sense": "anticlockwise"}}}),
     ("shaper-02", {"positions": {"start": "45 deg", "direction": "clockwise"}}),
-    ("linkage-slide", {"parameters": {"loads": [{"by": "constant", "link": "5", "at": "F", "F": "70 N", "direction": "90 deg"}]}}),
+    (
+        "linkage-slide",
+        {"parameters": {"loads": [{"by": "constant", "link": "5", "at": "F", "F": "70 N", "direction": "90 deg"}]}},
+    ),
 )
 
 
