@@ -379,6 +379,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "listed": "given" if given.masses else "massless",
         "loads": shown,
         "interpolated": tuple(load for load in shown if load.nodes),
+        "two_turns": given.turns == 2,
         "gases": tuple(load for load in shown if load.by == "gas"),
     }
 

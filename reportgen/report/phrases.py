@@ -216,8 +216,8 @@ def constant_force(report: Report) -> Inlines:
     """In which stroke a constant working force acts, and whether with the motion; nothing for any other force."""
     if "P.given" not in report.ledger or "stroke" not in report.own:
         return ()
-    key = f"{report.own['stroke']}-{sign(report, 'P.given')}"
-    return say(report, report.words["constant_force"].get(key, ""), report.words["ways"])
+    told = report.words["constant_force"][report.own["stroke"]]
+    return say(report, told.get(sign(report, "P.given"), ""), report.words["ways"])
 
 
 def first_position(report: Report) -> Inlines:

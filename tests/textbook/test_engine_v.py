@@ -12,6 +12,7 @@ import pytest
 from reportgen import api
 from reportgen.catalogue import module
 from reportgen.machine.analysis import Analysis, analyse
+from tests.told import told
 
 FILE = Path(__file__).parents[2] / "assignments" / "engine-v-01.yaml"
 ALPHA, BETA = math.radians(50), math.radians(70)
@@ -151,3 +152,13 @@ def test_the_mean_of_the_positions_is_of_the_even_ones() -> None:
     torque = [ledger.number("M.eq", k).shown for k in (1, 2, 4, 5, 6, 7, 9, 10)]
     # Printed to a thousandth of 1 N·m.
     assert ledger.number("M.mean.positions").shown == pytest.approx(sum(torque) / 8, abs=5.1e-4)
+
+
+def test_the_report_says_how_labels_and_numbers_go_together_and_why_there_is_no_power() -> None:
+    """The labels once; that the mean is nothing by construction in summary and conclusion."""
+    text = told(api.document(api.load(FILE, "en")))
+    pairs = "number 1 is position 0, number 2 is position 1, number 3 is position a, number 4 is position 2, …"
+    assert text.count(pairs) == 1
+    assert text.count("what a combustion engine delivers comes from its indicator diagram") == 2
+    with_gas = told(api.document(api.load(FILE.with_name("engine-v-02.yaml"), "en")))
+    assert "zero, and with it the mean power" not in with_gas
