@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.base.errors import Mark
+from reportgen.base.source import MappingNode, Scalar, put, read_source, text_of
 from reportgen.catalogue import module
 from reportgen.machine.analysis import Analysis, analyse
 from tests.told import told
@@ -123,13 +126,19 @@ def test_labels_that_no_position_has(tmp_path: Path, named: str, code: str) -> N
     assert [problem.code for problem in api.check(with_worked(tmp_path, named))] == [code]
 
 
-def test_labels_stay_labels_when_a_file_is_written_anew() -> None:
-    """A class's variant of the file keeps the quotation marks of what is a label."""
-    from reportgen.base.source import plain, quoted, read_source
-
-    assert (quoted("1"), quoted("1", always=True)) == ("1", '"1"')
-    content = plain(read_source(FILE).top)
-    assert content["report"]["worked_positions"] == ["4"]
+def test_labels_stay_labels_when_a_file_is_written_anew(tmp_path: Path) -> None:
+    """A class's variant keeps the quotation marks of what is a label, beside a value that it puts in."""
+    path = with_worked(tmp_path, '["1", a]')
+    text = path.read_text(encoding="utf-8").replace(
+        "report:\n", "report: {language: vi, worked_positions: ['1', a]}\n#"
+    )
+    path.write_text(re.sub(r"\n  (language|course|worked_positions):.*", "", text), encoding="utf-8")
+    top = read_source(path).top
+    assert isinstance(top, MappingNode)
+    changed = put(top, ("report", "language"), Scalar("en", Mark("")))
+    assert isinstance(changed, MappingNode)
+    path.write_text(text_of(changed, path.read_text(encoding="utf-8"), top), encoding="utf-8")
+    assert (api.load(path).language, api.load(path).worked_positions) == ("en", (2, 3))
 
 
 def test_constant_forces_do_no_work_and_check_warns_of_it() -> None:
