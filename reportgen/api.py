@@ -33,7 +33,7 @@ FORMATS = ("pdf", "html")
 """What a report can be written as."""
 
 
-load, check = catalogue.load, catalogue.check
+load, check, examine = catalogue.load, catalogue.check, catalogue.examine
 
 
 def analyse(assignment: Assignment) -> Analysis:

@@ -264,7 +264,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     circles: 0,
     modules: 156,
     longest_module: 500,
-    lines_of_code: 30630,
+    lines_of_code: 30850,
     template_files: 50,
     words_of_architecture: 1500,
     ids_by_f_string: 0,
