@@ -128,7 +128,9 @@ def letter_of(assignment: Assignment, engine: Engine) -> Letter:
 
     font = assignment.report.font or ""
     if font and font not in (known := _fonts(engine)):
-        finding = Finding("no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)})
+        finding = Finding(
+            "no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)}
+        )
         raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
     return Letter(font, float(assignment.report.size.removesuffix(" pt")))
 

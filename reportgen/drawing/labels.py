@@ -1,9 +1,9 @@
 """Where labels stand: near their point, clear of every stroke and of each other.
 
-Each label tries spots around its point, the preferred directions first, nearest first.  The label with
-the fewest free spots chooses first.  If no spot nearby is free, the label moves out and a thin leader
-ties it to its point; if that fails too, the labels without room choose first in a new attempt.
-The same figure always gets the same labels.
+Each label tries spots around its point, the preferred directions first, nearest first, and never one that is nearer
+to a point that another label names.  The label with the fewest free spots chooses first.  If no spot nearby is free,
+the label moves out and a short leader, which crosses no other, ties it to its point; if that fails too, the labels
+without room are said shorter and choose first in a new attempt.  The same figure always gets the same labels.
 """
 
 from __future__ import annotations
@@ -91,7 +91,8 @@ def label(
     """
     points = tuple(at) if isinstance(at, Sequence) else (at,)
     named = points if each or len(points) == 1 else ()
-    return Request(points, parts, tuple(prefer), gap, size, ring, named, None if short is None else tuple(short))
+    less = None if short is None else tuple(short)
+    return Request(points, parts, tuple(prefer), gap, size, ring=ring, named=named, short=less)
 
 
 KEY = ("№",)
@@ -205,9 +206,7 @@ class _Spots:
 
     def nearest(self, centres: Complexes) -> Flags:
         """Where the label is nearer to its own point than to any that another label names."""
-        if not len(self.others):
-            return np.ones(len(centres), dtype=np.bool_)
-        return _distance(centres, self.half, self.own).min(axis=1) <= _distance(centres, self.half, self.others).min(axis=1)
+        return np.asarray(_distance(centres, self.half, self.own) <= _distance(centres, self.half, self.others))
 
 
 def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[tuple[Item, ...], list[tuple[Content, ...]]]:
@@ -237,9 +236,7 @@ def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[tuple[Ite
 
 
 def _place_in(
-    order: Sequence[int],
-    spots: Mapping[int, _Spots],
-    frames: Sequence[tuple[complex, complex]],
+    order: Sequence[int], spots: Mapping[int, _Spots], frames: Sequence[tuple[complex, complex]]
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
     """The labels placed one after the other, and those for which no place is free."""
     taken = _Taken(frames)
@@ -301,11 +298,10 @@ def _turned(prefer: tuple[float, ...]) -> Floats:
 
 
 def _distance(centres: Complexes, half: complex, points: Complexes) -> Floats:
-    """From boxes [K] to points [P], mm: [K, P]."""
+    """From each box to the nearest of some points, mm; infinite for none."""
     apart = centres[:, None] - points
-    return np.hypot(
-        np.maximum(np.abs(apart.real) - half.real, 0.0), np.maximum(np.abs(apart.imag) - half.imag, 0.0)
-    )
+    aside, above = np.abs(apart.real) - half.real, np.abs(apart.imag) - half.imag
+    return np.asarray(np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0)).min(axis=1, initial=math.inf))
 
 
 def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
@@ -344,7 +340,7 @@ def _off(spot: _Spots, at: complex, taken: _Taken) -> tuple[complex, Segment, bo
         tried = leaders[spots]
         return np.asarray(cost[spots] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near))
 
-    # Crossings only add to the cost: a spot that costs more without them than another with them cannot be best.
+    # Crossings only add to the cost: a spot dearer without them than another with them cannot be best.
     cheapest = rated[np.argsort(cost[rated], kind="stable")[:CHEAPEST]]
     rated = rated[cost[rated] <= full_cost(cheapest).min()]
     best = int(rated[np.argmin(full_cost(rated))])
@@ -383,8 +379,7 @@ def _grazes(leaders: Complexes, strokes: Complexes) -> Floats:
     return np.asarray(on.reshape(places.shape).sum(axis=1), dtype=np.float64)
 
 
-# --- from drafts to finished scenes ---------------------------------------------------------------
-# And scenes of one scale together on sheets of paper.
+# --- from drafts to finished scenes, and scenes of one scale together on sheets of paper ------------
 # Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added. `finish` places the
 # labels, crops to the content and gives the `Scene`.
 
@@ -450,9 +445,6 @@ def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item
         lines += _row(complex(x, y - height / 2), note, style.LABEL)
         y -= height + 1.5
     return tuple(lines)
-
-
-# --- sheets ---------------------------------------------------------------------------------------
 
 
 def sheets(

@@ -181,7 +181,10 @@ def plan(
     wider than `width` (mm), they stand in rows below it.
     """
     vectors = drawing.drawn()
-    draft = Canvas((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL, CROWDED if enlarged else CLOSE_BY))
+    draft = Canvas(
+        (*_lines(drawing), *_arrows(vectors), *_marks(drawing)),
+        _labels(drawing, vectors, style.LABEL, CROWDED if enlarged else CLOSE_BY),
+    )
     notes = () if drawing.scale is None else (drawing.scale,)
     parts, marks = insets(drawing) if enlarged else ((), Canvas())
     further = [*beside, *parts]
@@ -197,8 +200,8 @@ def plan(
 def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin: int = 0) -> tuple[Scene, ...]:
     """The construction step by step, `factor` times as large: a panel a stage, what is new in blue.
 
-    Only points are named, as on every small plan.  All panels have one size.  A stage that would draw nothing new is drawn together with the next one; stages
-    before `begin` are not shown by themselves.
+    Only points are named, as on every small plan.  All panels have one size.  A stage that would draw nothing new is
+    drawn together with the next one; stages before `begin` are not shown by themselves.
     """
     scaled = drawing.scaled(factor).lettered
     kept = kept_stages(scaled)
@@ -300,15 +303,17 @@ def _marks(drawing: Plan) -> list[Item]:
     return [Circle(drawing.points[0].at, 0.7, Pen(0.25), style.PAPER)]
 
 
-def _labels(drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float, reach: float = CROWDED) -> tuple[Request, ...]:
+def _labels(
+    drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float, reach: float = CROWDED
+) -> tuple[Request, ...]:
     """One label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
     for group in clusters(drawing.points, reach, lambda point: point.at):
         at = group[0].at
         gap = 1.1 if drawing.pole and drawing.points[0] in group else 0.7
-        places = tuple(dict.fromkeys(point.at for point in group))
-        prefer = _outward(at, vectors)
-        requests.append(label(places, *point_names(group), prefer=prefer, gap=gap, size=size, each=True, short=KEY if reach == CLOSE_BY else None))
+        ends, prefer = tuple(dict.fromkeys(point.at for point in group)), _outward(at, vectors)
+        short = KEY if reach == CLOSE_BY else None
+        requests.append(label(ends, *point_names(group), prefer=prefer, gap=gap, size=size, each=True, short=short))
     for vector, by in zip(vectors, set_apart(vectors), strict=True):
         way = vector.end - vector.start
         if vector.label is None or abs(way) < TINY:

@@ -335,6 +335,7 @@ class Letter:
     size: float = TEXT_SIZE
 
 
+OWN_LETTER = Letter()
 WHOLE_TABLE = 12
 """A table with no more rows than this is kept on one page."""
 TOGETHER = 3

@@ -40,14 +40,13 @@ LONG, SHORT = 42, 18
 """Of words with what they lead to: a vector equation in two storeys or the first step of a list, any other row."""
 
 
-FAMILIES: Mapping[str, tuple[str, str, str]] = {
-    name: ("tgtermes.sty", "qtm", "utm")
-    for name in ("Times New Roman", "Times", "TeX Gyre Termes", "Nimbus Roman", "Liberation Serif")
-}
+FAMILIES: Mapping[str, tuple[str, str, str]] = dict.fromkeys(
+    ("Times New Roman", "Times", "TeX Gyre Termes", "Nimbus Roman", "Liberation Serif"), ("tgtermes.sty", "qtm", "utm")
+)
 """Fonts by their names elsewhere: a package with its family, and where that is missing the family that VnTeX brings."""
 
 
-def write(document: tree.Document, letter: tree.Letter = tree.Letter()) -> str:
+def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
     """The complete LaTeX source, which compiles as it stands.
 
     Raises `TypesetterError` for a character the fonts do not have.

@@ -106,12 +106,12 @@ HELD = 40
 """A plate waits for the end of its page behind at most so many blocks."""
 
 
-def typeset(document: tree.Document, letter: tree.Letter = tree.Letter()) -> tuple[str, bytes]:
+def typeset(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> tuple[str, bytes]:
     """The source of a document with its PDF; raises `TypesetterError`."""
     return settle(write(document, letter), system=bool(letter.font))
 
 
-def write(document: tree.Document, letter: tree.Letter = tree.Letter()) -> str:
+def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
     """The complete Typst source of a document; it needs no other file but fonts of the system.
 
     Raises `TypesetterError` if the frame is missing.
