@@ -248,14 +248,13 @@ def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionP
     items: list[Item] = []
     requests: list[Request] = []
     for group in clusters(shown, TOGETHER, lambda one: one[0]):
-        places, names = zip(*group, strict=True)
-        items += [Circle(at, DOT, Pen(0.2), style.PAPER) for at in places]
-        out = (float(np.angle(places[0] - middle)),) if abs(places[0] - middle) > 1 else ()
+        at, names = group[0][0], [name for _, name in group]
+        items.append(Circle(at, DOT, Pen(0.2), style.PAPER))
+        out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
         # Of one path the numbers alone are enough.
         short = joined(name.sub for name in names) if len({name.base for name in names}) == 1 else None
-        gap = DOT + 0.5
-        requests.append(label(places, *joined(names), prefer=out, gap=gap, size=size, each=True, short=short))
+        requests.append(label(at, *joined(names), prefer=out, gap=DOT + 0.5, size=size, short=short))
     return Canvas(tuple(items), tuple(requests))
 
 
