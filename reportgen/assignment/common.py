@@ -52,11 +52,13 @@ class ReportSection(Part):
     """The report's language, cover and the positions written out in full, by number or label (None: all).
 
     `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
-    sheets that are handed in with the report.
+    sheets that are handed in with the report.  The text is set in letters of a `font` in a `size`.
     """
 
     language: Language = "vi"
     school: Annotated[str, SchoolFolder()] | None = None
+    font: OneLine | None = None
+    size: Literal["11 pt", "12 pt", "13 pt", "14 pt"] = "12 pt"
     university: OneLine | None = None
     faculty: OneLine | None = None
     department: OneLine | None = None

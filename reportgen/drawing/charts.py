@@ -434,7 +434,7 @@ def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
     named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
     return [
-        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL)
+        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL, short=())
         for group in clusters(named, 0.6, lambda mark: mark[0])
     ]
 

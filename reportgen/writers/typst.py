@@ -8,7 +8,7 @@ between spaces, because identifiers of Typst may hold a hyphen.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import ClassVar
@@ -36,7 +36,7 @@ from reportgen.formula.setting import (
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_run import settle
+from reportgen.writers.typst_run import breadth, settle
 
 
 def literal(text: str) -> str:
@@ -106,13 +106,13 @@ HELD = 40
 """A plate waits for the end of its page behind at most so many blocks."""
 
 
-def typeset(document: tree.Document) -> tuple[str, bytes]:
+def typeset(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> tuple[str, bytes]:
     """The source of a document with its PDF; raises `TypesetterError`."""
-    return settle(write(document))
+    return settle(write(document, letter), system=bool(letter.font))
 
 
-def write(document: tree.Document) -> str:
-    """The complete Typst source of a document; it needs no other file.
+def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
+    """The complete Typst source of a document; it needs no other file but fonts of the system.
 
     Raises `TypesetterError` if the frame is missing.
     """
@@ -123,10 +123,20 @@ def write(document: tree.Document) -> str:
             f"lang: {literal(document.language)}",
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
+            *_in(letter),
         )
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def _in(letter: tree.Letter) -> Iterator[str]:
+    """The letter as the frame is told it; tables in a broad font are set smaller, since their columns are as wide."""
+    if letter.font:
+        yield f"font: {literal(letter.font)}"
+        yield f"narrower: {breadth(letter.font):.4g}"
+    if letter.size != tree.TEXT_SIZE:
+        yield f"size: {letter.size:g}pt"
 
 
 def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:

@@ -14,6 +14,7 @@ import unicodedata
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -27,21 +28,24 @@ ROUNDS = 40
 """How often the typesetter is asked at most; two or three times are usual, and each makes one choice right at least."""
 
 
-def compile(source: str) -> bytes:
-    """The PDF of a Typst source, byte for byte the same from run to run.
+def compile(source: str, system: bool = False) -> bytes:
+    """The PDF of a Typst source, byte for byte the same from run to run; it may name fonts of the `system`.
 
     Raises `TypesetterError` with the message's first lines.
     """
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
-        return _Run(source, Path(folder)).compile()[0]
+        return _Run(source, Path(folder), system).compile()[0]
 
 
-def settle(unsettled: str) -> tuple[str, bytes]:
-    """A source with the choices that it needed, and its PDF.  Raises `TypesetterError`."""
+def settle(unsettled: str, system: bool = False) -> tuple[str, bytes]:
+    """A source with the choices that it needed, and its PDF; it may name fonts of the `system`.
+
+    Raises `TypesetterError`.
+    """
     right: dict[str, Any] = {}
     choices: dict[str, Any] = {}
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
-        run = _Run(unsettled.replace(UNSETTLED, READ, 1), Path(folder))
+        run = _Run(unsettled.replace(UNSETTLED, READ, 1), Path(folder), system)
         for _ in range(ROUNDS):
             shown = run.choices(choices)
             pdf, settles = run.compile()
@@ -82,7 +86,7 @@ def _right(shown: Iterable[Sequence[Any]], known: Mapping[str, Any]) -> dict[str
 class _Run:
     """A source in the typesetter's hands: what it has worked out for one question serves the next."""
 
-    def __init__(self, source: str, folder: Path) -> None:
+    def __init__(self, source: str, folder: Path, system: bool = False) -> None:
         try:
             import typst
         except ModuleNotFoundError as error:
@@ -91,7 +95,7 @@ class _Run:
             raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
         self._folder, self._error = folder, typst.TypstError
         (folder / "report.typ").write_text(source, encoding="utf-8", newline="")
-        own = not needs_system_fonts(source, lacking)
+        own = not needs_system_fonts(source, lacking) and not system
         self._typesetter = typst.Compiler(folder / "report.typ", root=folder, ignore_system_fonts=own)
 
     def choices(self, known: Mapping[str, Any]) -> list[list[Any]]:
@@ -120,6 +124,22 @@ class _Run:
         except self._error as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+
+
+def families() -> list[str]:
+    """The fonts that a source may name: the typesetter's own and those of the system, in order."""
+    import typst
+
+    return sorted(typst.Fonts(include_system_fonts=True).families())
+
+
+@lru_cache(maxsize=16)
+def breadth(font: str) -> float:
+    """How many times as broad as in the typesetter's own font a text is in another, at least 1."""
+    import typst
+
+    answer = typst.query(BREADTH.format(font=font, own=FONT).encode(), "<breadth>", field="value", one=True)
+    return max(1.0, float(json.loads(answer)))
 
 
 def lacking(letters: str, system: bool) -> str:
@@ -156,6 +176,15 @@ QUESTION = """\
   #metadata(({letters},).filter(letter => size(letter) == size("{nowhere}"))) <lacking>
 ]
 """
+
+
+BREADTH = """\
+#let breadth(font, weight) = measure(text(font: font, weight: weight, size: 10pt)[
+  Hamburgefonstiv vận tốc góc của khâu 0123456789,0123456789]).width
+#context [#metadata(calc.max(..("regular", "bold").map(weight =>
+  breadth("{font}", weight) / breadth("{own}", weight)))) <breadth>]
+"""
+"""What the typesetter is asked about the letters of a font; words and numbers, as tables have them."""
 
 
 class MissingLettersWarning(UserWarning):
