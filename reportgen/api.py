@@ -13,10 +13,12 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.errors import NotOfferedError, ReportgenError
+from reportgen.assignment.reading import placed
+from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch
+from reportgen.base.source import read_source
 from reportgen.base.units import Language
-from reportgen.base.words import word
+from reportgen.base.words import as_error, word
 from reportgen.cases import open_case, opened
 from reportgen.report.case import Calculation
 
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
-    from reportgen.report import Document
+    from reportgen.report import Document, Letter
     from reportgen.report.case import Case, Key
 
 Engine = Literal["typst", "latex"]
@@ -33,7 +35,7 @@ FORMATS = ("pdf", "html")
 """What a report can be written as."""
 
 
-load, check = catalogue.load, catalogue.check
+load, check, examine = catalogue.load, catalogue.check, catalogue.examine
 
 
 def analyse(assignment: Assignment) -> Analysis:
@@ -108,12 +110,13 @@ def build_each(
 ) -> list[Path]:
     """Write the complete report in some of `FORMATS`; gives their paths in that order."""
     assignment = load(path, language)
+    letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)):
         case = opened(assignment)
         tree = case.document()
         if "pdf" in formats:
-            source, pdf = typeset(tree, engine)
+            source, pdf = typeset(tree, engine, letter)
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
@@ -127,17 +130,44 @@ def _page(case: Case, tree: Document) -> bytes:
     return page(case, tree).encode()
 
 
-def typeset(tree: Document, engine: Engine) -> tuple[str, bytes]:
-    """The source that a writer makes of a document, and its PDF; raises `TypesetterError`."""
+def letter_of(assignment: Assignment, engine: Engine) -> Letter:
+    """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
+    from reportgen.report import Letter
+
+    font = assignment.report.font or ""
+    if font and font not in (known := _fonts(engine)):
+        finding = Finding(
+            "no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)}
+        )
+        raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
+    return Letter(font, float(assignment.report.size.removesuffix(" pt")))
+
+
+def _fonts(engine: Engine) -> list[str]:
+    """The fonts whose names an engine knows."""
+    if engine == "latex":
+        from reportgen.writers import latex
+
+        return list(latex.FAMILIES)
+    from reportgen.writers import typst_run
+
+    return typst_run.families()
+
+
+def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tuple[str, bytes]:
+    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`."""
+    from reportgen.report import Letter
+
+    letter = letter or Letter()
     if engine == "latex":
         from reportgen.writers import latex, pdflatex
 
-        source = latex.write(tree)
+        source = latex.write(tree, letter)
         return source, pdflatex.compile(source).pdf
     from reportgen.writers import typst, typst_run
 
-    source = typst.write(tree)
-    return source, typst_run.compile(source)
+    source = typst.write(tree, letter)
+    return source, typst_run.compile(source, system=bool(letter.font))
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------
@@ -154,7 +184,9 @@ KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 
 def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
     """The complete report."""
-    return {"report.pdf": typeset(document(load(path, language)), engine)[1]}
+    assignment = load(path, language)
+    letter = letter_of(assignment, engine)
+    return {"report.pdf": typeset(document(assignment), engine, letter)[1]}
 
 
 def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
@@ -172,7 +204,8 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     case = open_case(path, language)
     chosen = ask or Ask()
     key = chosen.of(case.key())
-    files = {"task.pdf": typeset(case.task(key, chosen.by_section), engine)[1]}
+    letter = letter_of(case.assignment, engine)
+    files = {"task.pdf": typeset(case.task(key, chosen.by_section), engine, letter)[1]}
     return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
 
 

@@ -49,14 +49,16 @@ class Student(Part):
 
 
 class ReportSection(Part):
-    """The report's language, cover and the positions written out in full (None: all).
+    """The report's language, cover and the positions written out in full, by number or label (None: all).
 
     `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
-    sheets that are handed in with the report.
+    sheets that are handed in with the report.  The text is set in letters of a `font` in a `size`.
     """
 
     language: Language = "vi"
     school: Annotated[str, SchoolFolder()] | None = None
+    font: OneLine | None = None
+    size: Literal["11 pt", "12 pt", "13 pt", "14 pt"] = "12 pt"
     university: OneLine | None = None
     faculty: OneLine | None = None
     department: OneLine | None = None
@@ -65,7 +67,7 @@ class ReportSection(Part):
     supervisor: OneLine | None = None
     place: OneLine | None = None
     date: Date | None = None
-    worked_positions: Annotated[tuple[int, ...] | None, WorkedPositions()] = (2,)
+    worked_positions: Annotated[tuple[int | str, ...] | None, WorkedPositions()] = (2,)
     sheets: Literal["A0", "A1", "A2", "A3"] | None = None
 
 
@@ -111,12 +113,8 @@ class Draft:
 
 
 Check = Callable[[Draft], Iterator[Finding]]
-Added = Callable[[Any, Positions], int]
-
-
-def none_added(parameters: Any, positions: Positions) -> int:
-    """A turn has no positions but the evenly spaced ones."""
-    return 0
+Labels = Callable[[Any, Positions], Sequence[str]]
+"""What the positions of the cycle are called, from the parameters and the evenly spaced positions of a turn."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,9 +122,9 @@ class Kind:
     """What the reader must know of a kind of machine.
 
     `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
-    machine that has none; `checks` look at what no single value shows.  `added` tells from the parameters
-    and `Positions` how many positions a turn has beside the evenly spaced ones.  A kind that is but one
-    instant of a motion has no positions, and nothing is drawn to a chosen length.
+    machine that has none; `checks` look at what no single value shows.  `labels` are given by a kind that adds
+    positions to the evenly spaced ones.  A kind that is but one instant of a motion has no positions, and nothing
+    is drawn to a chosen length.
     """
 
     name: str
@@ -134,7 +132,7 @@ class Kind:
     indicator: Any = None
     turns: int = 1
     checks: tuple[Check, ...] = ()
-    added: Added = none_added
+    labels: Labels | None = None
     indicator_optional: bool = False
     has_positions: bool = True
 
@@ -157,22 +155,29 @@ class Assignment:
     source: Path
     id: str
     turns: int = 1
-    added: Added = none_added
+    names: Labels | None = None
 
     @property
     def language(self) -> Language:
         return self.report.language
 
     @property
+    def labels(self) -> Sequence[str]:
+        """What the positions of a whole cycle are called: N, or 2N for four strokes, and those that the kind adds."""
+        return labels_of(self.names, self.parameters, self.positions, self.turns)
+
+    @property
     def cycle_positions(self) -> int:
-        """Positions of a whole cycle: N, or 2N for four strokes, and those that the kind adds."""
-        return (self.positions.count + self.added(self.parameters, self.positions)) * self.turns
+        """Positions of a whole cycle."""
+        return len(self.labels)
 
     @property
     def worked_positions(self) -> tuple[int, ...]:
         """Numbers, 1…`cycle_positions`, of the positions written out in full."""
         worked = self.report.worked_positions
-        return tuple(range(1, self.cycle_positions + 1)) if worked is None else worked
+        if worked is None:
+            return tuple(range(1, self.cycle_positions + 1))
+        return tuple(self.labels.index(one) + 1 if isinstance(one, str) else one for one in worked)
 
     def with_positions(self, count: int) -> Assignment:
         """The same with `count` positions a turn; worked positions beyond the new cycle are dropped.
@@ -183,8 +188,8 @@ class Assignment:
             raise ValueError(f"{count} positions")
         counted = replace(self, positions=self.positions.model_copy(update={"count": count}))
         worked = self.report.worked_positions
-        last = counted.cycle_positions
-        kept = None if worked is None else tuple(n for n in worked if n <= last) or (2,)
+        labels = counted.labels
+        kept = None if worked is None else tuple(one for one in worked if number_of(one, labels)) or (2,)
         return replace(counted, report=self.report.model_copy(update={"worked_positions": kept}))
 
     def with_language(self, language: Language) -> Assignment:
@@ -218,20 +223,39 @@ def file_model(kind: Kind) -> type[Part]:
     return create_model(f"{name}File", __base__=Part, **fields)
 
 
-def worked_positions(turns: int, added: Added = none_added) -> Check:
-    """Numbers of worked positions lie in the cycle of `turns` turns, with the positions `added` to each."""
+def labels_of(names: Labels | None, parameters: Any, positions: Positions, turns: int) -> Sequence[str]:
+    """What the positions of a cycle of `turns` turns are called: their numbers, if the kind has no names for them."""
+    if names is None or parameters is None:
+        return tuple(map(str, range(1, positions.count * turns + 1)))
+    return names(parameters, positions)
+
+
+def number_of(named: int | str, labels: Sequence[str]) -> int:
+    """The number, from 1, of the position of a number or a label; 0 where there is none."""
+    if isinstance(named, str):
+        return labels.index(named) + 1 if named in labels else 0
+    return named if named <= len(labels) else 0
+
+
+def worked_positions(turns: int, names: Labels | None = None) -> Check:
+    """Worked positions lie in the cycle of `turns` turns, each is named once."""
 
     def check(draft: Draft) -> Iterator[Finding]:
         report, positions = draft.sections.get("report"), draft.sections.get("positions")
         if report is None or positions is None or report.worked_positions is None:
             return
-        parameters = draft.sections.get("parameters")
-        more = 0 if parameters is None else added(parameters, positions)
-        last = (positions.count + more) * turns
-        for index, number in enumerate(report.worked_positions):
-            if number > last:
-                place = ("report", "worked_positions", index)
-                yield Finding("no-such-position", place, {"text": str(number), "last": str(last)})
+        labels = labels_of(names, draft.sections.get("parameters"), positions, turns)
+        met: set[int] = set()
+        for index, named in enumerate(report.worked_positions):
+            place, number = ("report", "worked_positions", index), number_of(named, labels)
+            if number in met:
+                yield Finding("repeated", place, {"text": str(named)})
+            elif number:
+                met.add(number)
+            elif isinstance(named, str):
+                yield Finding("no-such-label", place, {"text": named, "known": ", ".join(labels)})
+            else:
+                yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
 
     return check
 

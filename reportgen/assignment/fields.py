@@ -18,6 +18,7 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import leads_out
+from reportgen.base.source import Quoted
 from reportgen.base.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
 from reportgen.base.words import school_folder, schools
 
@@ -29,6 +30,7 @@ _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
 """Names, in capitals, that some systems keep for devices."""
 _INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
+_LABEL = re.compile(r"[a-z]|[0-9]{1,3}")
 
 
 def fault(code: str, **arguments: str) -> PydanticCustomError:
@@ -236,9 +238,12 @@ class Day(Reader):
 
 @dataclass(frozen=True, slots=True)
 class WorkedPositions(Reader):
-    """Positions to write out in full: a list of numbers from 1, or "all" (None)."""
+    """Positions to write out in full: a list of numbers from 1 and of labels, or "all" (None).
 
-    def read(self, value: object) -> tuple[int, ...] | None:
+    A label is a letter, or a number in quotation marks.
+    """
+
+    def read(self, value: object) -> tuple[int | str, ...] | None:
         if value == "all":
             return None
         if not isinstance(value, list):
@@ -247,14 +252,20 @@ class WorkedPositions(Reader):
             raise fault("too-few", least="1")
         if len(value) > MOST_WORKED:
             raise fault("too-many", most=str(MOST_WORKED))
-        numbers = tuple(Whole(1, MOST_WORKED).read(item) for item in value)
-        if len(set(numbers)) < len(numbers):
-            raise fault("repeated", text=next(str(n) for n in numbers if numbers.count(n) > 1))
-        return numbers
+        named = tuple(str(item) if _is_label(item) else Whole(1, MOST_WORKED).read(item) for item in value)
+        if len(set(named)) < len(named):
+            raise fault("repeated", text=next(str(n) for n in named if named.count(n) > 1))
+        return named
 
     def schema(self) -> dict[str, Any]:
-        item = Whole(1, MOST_WORKED).schema()
+        item = {"anyOf": [Whole(1, MOST_WORKED).schema(), {"type": "string", "pattern": f"^({_LABEL.pattern})$"}]}
         return {"anyOf": [{"const": "all"}, {"type": "array", "items": item, "minItems": 1, "uniqueItems": True}]}
+
+
+def _is_label(value: object) -> bool:
+    """Whether a text is the label of a position; digits without quotation marks are a number."""
+    named = isinstance(value, str) and _LABEL.fullmatch(value) is not None
+    return named and (isinstance(value, Quoted) or str(value).isalpha())
 
 
 def _text(value: object, expected: str) -> str:

@@ -51,7 +51,7 @@ def assess(
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        numbered = (worked_positions(kind.turns, kind.added),) if kind.has_positions else ()
+        numbered = (worked_positions(kind.turns, kind.labels),) if kind.has_positions else ()
         for check_one in (*kind.checks, *numbered):
             found = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in found]
@@ -62,7 +62,7 @@ def assess(
     if faults or kind is None:
         return None, faults
     values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
-    return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, added=kind.added), []
+    return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, names=kind.labels), []
 
 
 def name_faults(path: Path) -> Iterator[Fault]:

@@ -56,6 +56,8 @@ def column_letters(column: int) -> str:
     return letters
 
 
+Level = Literal["error", "warning", "note"]
+
 Where = tuple[str | int, ...]
 """A place in the content of a file: keys and list indices from the top."""
 
@@ -84,19 +86,23 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Problem:
-    """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint."""
+    """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
+
+    A file in order may have warnings, and notes on how it was understood.
+    """
 
     code: str
     message: str
     mark: Mark
     hint: str | None = None
+    level: Level = "error"
 
     def in_file(self, file: str) -> Problem:
         """The same problem, its file named as `file`."""
         return replace(self, mark=replace(self.mark, file=file))
 
     def __str__(self) -> str:
-        line = f"{self.mark}: error[{self.code}]: {self.message}"
+        line = f"{self.mark}: {self.level}[{self.code}]: {self.message}"
         return f"{line}\n    hint: {self.hint}" if self.hint else line
 
 

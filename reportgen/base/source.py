@@ -44,11 +44,18 @@ _SYNTAX = (
 
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A piece of text; `null` when nothing was written."""
+    """A piece of text; `null` when nothing was written, `quoted` when it stands in quotation marks."""
 
     text: str
     mark: Mark
     null: bool = False
+    quoted: bool = False
+
+
+class Quoted(str):
+    """A text that stands in quotation marks: what looks like a number is none."""
+
+    __slots__ = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,8 +167,9 @@ def read_own(text: str, file: str = "") -> Source:
 def plain(node: Node, said: Callable[[Scalar], str] = attrgetter("text")) -> Any:
     """Nodes as dict, list and str, or what else is `said` by a text; what was left empty is None."""
     match node:
-        case Scalar(null=null):
-            return None if null else said(node)
+        case Scalar(null=null, quoted=in_marks):
+            text = None if null else said(node)
+            return Quoted(text) if in_marks and type(text) is str else text
         case SequenceNode(items):
             return [plain(item, said) for item in items]
         case MappingNode(entries):
@@ -234,7 +242,7 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
     style = getattr(node, "style", None) or None  # libyaml calls that of a plain scalar ""
     if style is None and "\t" in node.value:
         faults.append(Fault("tab", mark))
-    return Scalar(node.value, mark, null=style is None and node.value in _NULL)
+    return Scalar(node.value, mark, null=style is None and node.value in _NULL, quoted=style in ("'", '"'))
 
 
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
@@ -334,9 +342,9 @@ def text_of(table: MappingNode, source: str, original: MappingNode) -> str:
     return kept if agrees else _lines(table, 0)
 
 
-def quoted(text: str) -> str:
+def quoted(text: str, always: bool = False) -> str:
     """A scalar of YAML that is read as exactly this text."""
-    if _PLAIN.fullmatch(text) and not _RESERVED.fullmatch(text):
+    if not always and _PLAIN.fullmatch(text) and not _RESERVED.fullmatch(text):
         return text
     return f'"{"".join(map(_escaped, text))}"'
 
@@ -418,8 +426,8 @@ def _lines(table: MappingNode, depth: int) -> str:
 
 def _flow(node: Node) -> str:
     match node:
-        case Scalar(text, null=null):
-            return "" if null else quoted(text)
+        case Scalar(text, null=null, quoted=in_marks):
+            return "" if null else quoted(text, in_marks)
         case SequenceNode(items):
             return f"[{', '.join(_flow(item) for item in items)}]"
         case MappingNode(entries):

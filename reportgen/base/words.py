@@ -19,7 +19,7 @@ from pathlib import Path
 from string import Formatter
 from typing import Any
 
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, TemplateError, Where
+from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
 from reportgen.base.source import (
     MappingNode,
     Node,
@@ -257,7 +257,7 @@ def unexpected(error: BaseException, language: Language | None) -> str:
     return word("unexpected", language, name=type(error).__name__, text=" ".join(str(error).split()))
 
 
-def as_problem(fault: Fault, language: Language | None) -> Problem:
+def as_problem(fault: Fault, language: Language | None, level: Level = "error") -> Problem:
     """The fault in words; its hint is given when the arguments it speaks of are known."""
     table = messages(language or DEFAULT_LANGUAGE)
     # What is known is the program's own, and told in full.
@@ -269,7 +269,7 @@ def as_problem(fault: Fault, language: Language | None) -> Problem:
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
     hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
-    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None)
+    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None, level)
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:

@@ -2,8 +2,9 @@
 
 A machine is found because its module is here and its words are in `templates/<language>/catalogue/`; the kind
 `slider-crank` is the module `slider_crank` and the file `slider-crank.md`.  A module gives `TURNS` of the driver in
-a cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `added_positions` if a turn has more
-positions than the evenly spaced ones; `machine`, which makes a `Machine` of an assignment.
+a cycle, the models `Parameters` and, if it has one, `Indicator`, and `CHECKS`; `position_labels` if a turn has more
+positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but hardly meant; `machine`, which makes a
+`Machine` of an assignment.
 
 A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
 `machine`, which makes a case of its own.
@@ -18,11 +19,11 @@ from types import ModuleType
 from typing import Any
 
 from reportgen.assignment import reading
-from reportgen.assignment.common import Assignment, Kind, file_model, none_added
-from reportgen.base.errors import AssignmentError, Fault, Finding, Problem
+from reportgen.assignment.common import Assignment, Kind, file_model
+from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem
 from reportgen.base.source import Source, read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, kinds, language_of
+from reportgen.base.words import as_error, as_problem, kinds, language_of, word
 from reportgen.catalogue import reach
 from reportgen.machine.analysis import Machine
 
@@ -42,7 +43,7 @@ def kind(name: str) -> Kind:
         indicator=getattr(machine, "Indicator", None),
         turns=machine.TURNS,
         checks=(*shared(), *machine.CHECKS),
-        added=getattr(machine, "added_positions", none_added),
+        labels=getattr(machine, "position_labels", None),
         indicator_optional=getattr(machine, "INDICATOR_OPTIONAL", False),
         has_positions=getattr(machine, "HAS_POSITIONS", True),
     )
@@ -84,11 +85,34 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
 
 def check(path: Path | str, language: Language | None = None) -> list[Problem]:
     """All faults of an assignment file in its order, none if it can be loaded."""
+    return [problem for problem in examine(path, language) if problem.level == "error"]
+
+
+def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
+    """All faults of an assignment file; of one without, its warnings, and which positions labels stand for."""
     try:
-        load(path, language)
+        assignment = load(path, language)
     except AssignmentError as error:
         return list(error.problems)
-    return []
+    warnings = getattr(module(assignment.kind), "WARNINGS", ())
+    told: dict[Level, list[Finding]] = {
+        "warning": [finding for warning in warnings for finding in warning(assignment)],
+        "note": list(_understood_positions(assignment)),
+    }
+    source, spoken = read_source(Path(path)), assignment.language
+    found = [as_problem(one, spoken, level) for level in told for one in reading.placed(source, told[level])]
+    return sorted(found, key=lambda problem: problem.mark)
+
+
+def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
+    """Which positions are worked out, where their labels are not their numbers."""
+    if not kind(assignment.kind).has_positions or assignment.report.worked_positions is None:
+        return
+    labels = assignment.labels
+    pairs = [(number, labels[number - 1]) for number in assignment.worked_positions]
+    if any(str(number) != label for number, label in pairs):
+        understood = [word("position_pair", assignment.language, number=n, label=label) for n, label in pairs]
+        yield Finding("positions", ("report", "worked_positions"), {"known": "; ".join(understood)})
 
 
 def schema() -> dict[str, Any]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from string import ascii_lowercase
 from typing import Annotated
 
 import numpy as np
@@ -70,13 +71,12 @@ def _special(geometry: OffsetSlider, start: float) -> tuple[float, ...]:
     return tuple(phi - start for phi in (geometry.stretched, geometry.folded, *geometry.fastest()))
 
 
-def added_positions(parameters: Parameters, positions: Positions) -> int:
-    """How many lettered positions a turn has; of an engine with faulty lengths, the most that any has."""
+def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
+    """What the positions of the cycle are called; of an engine with faulty lengths, the most that any has."""
     if not parameters.has_lengths or _cannot_turn(parameters) is not None:
-        return MOST_LETTERED
+        return (*map(str, range(TURNS * positions.count)), *ascii_lowercase[: TURNS * MOST_LETTERED])
     geometry = _geometry(parameters, positions)
-    places, _ = lettered(positions.count, 1, _special(geometry, _start(geometry, positions)))
-    return len(places) - positions.count
+    return lettered(positions.count, TURNS, _special(geometry, _start(geometry, positions)))[1]
 
 
 def _check_lengths(draft: Draft) -> Iterator[Finding]:

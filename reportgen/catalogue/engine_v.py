@@ -27,7 +27,7 @@ from reportgen.machine.analysis import Machine, lettered
 from reportgen.machine.loads import Applied, ConstantLaw, Piston, course, crank_motion, gas_forces
 
 TURNS = 1
-"""Four strokes take two: the second turn's positions then count among those added to the first."""
+"""Four strokes take two, where there is an indicator diagram."""
 
 Indicator = given_loads.Diagram
 INDICATOR_OPTIONAL = True
@@ -65,9 +65,9 @@ def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...],
     return lettered(positions.count, given.turns, (top, top + math.pi))
 
 
-def added_positions(parameters: Parameters, positions: Positions) -> int:
-    """Positions of the cycle beside the evenly spaced ones of its first turn."""
-    return len(_places(parameters, positions)[0]) * parameters.turns - positions.count
+def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
+    """What the positions of the cycle are called."""
+    return _places(parameters, positions)[1]
 
 
 # --- checks ---------------------------------------------------------------------------------------
@@ -100,6 +100,17 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
 
 
 CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)
+
+
+def _idle_engine(assignment: Assignment) -> Iterator[Finding]:
+    """Constant forces on the pistons do no work over a turn: an engine delivers none without its diagram."""
+    key = next((key for key in ("PC", "PE") if getattr(assignment.parameters, key) is not None), None)
+    if key is not None:
+        yield Finding("engine-without-work", ("parameters", key), at="key")
+
+
+WARNINGS = (_idle_engine,)
+"""What is allowed but hardly meant, looked for in an assignment in order."""
 
 
 # --- the machine ----------------------------------------------------------------------------------
@@ -185,7 +196,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=courses,
         positive={"C": -cmath.exp(1j * given.alpha.si), "E": -cmath.exp(1j * given.beta.si)},
         paths=("D",) if on_rod else (),
-        facts={"joint": given.joint, "form": "articulated" if on_rod else "common"},
+        facts={"joint": given.joint, "top": given.second_top - 1, "form": "articulated" if on_rod else "common"},
         compared=compared(plans),
         places=places,
         labels=labels,

@@ -351,6 +351,7 @@ def machine(assignment: Assignment) -> Machine:
         facts={
             "form": "rocker" if _rocks(q) else "crank",
             "side": "left" if turn * given.side > 0 else "right",
+            "branch": "left" if given.side > 0 else "right",
             "coupler": "EF" if given.E and given.BF else "E" if given.E else "F" if given.BF else "plain",
         },
     )

@@ -158,6 +158,11 @@ class PressingForce(Part):
         return by_stroke(self.s, down, tuple(0.0 for _ in down))
 
 
+def stroke_of(force: ConstantForce | ForceOverStroke | ForceOverAngle | None) -> str:
+    """The stroke on which a working force acts, both unless it says otherwise."""
+    return force.stroke if isinstance(force, ConstantForce) else "both"
+
+
 WorkingForce = Annotated[ConstantForce | ForceOverStroke | ForceOverAngle, Field(discriminator="by")]
 
 

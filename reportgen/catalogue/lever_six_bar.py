@@ -139,7 +139,7 @@ def machine(assignment: Assignment) -> Machine:
         {"summary": ("summary",)},
         applied=_applied(given, linkage, positions, start),
         paths=("S2", "E", "S4"),
-        facts={"summary": SUMMARY},
+        facts={"summary": SUMMARY, "C": given.C, "F": given.F},
     )
 
 

@@ -71,11 +71,10 @@ def _check_flywheel(given: Parameters) -> Iterator[Finding]:
 CHECKS = (_check_speed, needs_loads(("masses", "loads")), _check_flywheel, linkage_checks.check)
 
 
-def added_positions(parameters: Parameters, positions: Positions) -> int:
-    """Positions of the cycle beside the evenly spaced ones of its first turn."""
-    places, _ = _places(parameters, positions)
-    each = len(places) or positions.count
-    return each * parameters.turns - positions.count
+def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:
+    """What the positions of the cycle are called: their numbers, if all are even ones."""
+    _, labels = _places(parameters, positions)
+    return labels or tuple(map(str, range(1, positions.count * parameters.turns + 1)))
 
 
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
@@ -380,6 +379,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "listed": "given" if given.masses else "massless",
         "loads": shown,
         "interpolated": tuple(load for load in shown if load.nodes),
+        "two_turns": given.turns == 2,
         "gases": tuple(load for load in shown if load.by == "gas"),
     }
 

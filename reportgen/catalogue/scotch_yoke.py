@@ -93,6 +93,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=(course,),
         compared=(("v.B", "f.v.B"), ("v.A3A", "f.v.r"), ("a.B", "f.a.B"), ("a.A3A.r", "f.a.r")),
         equations=equations(),
+        facts={"stroke": given_loads.stroke_of(force)},
     )
 
 

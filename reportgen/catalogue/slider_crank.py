@@ -95,5 +95,5 @@ def machine(assignment: Assignment) -> Machine:
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
         equations=loop_equations(turn, offset is not None),
-        facts={"form": "inline" if e is None else "offset"},
+        facts={"form": "inline" if e is None else "offset", "stroke": given_loads.stroke_of(given.force)},
     )

@@ -125,6 +125,6 @@ def machine(assignment: Assignment) -> Machine:
         applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
         sliders=sliders,
         paths=("B",),
-        facts={"form": "less" if minus else "plus"},
+        facts={"form": "less" if minus else "plus", "B": given.B},
         compared=tuple((plan, ids.formula(plan)) for plan in ("omega.2", "omega.3", "v.C", "eps.3", "a.C")),
     )

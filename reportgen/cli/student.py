@@ -181,13 +181,13 @@ def solve(
 
 
 def check(files: Files, lang: LangOption = None) -> None:
-    """Validate each FILE; silent when all is well."""
+    """Validate each FILE; silent when all is well but for warnings, and notes where positions have labels."""
     from reportgen import api
 
-    problems = [problem for file in files for problem in api.check(file, lang)]
+    problems = [problem for file in files for problem in api.examine(file, lang)]
     for problem in problems:
         print(problem, file=sys.stderr)
-    raise typer.Exit(AT_FAULT if problems else 0)
+    raise typer.Exit(AT_FAULT if any(problem.level == "error" for problem in problems) else 0)
 
 
 def new(

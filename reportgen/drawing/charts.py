@@ -6,6 +6,7 @@ This is the only module that imports matplotlib, and only when a curve is drawn.
 
 from __future__ import annotations
 
+import cmath
 import math
 import os
 import sys
@@ -18,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import box, clusters
 from reportgen.drawing.labels import Canvas, Request, finish, joined, label
 from reportgen.formula import Chain, Number, Symbol
@@ -46,6 +47,8 @@ PENS = (
 GRID = Pen(0.1, style.PALE)
 EDGE = Pen(0.25)
 MEAN = Pen(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
+BEYOND = 4.0
+"""What the horizontal of an angle is longer than its arc, mm."""
 MARK = 0.75
 """Radius of the circle at a marked point, mm."""
 
@@ -80,15 +83,31 @@ class PlottedCurve:
 
 
 @dataclass(frozen=True, slots=True)
+class Inclination:
+    """The angle of a straight line of this `slope` (in the units of the axes) at the point x, y of a chart.
+
+    Its arc has the `radius` (mm); the line it is counted from is drawn a little beyond.
+    """
+
+    label: Content
+    x: float
+    y: float
+    slope: float
+    radius: float
+
+
+@dataclass(frozen=True, slots=True)
 class Area:
     """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
 
-    They are round once the chart is `enlarged` so many times.
+    They are round once the chart is `enlarged` so many times.  `scales` across and upwards, in the units of the axes
+    per mm, are kept whatever room they take.
     """
 
     width: float = WIDTH
     height: float = HEIGHT
     enlarged: float = 1.0
+    scales: tuple[float, float] | None = None
 
     def per_mm(self, length: float, room: float) -> float:
         """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
@@ -149,6 +168,7 @@ def plotted(
     levels: Sequence[tuple[float, Content]] = (),
     half: bool = False,
     area: Area | None = None,
+    inclinations: Sequence[Inclination] = (),
 ) -> Plotted:
     """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
 
@@ -170,6 +190,10 @@ def plotted(
         requests += _marked(one, vertices, pen, items)
         if one.label and len(series) > 1:
             requests.append(label(_places(vertices), one.label))
+    for inclination in inclinations:
+        drawn, request = _inclined(window, inclination)
+        items += drawn
+        requests.append(request)
     items += _titles(window, x_label, y_label, items, area is not None)
     scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
     notes = scales if area is not None else ()
@@ -279,7 +303,7 @@ def _window(
         x0, x1 = x_ticks[0], x_ticks[-1]
     across, up = x1 - x0, y_ticks[-1] - y_ticks[0]
     if area is not None:
-        scales = area.per_mm(across, area.width), area.per_mm(up, area.height)
+        scales = area.scales or (area.per_mm(across, area.width), area.per_mm(up, area.height))
         width, height = across / scales[0] / area.enlarged, up / scales[1] / area.enlarged
     else:
         width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, HEIGHT)
@@ -410,9 +434,22 @@ def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
     named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
     return [
-        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL)
+        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL, short=())
         for group in clusters(named, 0.6, lambda mark: mark[0])
     ]
+
+
+def _inclined(window: _Window, one: Inclination) -> tuple[list[Item], Request]:
+    """The arc of an angle from the horizontal, and where its label stands."""
+    corner = window.at(one.x, one.y)
+    across, up = window.at(1.0, 0.0) - window.at(0.0, 0.0), window.at(0.0, one.slope) - window.at(0.0, 0.0)
+    angle = cmath.phase(across + up)
+    middle = corner + cmath.rect(one.radius, angle / 2)
+    items: list[Item] = [
+        Line(corner, corner + one.radius + BEYOND, EDGE),
+        Arc(corner, one.radius, 0.0, angle, Pen(0.18)),
+    ]
+    return items, label(middle, one.label, prefer=(angle / 2,))
 
 
 def _places(vertices: Vertices) -> list[complex]:

@@ -1,16 +1,16 @@
 """Where labels stand: near their point, clear of every stroke and of each other.
 
-Each label tries spots around its point, the preferred directions first, nearest first.  The label with
-the fewest free spots chooses first.  If no spot nearby is free, the label moves out and a thin leader
-ties it to its point; if that fails too, the labels without room choose first in a new attempt.
-The same figure always gets the same labels.
+Each label tries spots around its point, the preferred directions first, nearest first, and never one that is nearer
+to a point that another label names.  The label with the fewest free spots chooses first.  If no spot nearby is free,
+the label moves out and a short leader, which crosses no other, ties it to its point; if that fails too, the labels
+without room are said shorter and choose first in a new attempt.  The same figure always gets the same labels.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache, reduce
 from typing import TypeVar
 
@@ -40,14 +40,16 @@ CORNERS = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) + 1j * np.clip(DIRECTIO
 """Where a box of half size 1 has its middle when the box stands off its point in each direction."""
 NEAR = (0.0, 0.7, 1.6)
 """Extra distances (mm) at which a label still reads as belonging to its point."""
-FAR = (3.5, 6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0)
+FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
+LONGEST = 12.0
+"""A longer leader (mm) is not followed."""
 CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
 FIRST = 72
 """This many spots are tested at once; the others only if none of these is free."""
-CHEAPEST = 12
+CHEAPEST = 6
 """Of the spots farther out, this many are rated in full before the worse ones are left out."""
-ATTEMPTS = 4
+ATTEMPTS = 3
 """How often the labels that found no room may choose first."""
 KEPT = 1024
 """For so many sizes of labels and sets of preferred directions the spots are cached."""
@@ -65,6 +67,8 @@ class Request:
     gap: float
     size: float
     ring: bool
+    named: tuple[complex, ...]
+    short: tuple[Content, ...] | None
 
 
 def label(
@@ -74,15 +78,25 @@ def label(
     gap: float = 0.6,
     size: float = style.LABEL,
     ring: bool = False,
+    each: bool = False,
+    short: Sequence[Content] | None = None,
 ) -> Request:
     """A label whose `parts` stand in a row on one baseline, near the point `at`.
 
     Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer`
     are directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the
-    radius of the circle drawn there).  A `ring` goes round a link's number.
+    radius of the circle drawn there).  A `ring` goes round a link's number.  A label that names its point, or `each`
+    of several, stands nearer to it than to any point that another label names.  Where there is no room for it, what is
+    `short` stands there: less, nothing, or the number of a `KEY`.
     """
     points = tuple(at) if isinstance(at, Sequence) else (at,)
-    return Request(points, parts, tuple(prefer), gap, size, ring)
+    named = points if each or len(points) == 1 else ()
+    less = None if short is None else tuple(short)
+    return Request(points, parts, tuple(prefer), gap, size, ring=ring, named=named, short=less)
+
+
+KEY = ("№",)
+"""Short for a label: a number, which a line below the figure explains."""
 
 
 def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
@@ -91,8 +105,8 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
     return parts[1:]
 
 
-def _row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...]:
-    """Labels side by side on one baseline, their common box centred on `at`."""
+def _row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
+    """Labels side by side on one baseline, their common box centred on `at`; `over` lines they stand on paper."""
     boxes = [box(part, size) for part in parts]
     total = reduce(Box.beside, boxes)
     x = at.real - total.width / 2
@@ -100,7 +114,7 @@ def _row(at: complex, parts: Sequence[Content], size: float) -> tuple[Label, ...
     result = []
     for part, own in zip(parts, boxes, strict=True):
         centre = complex(x + own.width / 2, base + (own.height - own.depth) / 2)
-        result.append(Label(centre, part, "center", size))
+        result.append(Label(centre, part, "center", size, background=over))
         x += own.width
     return tuple(result)
 
@@ -148,22 +162,26 @@ class _Taken:
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
-        """Which leaders run through a label."""
-        if not self.centres:
-            return np.zeros(len(leaders), dtype=np.bool_)
-        return np.asarray(overlap(np.array(self.centres), np.array(self.halves), leaders, 0.2).any(axis=0))
+        """Which leaders run through a label or another leader."""
+        through = np.zeros(len(leaders), dtype=np.bool_)
+        if self.centres:
+            through |= overlap(np.array(self.centres), np.array(self.halves), leaders, 0.2).any(axis=0)
+        if self.leaders:
+            through |= _crossings(leaders, np.array(self.leaders)) > 0
+        return through
 
 
 class _Spots:
     """The spots a label may stand at, in the order of preference."""
 
-    def __init__(self, request: Request, ink: _Ink) -> None:
+    def __init__(self, request: Request, ink: _Ink, others: Complexes) -> None:
+        self.request = request
         self.half = _half(request)
-        anchors = np.array(request.points)
+        self.own, self.others = np.array(request.points), others if request.named else others[:0]
         offsets = _nearby(self.half, request.gap)
-        self.centres = (anchors[:, None] + offsets).ravel()[_ranking(request.prefer, len(anchors))]
+        self.centres = (self.own[:, None] + offsets).ravel()[_ranking(request.prefer, len(self.own))]
         self.ink = ink
-        self.first = self._clear_of_ink(0)
+        self.first = self._free(0)
 
     @property
     def room(self) -> int:
@@ -173,54 +191,69 @@ class _Spots:
     def best(self, taken: _Taken) -> complex | None:
         """The first spot free of strokes, labels and leaders; None where there is none."""
         for start in range(0, len(self.centres), FIRST):
-            free = self.first if start == 0 else self._clear_of_ink(start)
+            free = self.first if start == 0 else self._free(start)
             found = np.flatnonzero(free) + start
             if found.size and (clear := taken.clear(self.centres[found], self.half)).any():
                 return complex(self.centres[found[int(np.argmax(clear))]])
         return None
 
-    def _clear_of_ink(self, start: int) -> Flags:
+    def _free(self, start: int) -> Flags:
+        """Which of the next spots are free of strokes and nearest to their own point."""
         centres = self.centres[start : start + FIRST]
-        return ~_touched(centres, self.half, self.ink.near(centres, self.half))
+        free = ~_touched(centres, self.half, self.ink.near(centres, self.half))
+        free[free] = self.nearest(centres[free])
+        return free
+
+    def nearest(self, centres: Complexes) -> Flags:
+        """Where the label is nearer to its own point than to any that another label names."""
+        return np.asarray(_distance(centres, self.half, self.own) <= _distance(centres, self.half, self.others))
 
 
-def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[Item, ...]:
-    """Labels (and leaders) for the requests among the items, in the order of the requests."""
+def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[tuple[Item, ...], list[tuple[Content, ...]]]:
+    """Labels (and leaders) for the requests among the items, in their order, and the key's lines, each of parts."""
     ink = _Ink(segments(items))
     frames = [frame(item) for item in items if isinstance(item, Label)]
-    spots = [_Spots(request, ink) for request in requests]
-    order = sorted(range(len(requests)), key=lambda i: (spots[i].room, i))
-    placed, crowded = _place_in(order, requests, spots, frames)
+    named = np.array([point for request in requests for point in request.named])
+    spots = {i: _Spots(request, ink, named) for i, request in enumerate(requests)}
+    order = sorted(spots, key=lambda i: (spots[i].room, i))
+    placed, crowded = _place_in(order, spots, frames)
+    keyed: list[int] = []
     for _ in range(ATTEMPTS):
         if not crowded:
             break
-        # What found no room chooses first.
+        # What found no room is said shorter and chooses first.
+        for i in sorted(crowded):
+            short = requests[i].short
+            if short == KEY and i not in keyed:
+                keyed.append(i)
+                short = (str(len(keyed)),)
+            if short and spots[i].request.short is not None:
+                spots[i] = _Spots(replace(requests[i], parts=short, short=None), ink, named)
         order = [*crowded, *(i for i in order if i not in crowded)]
-        again, still = _place_in(order, requests, spots, frames)
-        if len(still) < len(crowded):
-            placed = again
-        crowded = still
-    return tuple(item for i in range(len(requests)) for item in placed[i])
+        placed, crowded = _place_in(order, spots, frames)
+    key = [(f"{number} – ", *requests[i].parts) for number, i in enumerate(keyed, 1)]
+    return tuple(item for i in range(len(requests)) for item in placed[i]), key
 
 
 def _place_in(
-    order: Sequence[int],
-    requests: Sequence[Request],
-    spots: Sequence[_Spots],
-    frames: Sequence[tuple[complex, complex]],
+    order: Sequence[int], spots: Mapping[int, _Spots], frames: Sequence[tuple[complex, complex]]
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
     """The labels placed one after the other, and those for which no place is free."""
     taken = _Taken(frames)
     placed: dict[int, tuple[Item, ...]] = {}
     crowded: list[int] = []
     for i in order:
-        request, spot = requests[i], spots[i]
+        spot = spots[i]
+        request = spot.request
         centre, leader = spot.best(taken), None
         if centre is None:
-            centre, leader, free = _away(request, spot, taken)
+            centre, leader, free = _away(spot, taken)
+            if not free and request.short == ():
+                placed[i] = ()
+                continue
             if not free:
                 crowded.append(i)
-        labels: tuple[Item, ...] = _row(centre, request.parts, request.size)
+        labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over=i in crowded)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)
         if leader:
@@ -264,44 +297,56 @@ def _turned(prefer: tuple[float, ...]) -> Floats:
     return np.asarray((1 - (DIRECTIONS[:, None] * wanted).real).min(axis=1))
 
 
+def _distance(centres: Complexes, half: complex, points: Complexes) -> Floats:
+    """From each box to the nearest of some points, mm; infinite for none."""
+    apart = centres[:, None] - points
+    aside, above = np.abs(apart.real) - half.real, np.abs(apart.imag) - half.imag
+    return np.asarray(np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0)).min(axis=1, initial=math.inf))
+
+
 def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
     """Which boxes come too close to any stroke."""
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
-def _away(request: Request, spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
+def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
     """The nearest free spot farther out, the leader to it, which crosses no label, and whether it is free.
 
     The leader starts at the label's first point, or at another one if no spot around the first is free.
     """
-    first = _off(request, request.points[0], spot, taken)
-    if first[2]:
-        return first
-    others = (_off(request, at, spot, taken) for at in request.points[1:])
-    return next((other for other in others if other[2]), first)
+    tried = (_off(spot, at, taken) for at in spot.request.points)
+    first = next(tried)
+    return first if first[2] else next((other for other in tried if other[2]), first)
 
 
-def _off(request: Request, at: complex, spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
+def _off(spot: _Spots, at: complex, taken: _Taken) -> tuple[complex, Segment, bool]:
     """As `_away`, around one point of the label."""
-    half = spot.half
+    request, half = spot.request, spot.half
     centres = (at + _ring(half, np.asarray(FAR) + request.gap)).ravel()
     cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request.prefer)).ravel()
     leaders = _leaders(at, request.gap, centres, half)
     near = spot.ink.near(centres, half)
-    free = taken.clear(centres, half) & ~taken.crossed(leaders)
-    free[free] = ~_touched(centres[free], half, near)
-    # If any spot is free, only free spots are rated.
-    rated = np.flatnonzero(free) if free.any() else np.arange(len(centres))
+    apart = np.flatnonzero(np.abs(leaders[:, 1] - leaders[:, 0]) <= LONGEST)
+    apart = apart[taken.clear(centres[apart], half)]
+    apart = apart[~taken.crossed(leaders[apart])]
+    free = apart[~_touched(centres[apart], half, near)]
+    nearest = free[spot.nearest(centres[free])]
+    # If any spot is free, only free spots are rated, and of these only those nearest to their own point.
+    rated = next(spots for spots in (nearest, free, apart, np.arange(len(centres))) if spots.size)
+    if not free.size:
+        cost[rated] += overlap(centres[rated], np.array([half]), near, CLEAR).sum(axis=1)
 
     def full_cost(spots: Indices) -> Floats:
         tried = leaders[spots]
         return np.asarray(cost[spots] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near))
 
-    # Crossings only add to the cost: a spot that costs more without them than another with them cannot be best.
+    # Crossings only add to the cost: a spot dearer without them than another with them cannot be best.
     cheapest = rated[np.argsort(cost[rated], kind="stable")[:CHEAPEST]]
     rated = rated[cost[rated] <= full_cost(cheapest).min()]
     best = int(rated[np.argmin(full_cost(rated))])
-    return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1])), bool(free[best])
+    # What may be said shorter rather stands beside its point.
+    room = nearest if request.short else free
+    return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1])), best in room
 
 
 def _leaders(at: complex, gap: float, centres: Complexes, half: complex) -> Complexes:
@@ -334,8 +379,7 @@ def _grazes(leaders: Complexes, strokes: Complexes) -> Floats:
     return np.asarray(on.reshape(places.shape).sum(axis=1), dtype=np.float64)
 
 
-# --- from drafts to finished scenes ---------------------------------------------------------------
-# And scenes of one scale together on sheets of paper.
+# --- from drafts to finished scenes, and scenes of one scale together on sheets of paper ------------
 # Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added. `finish` places the
 # labels, crops to the content and gives the `Scene`.
 
@@ -365,7 +409,7 @@ class Canvas:
 
 def settle(draft: Canvas) -> Canvas:
     """The draft with its labels placed."""
-    return Canvas(draft.items + place(draft.items, draft.requests))
+    return Canvas(draft.items + place(draft.items, draft.requests)[0])
 
 
 def finish(
@@ -381,9 +425,10 @@ def finish(
     `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
     the same paper.
     """
-    done = settle(draft)
+    labels, key = place(draft.items, draft.requests)
+    done = Canvas(draft.items + labels)
     low, high = corners_of((*bounds(done.items), *(frame or ())))
-    below = _notes(notes, (low.real + high.real) / 2, low.imag - 3.0)
+    below = _notes([*key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
     low, high = corners_of((low, high, *bounds((*done.items, *below))))
     white = complex(margin, margin)
     size = high + white - (low - white)
@@ -391,18 +436,15 @@ def finish(
     return Scene(size.real, size.imag, items, title)
 
 
-def _notes(notes: Sequence[Content], x: float, y: float) -> tuple[Item, ...]:
-    """Lines of text centred on x, the first below y."""
+def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:
+    """Lines of text, each of several parts, centred on x, the first below y."""
     lines: list[Item] = []
     for note in notes:
-        extent = box(note, style.LABEL)
+        extent = reduce(Box.beside, (box(part, style.LABEL) for part in note))
         height = extent.height + extent.depth
-        lines.append(Label(complex(x, y - height / 2), note, "center", style.LABEL))
+        lines += _row(complex(x, y - height / 2), note, style.LABEL)
         y -= height + 1.5
     return tuple(lines)
-
-
-# --- sheets ---------------------------------------------------------------------------------------
 
 
 def sheets(

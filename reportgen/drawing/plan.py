@@ -17,7 +17,7 @@ from typing import Generic, Literal, TypeVar
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
-from reportgen.drawing.labels import MARGIN, Canvas, Request, finish, label, settle
+from reportgen.drawing.labels import KEY, MARGIN, Canvas, Request, finish, label, settle
 
 Style = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]
@@ -26,8 +26,8 @@ PENS: dict[Style, Pen] = {"known": style.KNOWN, "relative": style.RELATIVE, "fou
 
 SAME_POINT = 0.05
 """Points nearer than this (mm) look like one point and share a label joined by ≡."""
-CROWDED = 1.2
-"""Points nearer than this share a label joined by commas; an inset tells them apart."""
+CROWDED, CLOSE_BY = 1.2, 2.4
+"""Points nearer than this share a label joined by commas; an inset tells them apart.  The second on small plans."""
 BEYOND = 6.0
 """How far (mm) an auxiliary direction goes on beyond its ends."""
 
@@ -142,6 +142,11 @@ class Construction(Generic[Corner]):
         return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
     @property
+    def lettered(self) -> Construction[Corner]:
+        """Only its points named: a vector is known by the letters of its ends."""
+        return replace(self, vectors=tuple(replace(v, label=None) for v in self.vectors))
+
+    @property
     def extent(self: Plan) -> float:
         """The larger of its width and height without labels, mm."""
         low, high = bounds(_arrows(self.drawn()))
@@ -176,7 +181,10 @@ def plan(
     wider than `width` (mm), they stand in rows below it.
     """
     vectors = drawing.drawn()
-    draft = Canvas((*_lines(drawing), *_arrows(vectors), *_marks(drawing)), _labels(drawing, vectors, style.LABEL))
+    draft = Canvas(
+        (*_lines(drawing), *_arrows(vectors), *_marks(drawing)),
+        _labels(drawing, vectors, style.LABEL, CROWDED if enlarged else CLOSE_BY),
+    )
     notes = () if drawing.scale is None else (drawing.scale,)
     parts, marks = insets(drawing) if enlarged else ((), Canvas())
     further = [*beside, *parts]
@@ -192,10 +200,10 @@ def plan(
 def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin: int = 0) -> tuple[Scene, ...]:
     """The construction step by step, `factor` times as large: a panel a stage, what is new in blue.
 
-    All panels have one size.  A stage that would draw nothing new is drawn together with the next one; stages
-    before `begin` are not shown by themselves.
+    Only points are named, as on every small plan.  All panels have one size.  A stage that would draw nothing new is
+    drawn together with the next one; stages before `begin` are not shown by themselves.
     """
-    scaled = drawing.scaled(factor)
+    scaled = drawing.scaled(factor).lettered
     kept = kept_stages(scaled)
     whole = merged(scaled)
     corner = bounds((*_lines(whole), *_arrows(whole.drawn())))
@@ -211,7 +219,7 @@ def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin:
         )
         before = kept[stage - 1] if stage else -1
         title = titles(range(max(before + 1, begin), kept[stage] + 1 if kept else 1), len(panels))
-        draft = Canvas(items, _labels(part, vectors, style.SMALL))
+        draft = Canvas(items, _labels(part, vectors, style.SMALL, CLOSE_BY))
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
     width = max(panel.width for panel in panels)
     height = max(panel.height for panel in panels)
@@ -295,13 +303,17 @@ def _marks(drawing: Plan) -> list[Item]:
     return [Circle(drawing.points[0].at, 0.7, Pen(0.25), style.PAPER)]
 
 
-def _labels(drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float) -> tuple[Request, ...]:
+def _labels(
+    drawing: Plan, vectors: Sequence[PlanVector[complex]], size: float, reach: float = CROWDED
+) -> tuple[Request, ...]:
     """One label for points that nearly coincide, and those of the vectors beside their middles."""
     requests = []
-    for group in clusters(drawing.points, CROWDED, lambda point: point.at):
+    for group in clusters(drawing.points, reach, lambda point: point.at):
         at = group[0].at
         gap = 1.1 if drawing.pole and drawing.points[0] in group else 0.7
-        requests.append(label(at, *point_names(group), prefer=_outward(at, vectors), gap=gap, size=size))
+        ends, prefer = tuple(dict.fromkeys(point.at for point in group)), _outward(at, vectors)
+        short = KEY if reach == CLOSE_BY else None
+        requests.append(label(ends, *point_names(group), prefer=prefer, gap=gap, size=size, each=True, short=short))
     for vector, by in zip(vectors, set_apart(vectors), strict=True):
         way = vector.end - vector.start
         if vector.label is None or abs(way) < TINY:

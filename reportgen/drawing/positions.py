@@ -248,11 +248,13 @@ def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionP
     items: list[Item] = []
     requests: list[Request] = []
     for group in clusters(shown, TOGETHER, lambda one: one[0]):
-        at = group[0][0]
+        at, names = group[0][0], [name for _, name in group]
         items.append(Circle(at, DOT, Pen(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
-        requests.append(label(at, *joined(name for _, name in group), prefer=out, gap=DOT + 0.5, size=size))
+        # Of one path the numbers alone are enough.
+        short = joined(name.sub for name in names) if len({name.base for name in names}) == 1 else None
+        requests.append(label(at, *joined(names), prefer=out, gap=DOT + 0.5, size=size, short=short))
     return Canvas(tuple(items), tuple(requests))
 
 
@@ -350,7 +352,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     for group in clusters(read, 0.3, lambda one: one[0]):
         numbers = joined(number for _, number in group)
         outward = (cmath.phase(unit(frame.side)),)
-        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL))
+        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=()))
     if frame.axis:
         tip = frame.at(0.0, highest) + 12 * unit(frame.side)
         requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -179,6 +179,8 @@ def task_names(case: SolvedExercise) -> Mapping[str, Any]:
         "put_in": page.put_in,
         "places": page.places,
         "given": page.given,
+        "bodies": page.bodies,
+        "joints": page.joints,
         "asked": page.asked,
         "system_figure": page.figure("system"),
     }
@@ -215,6 +217,27 @@ class GivenItem:
     body: int
     value: Chain | Symbol
     way: Inlines = ()
+    time: Inlines = ()
+
+
+@dataclass(frozen=True)
+class BodyItem:
+    """A body: the points that move with it, and centre and radius of its disc if it is one."""
+
+    body: int
+    points: Inlines
+    centre: NamedPoint | None = None
+    radius: Number | Expression | None = None
+
+
+@dataclass(frozen=True)
+class JointItem:
+    """A joint: the key of its words, its points, its bodies in words, and a direction."""
+
+    form: str
+    points: Sequence[NamedPoint]
+    bodies: Sequence[str]
+    way: Inlines = ()
 
 
 @dataclass(frozen=True)
@@ -241,6 +264,45 @@ class SolutionPage(Solution):
     def given(self) -> tuple[GivenItem, ...]:
         return tuple(self._given_items())
 
+    @property
+    def bodies(self) -> tuple[BodyItem, ...]:
+        """The bodies of the system, the ground if it has a disc."""
+        return tuple(self._body(number, one) for number, one in self.case.exercise.given.bodies.items())
+
+    def _body(self, number: int, one: file.BodyOf) -> BodyItem:
+        points = listed(InlineMath(vocabulary.point(name)) for name in one.points)
+        if one.disc is None:
+            return BodyItem(number, points)
+        given = one.disc.radius
+        number_typed = Number(float(f"{given.value:.{TYPED}g}"), None, pretty(given.unit))
+        radius = lettered(given.formula) if isinstance(given, Literal) else number_typed
+        return BodyItem(number, points, NamedPoint(one.disc.centre), radius)
+
+    @property
+    def joints(self) -> tuple[JointItem, ...]:
+        """What joins the bodies."""
+        return tuple(self._joint(one) for one in self.case.exercise.given.joints)
+
+    def _joint(self, joint: file.Joint) -> JointItem:
+        words, told = (
+            self.case.words["instant"],
+            joint.model_dump(include={"at", "point", "through"}, exclude_none=True),
+        )
+        points = [NamedPoint(name) for name in (*told.values(), *getattr(joint, "points", ()))]
+        numbers = [getattr(joint, key) for key in ("body", "disc", "on") if hasattr(joint, key)]
+        numbers += getattr(joint, "bodies", getattr(joint, "discs", ()))
+        names = [str(words["body"]).format(n) if n else str(words["ground"]) for n in numbers]
+        form = joint.type.replace(" ", "-") + ("-crossed" if getattr(joint, "crossed", False) else "")
+        return JointItem(form, points, names, self._direction(joint) if isinstance(joint, file.Directed) else ())
+
+    def _direction(self, joint: file.Directed) -> Inlines:
+        """At an angle to the +x axis, or along two points."""
+        at_angle, along = self.case.words["instant"]["directions"]
+        if joint.along is not None:
+            return Text(f"{along} "), *(InlineMath(vocabulary.point(name)) for name in joint.along)
+        before, after = str(at_angle).split("{}")
+        return Text(before), *self._angle(joint.angle.si if joint.angle else 0.0), Text(after)
+
     def _given_items(self) -> Iterator[GivenItem]:
         for rate in self.case.exercise.given.given:
             match rate:
@@ -252,10 +314,10 @@ class SolutionPage(Solution):
                     yield self._given_vector("velocity", ids.velocity(rate.point), rate)
                 case file.AccelerationOf():
                     yield self._given_vector("acceleration", ids.acceleration(rate.point), rate)
-                case file.FromRest(point=point, acceleration=acceleration, time=time):
+                case file.FromRest(point=point, acceleration=acceleration, time=time, direction=direction):
                     shown = self._typed(ids.acceleration(point), acceleration)
                     after = (InlineMath(Chain((Symbol("t"), Number(time.value, None, time.unit)))),)
-                    yield GivenItem("from-rest", NamedPoint(point), 0, shown, after)
+                    yield GivenItem("from-rest", NamedPoint(point), 0, shown, self._angle(direction.si), after)
 
     def _given_rotation(self, form: str, id: str, rate: file.OmegaOf | file.EpsilonOf) -> GivenItem:
         sense = (Text(self._sense(rate.value.si)),)

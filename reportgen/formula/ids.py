@@ -148,6 +148,7 @@ angular_velocity = Name("omega.{link}")
 angular_acceleration = Name("eps.{link}")
 signed = Name("turn.{rate}.{link}")  # anticlockwise positive
 bound_of_speed = Name("omega.{bound}")
+tangent = Name("psi.{bound}")  # to the energy–mass diagram
 LINK_RATE: Mapping[str, Name] = {"omega": angular_velocity, "eps": angular_acceleration}
 
 # --- plans of velocities and accelerations

@@ -81,9 +81,10 @@ def make_key(
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
         integral = family.definition is None or ids.rest(id) in ledger
-        workable = not family.residue and (len(values) > 1 or not integral)
-        workable = workable and (part is not Chapter.cycle or complete) and is_workable(ledger, id, by_rule)
-        asked = (role is Role.scale and not is_round_scale(family)) or (role is Role.asked and workable)
+        reached = part is not Chapter.cycle or complete
+        workable = not family.residue and (len(values) > 1 or not integral) and is_workable(ledger, id, by_rule)
+        chosen = role is Role.scale and not is_round_scale(family)
+        asked = reached and (chosen or (role is Role.asked and workable))
         return KeyRow(
             id=id,
             part=part,
@@ -266,7 +267,7 @@ DEFAULT = (
     # How it was drawn: lengths and angles on paper, scales, arms.
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
     # Second ways to the same result.
-    *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p"),
+    *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-psi.*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
 )

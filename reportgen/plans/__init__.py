@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import significant_decimals
-from reportgen.formula import PI, Expression, Number, Ref, Symbol, call, circle_line, ids, sqrt, total
+from reportgen.formula import PI, Expression, Number, Ref, Symbol, atan, call, circle_line, ids, sqrt, total
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
@@ -22,6 +22,7 @@ from reportgen.machine.loads import FULL_TURN, Piston, TableLaw
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
+from reportgen.plans.scales import DIAGRAM, fitting_axis
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
@@ -231,7 +232,7 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
     What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral.
     Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
     `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
-    `A.lower`, and `J.d` the flywheel.
+    `A.lower`, and `J.d` the flywheel; what the energy–mass diagram is drawn with, and Mercalov's `J.I` beside it.
     """
     machine = analysis.machine
     at = np.searchsorted(regulated.angle, machine.cycle_angles - 1e-9)
@@ -272,9 +273,35 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
     a = _with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
     b = _with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
     J_d = q.define("J.d", (a - b) / (δ * ω1**2))
+    if inertia is not None:
+        _energy_mass(q, regulated)
+    if inertia is not None and regulated.moment > 0:
+        _constant_group(q, regulated, machine.speed)
     if regulated.moment > 0:
         energy = q["omega.max"] ** 2 * J_d / 2 - a + A
         _with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
+
+
+def _energy_mass(q: Sheet, regulated: flywheel.RegulatedCycle) -> None:
+    """The scales of the energy–mass diagram and the inclinations of its tangents, tan ψ = μ_J ω²/(2 μ_A)."""
+    heights = np.append(regulated.work, (regulated.upper, regulated.lower, 0.0))
+    μ_J = q.give("mu.J", fitting_axis(float(regulated.inertia.max()), DIAGRAM[0]))
+    μ_A = q.give("mu.A", fitting_axis(float(np.ptp(heights)), DIAGRAM[1]))
+    for name in ("max", "min"):
+        q.define(ids.tangent(name), atan(μ_J * q[ids.bound_of_speed(name)] ** 2 / (2 * μ_A)))
+
+
+def _constant_group(q: Sheet, regulated: flywheel.RegulatedCycle, speed: float) -> None:
+    """Mercalov's way: the energy of the group with constant inertia, that of the links taken at the mean speed.
+
+    T_I = A − J_r ω₁²/2 but for a constant, J_I = ΔT_I/(δ ω₁²).
+    """
+    energy = regulated.work - speed**2 / 2 * regulated.inertia
+    most, range_ = float(np.abs(energy).max()), float(np.ptp(energy))
+    T = q.define("T.I", q["A.excess"] - q["J.r"] * q["omega.1"] ** 2 / 2, scale=most)
+    ΔT = _with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
+    J_I = q.define("J.I", ΔT / (q["unevenness"] * q["omega.1"] ** 2))
+    q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", residue=True)
 
 
 def _with_rest(

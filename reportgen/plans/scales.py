@@ -17,6 +17,8 @@ SHEET_BOXES = (0.360, 0.210), (0.235, 0.335)
 """What a plan may fill on an A3 sheet (m), lying or standing."""
 LEAST_MOTION, LEAST_FORCES = 0.060, 0.100
 """A worked plan of velocities or accelerations, and one of forces, is drawn at least so wide or high (m)."""
+DIAGRAM = 0.110, 0.090
+"""The energy–mass diagram is at most so wide and high (m)."""
 UNLOADED = 1e-6
 """A plan below this share of the largest one is that of an unloaded position."""
 PER_MM = 1e3
@@ -33,6 +35,11 @@ def fitting(sizes: np.ndarray, box: tuple[float, float]) -> float:
     """The smallest round scale with which all plans of the `sizes` [2, K] (SI) fit the box (m); 0 without any."""
     needed = float(np.max(sizes / np.array(box)[:, None], initial=0.0))
     return nice_up(needed / PER_MM) * PER_MM if needed > 0 else 0.0
+
+
+def fitting_axis(length: float, room: float) -> float:
+    """The smallest round scale at which a length (SI) fits an axis (m of paper)."""
+    return nice_up(length / room / PER_MM) * PER_MM
 
 
 def filling(sizes: np.ndarray, least: float) -> float:

@@ -331,6 +331,20 @@ ABREAST = 8.0
 """Between two short rows of an equation side by side, mm."""
 TEXT_SIZE = 12.0
 """Of running text and formulas, points."""
+
+
+@dataclass(frozen=True, slots=True)
+class Letter:
+    """The font of running text, "" for the typesetter's own, and its size in points.
+
+    Formulas and the labels of figures keep their own letters, which they are measured by.
+    """
+
+    font: str = ""
+    size: float = TEXT_SIZE
+
+
+OWN_LETTER = Letter()
 WHOLE_TABLE = 12
 """A table with no more rows than this is kept on one page."""
 TOGETHER = 3

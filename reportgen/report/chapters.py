@@ -124,6 +124,16 @@ def energy_bounds(report: Report) -> list[str]:
     return ["A.upper", "A.lower"]
 
 
+def tangent_lines(report: Report) -> list[str]:
+    """The scales of the energy–mass diagram and the inclinations of its tangents."""
+    return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
+
+
+def constant_group(report: Report) -> list[str]:
+    """What Mercalov's way comes to; nothing where it is not gone."""
+    return report.known(["T.range", "J.I"])
+
+
 def stores(report: Report) -> str:
     """What stores the excess work: the "links" with the flywheel, or the flywheel "alone"."""
     return "links" if report.has_reduced_inertia else "alone"

@@ -25,8 +25,8 @@ from reportgen.report.report import Report, lower_digits
 
 THINNED = 4
 """Every fourth of the samples is enough for a curve of the flywheel."""
-NARROW = 1e-3
-"""Below this share of J_r its variation is no width for a diagram, and the lines are drawn from the axis on."""
+ARCS = 16.0, 26.0
+"""Radii of the arcs of ψ_max and ψ_min, mm."""
 
 # --- axes
 
@@ -231,18 +231,21 @@ def flywheel_work(report: Report) -> FigureScenes:
 
 
 def wittenbauer(report: Report) -> FigureScenes:
-    """A over J_r with the two lines whose slopes are half the squares of the bounds of speed."""
-    wheel = _wheel(report)
-    ends = np.array([wheel.inertia.min(), wheel.inertia.max()])
-    if np.ptp(ends) < NARROW * ends[1]:
-        ends = np.array([0.0, 1.2 * ends[1]])
-    lines = [
-        charts.PlottedCurve(report.ledger.symbol(id), ends, height + bound**2 / 2 * ends)
-        for id, height, bound in (("omega.max", wheel.upper, wheel.fastest), ("omega.min", wheel.lower, wheel.slowest))
-    ]
+    """A over J_r from the axis J = 0 on, which the tangents of the two bounds of speed meet at a and b."""
+    wheel, ledger = _wheel(report), report.ledger
+    ends = np.array([0.0, wheel.inertia.max()])
+    bounds = (("max", "A.upper", wheel.upper, wheel.fastest), ("min", "A.lower", wheel.lower, wheel.slowest))
+    lines, angles = [], []
+    for radius, (name, height, at, speed) in zip(ARCS, bounds, strict=True):
+        shown, slope = ledger.symbol(ids.bound_of_speed(name)), speed**2 / 2
+        lines.append(charts.PlottedCurve(shown, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
+        angles.append(charts.Inclination(ledger.symbol(ids.tangent(name)), 0.0, at, slope, radius))
     curve = charts.PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
-    return FigureScenes((charts.chart((curve, *lines), across, up, turn=False, area=report.area),))
+    scales = ledger.number("mu.J").value, ledger.number("mu.A").value
+    area = replace(report.area or charts.Area(), scales=scales)
+    drawn = charts.plotted((curve, *lines), across, up, turn=False, area=area, inclinations=angles)
+    return FigureScenes((drawn.scene,))
 
 
 def flywheel_speed(report: Report) -> FigureScenes:

@@ -7,11 +7,13 @@ one group or of several.  Gaps in braces are filled with members of what the phr
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence, Sized
+from math import degrees
 from string import Formatter
 from typing import TYPE_CHECKING, Any
 
+from reportgen.base.units import MM
 from reportgen.formula import Expression, Number, Symbol, ids, vocabulary
-from reportgen.machine.loads import Opposing
+from reportgen.machine.loads import ConstantLaw, Law, Opposing, TableLaw
 from reportgen.plans.motion import POLES
 from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
@@ -193,6 +195,68 @@ def energy_key(report: Report) -> str:
     if report.has_gas or not report.driver.centre:
         return "gas" if report.has_gas else "stroke"
     return "idle" if report.is_zero("W", 1) else "turn"
+
+
+def no_mean(report: Report) -> Inlines:
+    """Why the mean of what balances the driver is nothing; nothing where it is something."""
+    if not report.has_forces or not report.is_zero("M.mean"):
+        return ()
+    laws = [load.law for load in report.loads]
+    key = "free" if not laws else "constant" if all(map(_is_constant, laws)) else "other"
+    return say(report, report.words["no_mean"][key], report.words["driven"][report.driver.kind])
+
+
+def _is_constant(law: Law) -> bool:
+    """Whether a load has one size over the whole cycle."""
+    in_table = {size for row in law.table.rows for size in row} if isinstance(law, TableLaw) else set()
+    return isinstance(law, ConstantLaw) or len(in_table) == 1
+
+
+def constant_force(report: Report) -> Inlines:
+    """In which stroke a constant working force acts, and whether with the motion; nothing for any other force."""
+    if "P.given" not in report.ledger or "stroke" not in report.own:
+        return ()
+    told = report.words["constant_force"][report.own["stroke"]]
+    return say(report, told.get(sign(report, "P.given"), ""), report.words["ways"])
+
+
+def first_position(report: Report) -> Inlines:
+    """Where the driver is in the first position: at its natural place, at an angle, or at a way along its guide."""
+    words, machine = report.words["first_position"], report.machine
+    start, first = report.assignment.positions.start, machine.position(1)
+    if machine.span:
+        way = Number(_plain(machine.start * MM), unit="mm")
+        place: dict[str, Any] = {"label": first.label, "pin": NamedPoint(report.driver.pin), "place": way}
+        return say(report, words["along" if machine.turn > 0 else "against"], **place)
+    natural = report.words.get("beginning", {}).get("dead_centre")
+    if start is None and natural:
+        return say(report, words["dead_centre"], label=first.label, place=natural.rstrip(","))
+    angle = machine.start if start is None else start.si
+    return say(report, words["given"], label=first.label, angle=Number(_plain(degrees(angle)), unit="°"))
+
+
+def _plain(value: float) -> float:
+    """A typed number without the dust of its conversion."""
+    return float(f"{value:.10g}") + 0.0
+
+
+def strokes_at_start(report: Report) -> Inlines:
+    """On which stroke each piston leaves the first position, which tells in which of its turns it is."""
+    words, strokes = report.words["strokes_at_start"], report.words["strokes"]
+    told = [(state.piston.link, str(strokes[state.stroke[0]]).lower()) for state in report.analysis.gas.values()]
+    phrases = [words[index > 0].format(link=link, stroke=stroke) for index, (link, stroke) in enumerate(told)]
+    return (Text(f"{''.join(phrases)}."),) if phrases else ()
+
+
+def label_pairs(report: Report) -> str:
+    """Which labels the first numbers of positions stand for, up to behind the first letter; "" where they are alike."""
+    machine = report.machine
+    turn = machine.numbered(range(1, machine.count + 1))
+    if all(k.label == f"{int(k)}" for k in turn):
+        return ""
+    first = next((k for k in turn if k.label.isalpha()), turn[0])
+    pairs = [report.words["label_pair"].format(number=int(k), label=k.label) for k in turn[: first + 1]]
+    return ", ".join((*pairs, "…"))
 
 
 def load_sense(report: Report, name: str) -> Inlines:

@@ -174,7 +174,7 @@ def _plates(
     If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
     """
     word = report.words["table"]["position"]
-    plans = {k: replace(drawing(report, k), scale=None, lines=()) for k in positions}
+    plans = {k: replace(drawing(report, k).lettered, scale=None, lines=()) for k in positions}
     largest = max(shown.extent for shown in plans.values())
 
     def scenes(share: float) -> Iterator[Scene]:

@@ -32,11 +32,19 @@ WORDS, LINE = 9, 12
 """Of the words before an equation that leads to a table, and of a line of it."""
 FRAME = r"\vrule width\heavyrulewidth"
 """The side of a framed table."""
+LEADING = 1.2
+"""From line to line, in font sizes."""
 LONG, SHORT = 42, 18
 """Of words with what they lead to: a vector equation in two storeys or the first step of a list, any other row."""
 
 
-def write(document: tree.Document) -> str:
+FAMILIES: Mapping[str, tuple[str, str, str]] = dict.fromkeys(
+    ("Times New Roman", "Times", "TeX Gyre Termes", "Nimbus Roman", "Liberation Serif"), ("tgtermes.sty", "qtm", "utm")
+)
+"""Fonts by their names elsewhere: a package with its family, and where that is missing the family that VnTeX brings."""
+
+
+def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
     """The complete LaTeX source, which compiles as it stands.
 
     Raises `TypesetterError` for a character the fonts do not have.
@@ -52,6 +60,10 @@ def write(document: tree.Document) -> str:
         characters=declarations(),
         gap=f"{tree.ABREAST:g}",
         body=body,
+        family=FAMILIES.get(letter.font),
+        size=f"{letter.size:g}",
+        lead=f"{letter.size * LEADING:.4g}",
+        larger=letter.size != tree.TEXT_SIZE,
     )
 
 

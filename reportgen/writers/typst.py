@@ -8,7 +8,7 @@ between spaces, because identifiers of Typst may hold a hyphen.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import ClassVar
 
@@ -35,6 +35,7 @@ from reportgen.formula.setting import (
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.writers.drawing import paint_typst
+from reportgen.writers.typst_run import breadth
 
 
 def literal(text: str) -> str:
@@ -102,8 +103,8 @@ SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 
 
-def write(document: tree.Document) -> str:
-    """The complete Typst source of a document; it needs no other file.
+def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
+    """The complete Typst source of a document; it needs no other file but fonts of the system.
 
     Raises `TypesetterError` if the frame is missing.
     """
@@ -114,10 +115,20 @@ def write(document: tree.Document) -> str:
             f"lang: {literal(document.language)}",
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
+            *_in(letter),
         )
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def _in(letter: tree.Letter) -> Iterator[str]:
+    """The letter as the frame is told it; tables in a broad font are set smaller, since their columns are as wide."""
+    if letter.font:
+        yield f"font: {literal(letter.font)}"
+        yield f"narrower: {breadth(letter.font):.4g}"
+    if letter.size != tree.TEXT_SIZE:
+        yield f"size: {letter.size:g}pt"
 
 
 def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:

@@ -8,13 +8,14 @@ import tempfile
 import unicodedata
 import warnings
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 
 from reportgen.base.errors import TypesetterError
 
 
-def compile(source: str) -> bytes:
-    """The PDF of a Typst source, byte for byte the same from run to run.
+def compile(source: str, system: bool = False) -> bytes:
+    """The PDF of a Typst source, byte for byte the same from run to run; it may name fonts of the `system`.
 
     Raises `TypesetterError` with the message's first lines.
     """
@@ -29,12 +30,28 @@ def compile(source: str) -> bytes:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
         try:
-            pdf = typst.compile(str(path), root=folder, ignore_system_fonts=own)
+            pdf = typst.compile(str(path), root=folder, ignore_system_fonts=own and not system)
         except typst.TypstError as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
     assert isinstance(pdf, bytes)
     return pdf
+
+
+def families() -> list[str]:
+    """The fonts that a source may name: the typesetter's own and those of the system, in order."""
+    import typst
+
+    return sorted(typst.Fonts(include_system_fonts=True).families())
+
+
+@lru_cache(maxsize=16)
+def breadth(font: str) -> float:
+    """How many times as broad as in the typesetter's own font a text is in another, at least 1."""
+    import typst
+
+    answer = typst.query(BREADTH.format(font=font, own=FONT).encode(), "<breadth>", field="value", one=True)
+    return max(1.0, float(json.loads(answer)))
 
 
 def lacking(letters: str, system: bool) -> str:
@@ -71,6 +88,15 @@ QUESTION = """\
   #metadata(({letters},).filter(letter => size(letter) == size("{nowhere}"))) <lacking>
 ]
 """
+
+
+BREADTH = """\
+#let breadth(font, weight) = measure(text(font: font, weight: weight, size: 10pt)[
+  Hamburgefonstiv vận tốc góc của khâu 0123456789,0123456789]).width
+#context [#metadata(calc.max(..("regular", "bold").map(weight =>
+  breadth("{font}", weight) / breadth("{own}", weight)))) <breadth>]
+"""
+"""What the typesetter is asked about the letters of a font; words and numbers, as tables have them."""
 
 
 class MissingLettersWarning(UserWarning):

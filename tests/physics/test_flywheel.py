@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 import re
 from dataclasses import replace
@@ -12,11 +13,15 @@ import pytest
 
 from reportgen import api
 from reportgen.base.words import kinds
+from reportgen.cases import open_case
+from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.flywheel import RegulatedCycle, accumulated, flywheel, reduced_inertia, regulate
 from reportgen.machine.loads import FULL_TURN
 from reportgen.plans import write_ledger
+from reportgen.report.curves import wittenbauer
+from reportgen.report.report import Report
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
@@ -166,14 +171,19 @@ def api_mean(machine: Machine) -> float:
     return summarise(machine).mean_torque
 
 
-def test_the_report_prints_what_was_found(machine: Machine) -> None:
-    """The printed definitions of J_r and J_d, evaluated, are the arrays they stand for."""
+def with_unevenness(machine: Machine, delta: float) -> Machine:
+    """The machine of an assignment that asks for the flywheel of δ."""
     sheet = Sheet()
     for family in machine.sheet.families.values():
         if family.id != "unevenness":
             sheet.enter(family)
-    sheet.give("unevenness", 1 / 50, "δ", "ratio")
-    analysis = analyse(replace(machine, unevenness=1 / 50, sheet=sheet))
+    sheet.give("unevenness", delta, "δ", "ratio")
+    return replace(machine, unevenness=delta, sheet=sheet)
+
+
+def test_the_report_prints_what_was_found(machine: Machine) -> None:
+    """The printed definitions of J_r and J_d, evaluated, are the arrays they stand for."""
+    analysis = analyse(with_unevenness(machine, 1 / 50))
     written = write_ledger(analysis)
     ledger, regulated = written.ledger, written.flywheel
     assert regulated is not None
@@ -202,3 +212,40 @@ def test_wittenbauers_lines_touch_the_curve(machine: Machine) -> None:
     for bound, height, sign in ((found.fastest, found.upper, 1), (found.slowest, found.lower, -1)):
         line = height + bound**2 / 2 * found.inertia
         assert (sign * (line - found.work)).min() == pytest.approx(0, abs=1e-9 * np.abs(found.work).max())
+
+
+@pytest.mark.parametrize("delta", [1 / 20, 1 / 100])
+def test_mercalovs_way_differs_by_no_more_than_the_inertia_of_the_links(machine: Machine, delta: float) -> None:
+    """J_I = ΔT_I/(δ ω²) with the links' energy at the mean speed, off by the share δ + δ²/4 of it at most, either way.
+
+    So J_d ≤ J_I ≤ J_d + (1 + δ/4) max J_r: the difference is of the order of δ beside ΔT_I/(δ ω²).
+    """
+    ledger, found = write_ledger(analyse(with_unevenness(machine, delta))).ledger, flywheel(machine, delta)
+    links = kinetic_over_square(machine, found.angle)
+    if "J.I" not in ledger:
+        assert not links.any() or found.moment <= 0
+        return
+    energy = found.work - machine.speed**2 / 2 * links
+    by_energy, by_diagram = (ledger[id].values[0] for id in ("J.I", "J.d"))
+    assert by_energy == pytest.approx((energy.max() - energy.min()) / (delta * machine.speed**2), rel=1e-9)
+    dust = 1e-9 * by_energy
+    assert -dust <= by_energy - by_diagram <= (1 + delta / 4) * links.max() + dust
+
+
+@pytest.mark.parametrize("name", ["engine-single-I", "slider-crank-01", "toggle-press-01"])
+def test_the_tangents_are_drawn_to_the_axis_at_their_inclinations(name: str) -> None:
+    """From J = 0, at a and b, at the angles ψ that the text prints to 0.01° and at its scales μ_J, μ_A."""
+    case = open_case(ASSIGNMENTS / f"{name}.yaml")
+    ledger, (scene,) = case.printed, wittenbauer(Report(case)).scenes
+    frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
+    left = frame.points[0].real
+    open_lines = [item.points for item in scene.items if isinstance(item, Polyline) and not item.closed]
+    upper, lower = ((points[0], points[-1]) for points in open_lines if abs(points[0].real - left) < 1e-9)
+    for points, bound in ((upper, "max"), (lower, "min")):
+        angle = math.degrees(cmath.phase(points[1] - points[0]))
+        assert angle == pytest.approx(ledger.number(f"psi.{bound}").shown, abs=0.01)
+    apart = ledger.number("A.upper").value - ledger.number("A.lower").value
+    # Both heights are printed with five figures.
+    assert (upper[0] - lower[0]).imag * ledger.number("mu.A").value == pytest.approx(apart, rel=2e-4)
+    reach = (upper[1] - upper[0]).real * ledger.number("mu.J").value
+    assert reach == pytest.approx(flywheel(case.analysis.machine, case.analysis.machine.unevenness).inertia.max())

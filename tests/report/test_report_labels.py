@@ -5,15 +5,19 @@ Where the crank is drawn small the vectors of a plan shrink and the letters do n
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 
 import pytest
 import yaml
 
 from reportgen import api
-from reportgen.drawing import Arrow, Label, Scene
+from reportgen.drawing import Arrow, Label, Line, Scene
 from reportgen.drawing.geometry import box
-from tests.drawing.overlaps import overlaps
+from reportgen.drawing.labels import KEY, Canvas, finish, label
+from reportgen.formula import Chain, Symbol
+from reportgen.report import Figure
+from tests.drawing.overlaps import astray, cross, overlaps, watched
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written
@@ -41,6 +45,42 @@ def test_labels_are_clear_where_the_crank_is_drawn_small(path: Path, crank: str,
     file = tmp_path / path.name
     file.write_text(yaml.safe_dump(content, allow_unicode=True), encoding="utf-8")
     assert faults(built.compose(api.load(file))) == []
+
+
+@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
+def test_leaders_are_short_and_cross_none_and_labels_stand_at_their_own_points(path: Path) -> None:
+    """A label beside its point is nearer to it than to any other's; only one on a leader may stand elsewhere."""
+    with watched() as figures:
+        built.compose(api.load(path))
+    assert figures
+    for figure in figures:
+        leaders = [one.leader for one in figure if one.leader]
+        assert max((abs(leader.end - leader.start) for leader in leaders), default=0.0) <= 12.0
+        assert not any(cross(*pair) for pair in combinations(leaders, 2))
+        assert all(one.leader for one in astray(figure))
+
+
+@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
+def test_small_plans_name_points_only_and_print_their_scale_once(path: Path) -> None:
+    """The scale stands behind the caption, or once on a sheet; no panel repeats it."""
+    document = built.written(path, built.own_language(path)).document
+    for key, scene in built.scenes(document):
+        if key.endswith((".plates", ".stages")):
+            written = [item.content for item in scene.items if isinstance(item, Label)]
+            assert not [one for one in written if isinstance(one, Symbol) and one.over == "vector"]
+            assert sum(isinstance(one, Chain) for one in written) <= 1
+    for block in built.walk(document.blocks):
+        if isinstance(block, Figure) and block.key.endswith((".plates", ".stages")):
+            parts = [item.content for scene in block.scenes for item in scene.items if isinstance(item, Label)]
+            assert not [one for one in parts if isinstance(one, Chain)]
+
+
+def test_what_finds_no_room_is_a_number_that_a_line_below_explains() -> None:
+    """Between two walls there is room for a digit and none for the name."""
+    walls = tuple(Line(complex(x, -20), complex(x, 20)) for x in (*range(-40, -1, 2), *range(2, 41, 2)))
+    draft = Canvas(walls, (label(0j, Symbol("n", "CD"), short=KEY),))
+    written = [item.content for item in finish(draft).items if isinstance(item, Label)]
+    assert written == ["1", "1 – ", Symbol("n", "CD")]
 
 
 def test_a_label_on_an_arrow_head_is_seen() -> None:

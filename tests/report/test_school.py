@@ -8,10 +8,14 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.base.errors import TemplateError
-from reportgen.base.words import templates
+from reportgen.base.errors import AssignmentError, TemplateError
+from reportgen.base.units import Language
+from reportgen.base.words import sections, templates
 from reportgen.report import text_of
+from reportgen.sheets import frame
+from reportgen.writers import latex, pdflatex
 from tests.lanes import proof
+from tests.report.built import needs_tex
 
 SAMPLE = Path(__file__).parents[2] / "assignments" / "engine-twin-05.yaml"
 
@@ -72,3 +76,89 @@ def test_a_section_that_no_report_has_is_a_located_fault(tmp_path: Path, monkeyp
 def test_an_unknown_school_is_a_located_fault(tmp_path: Path, name: str) -> None:
     (problem,) = api.check(with_school(tmp_path, name), "en")
     assert (problem.code, problem.mark.line, problem.mark.column) == ("no-such-school", 7, 11)
+
+
+# --- a school's letter
+
+
+MARGIN = 20 / 25.4 * 72
+"""The white to the right of the text, points."""
+
+
+def lettered(folder: Path, **letter: str) -> Path:
+    file = folder / "mine.yaml"
+    lines = "".join(f"\n  {key}: {value}" for key, value in letter.items())
+    text = (SAMPLE.parent / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    file.write_text(text.replace("  language: vi", f"  language: vi{lines}"), encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize(("engine", "there"), [("typst", "New Computer Modern"), ("latex", "Times New Roman")])
+def test_a_font_that_an_engine_lacks_is_a_located_fault(tmp_path: Path, engine: api.Engine, there: str) -> None:
+    file = lettered(tmp_path, font="No Such Font")
+    assert api.check(file) == []
+    with pytest.raises(AssignmentError) as caught:
+        api.build(file, tmp_path / "out", engine)
+    (problem,) = caught.value.problems
+    assert (problem.code, problem.mark.line, problem.mark.column) == ("no-such-font", 7, 9)
+    assert "No Such Font" in problem.message
+    assert there in problem.message
+
+
+def test_a_size_that_no_school_asks_for_is_a_fault(tmp_path: Path) -> None:
+    (problem,) = api.check(lettered(tmp_path, size="40 pt"))
+    assert (problem.code, problem.mark.line) == ("choice", 7)
+
+
+def test_tables_and_lines_keep_within_the_page_in_a_broad_font(tmp_path: Path) -> None:
+    """A font that comes with typst, a fifth broader than its usual one, a point larger."""
+    pymupdf = pytest.importorskip("pymupdf")
+    built = api.build(lettered(tmp_path, font="DejaVu Sans Mono", size="13 pt"), tmp_path / "out", keep_source=True)
+    with pymupdf.open(built) as document:
+        spans = [
+            span
+            for page in document
+            for block in page.get_text("dict")["blocks"]
+            for line in block.get("lines", ())
+            for span in line["spans"]
+        ]
+        beyond = [
+            word[4]
+            for page in document
+            for word in page.get_text("words")
+            if page.rect.width < page.rect.height and word[2] > page.rect.width - MARGIN + 1
+        ]
+    assert sum("DejaVuSansMono" in span["font"] for span in spans) > len(spans) / 3
+    assert any(span["size"] == pytest.approx(13, abs=0.01) for span in spans)
+    assert beyond == []
+
+
+def test_a_letter_changes_no_word(tmp_path: Path) -> None:
+    own, other = api.load(lettered(tmp_path)), api.load(lettered(tmp_path, font="Times New Roman", size="13 pt"))
+    assert text_of(api.document(own)) == text_of(api.document(other))
+
+
+@needs_tex
+def test_latex_sets_times_and_nothing_stands_out(tmp_path: Path) -> None:
+    pymupdf = pytest.importorskip("pymupdf")
+    assignment = api.load(lettered(tmp_path, font="Times New Roman", size="13 pt"))
+    done = pdflatex.compile(latex.write(api.document(assignment), api.letter_of(assignment, "latex")))
+    assert done.overfull == ()
+    with pymupdf.open(stream=done.pdf, filetype="pdf") as document:
+        fonts = {font[3] for page in document for font in page.get_fonts()}
+        assert any("NimbusRoman" in font or "Termes" in font for font in fonts)
+        assert "Thuyết minh" in document[3].get_text()
+
+
+@pytest.mark.parametrize(("language", "ours"), [("vi", "Trường Đại học Mẫu"), ("en", "Sample University")])
+def test_the_sample_school_shows_all_that_a_school_changes(language: Language, ours: str) -> None:
+    folder = templates() / "sample-school"
+    assignment = api.load(folder / "assignment.yaml", language)
+    assert (assignment.report.font, assignment.report.size) == ("Times New Roman", "13 pt")
+    document = api.document(assignment)
+    text = text_of(document)
+    assert ours in document.header[0]
+    for section in ("foreword", "references"):
+        heading = sections(folder / f"{language}.md")[section].text.splitlines()[0].split("{{")[0].strip("# ")
+        assert heading in text
+    assert frame.blocks("sample-school")["tcvn"].is_relative_to(folder)

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.base.errors import Mark
+from reportgen.base.source import MappingNode, Scalar, put, read_source, text_of
 from reportgen.catalogue import module
 from reportgen.machine.analysis import Analysis, analyse
+from tests.told import told
 
 FILE = Path(__file__).parents[2] / "assignments" / "engine-v-01.yaml"
 ALPHA, BETA = math.radians(50), math.radians(70)
@@ -90,3 +94,80 @@ def test_both_rods_on_one_pin(tmp_path: Path, direction: str) -> None:
         first = getattr(one.motion.points["C"], part) / axis["C"]
         second = getattr(other.motion.points["E"], part) / axis["E"]
         assert second == pytest.approx(first, abs=1e-9 * np.abs(first).max())
+
+
+# --- positions with labels, and an engine that does no work -----------------------------------------------
+
+
+def with_worked(tmp_path: Path, worked: str) -> Path:
+    """The published engine with other worked positions."""
+    path = tmp_path / "v.yaml"
+    text = FILE.read_text(encoding="utf-8").replace("worked_positions: [4] ", f"worked_positions: {worked} ")
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("named", ['["1", a, "2"]', "[2, 3, 4]", '["1", 3, "2"]', "['1', \"a\", 4]"])
+def test_a_label_names_its_position_and_a_number_counts_all_of_them(tmp_path: Path, named: str) -> None:
+    """The crank has turned 45°, 50° and 90°: the positions 1, a, 2 are the second, third and fourth."""
+    path = with_worked(tmp_path, named)
+    assert api.load(path).worked_positions == (2, 3, 4)
+    (note,) = [problem for problem in api.examine(path, "en") if problem.level == "note"]
+    assert (note.mark.line, note.mark.column) == (7, 21)
+    assert "number 2, labelled 1; number 3, labelled a; number 4, labelled 2" in note.message
+
+
+@pytest.mark.parametrize(
+    ("named", "code"),
+    [('["9"]', "no-such-label"), ("[c]", "no-such-label"), ("[11]", "no-such-position"), ('[2, "1"]', "repeated")],
+)
+def test_labels_that_no_position_has(tmp_path: Path, named: str, code: str) -> None:
+    """The ten positions are 0, 1, a, 2, 3, 4, 5, b, 6, 7."""
+    assert [problem.code for problem in api.check(with_worked(tmp_path, named))] == [code]
+
+
+def test_labels_stay_labels_when_a_file_is_written_anew(tmp_path: Path) -> None:
+    """A class's variant keeps the quotation marks of what is a label, beside a value that it puts in."""
+    path = with_worked(tmp_path, '["1", a]')
+    text = path.read_text(encoding="utf-8").replace(
+        "report:\n", "report: {language: vi, worked_positions: ['1', a]}\n#"
+    )
+    path.write_text(re.sub(r"\n  (language|course|worked_positions):.*", "", text), encoding="utf-8")
+    top = read_source(path).top
+    assert isinstance(top, MappingNode)
+    changed = put(top, ("report", "language"), Scalar("en", Mark("")))
+    assert isinstance(changed, MappingNode)
+    path.write_text(text_of(changed, path.read_text(encoding="utf-8"), top), encoding="utf-8")
+    assert (api.load(path).language, api.load(path).worked_positions) == ("en", (2, 3))
+
+
+def test_constant_forces_do_no_work_and_check_warns_of_it() -> None:
+    """A constant force on a piston that comes back to its place does no work, whatever the lengths."""
+    problems = api.examine(FILE, "en")
+    assert [(problem.level, problem.code) for problem in problems] == [
+        ("note", "positions"),
+        ("warning", "engine-without-work"),
+    ]
+    assert api.check(FILE) == []
+    with_gas = FILE.with_name("engine-v-02.yaml")
+    assert all(problem.level == "note" for problem in api.examine(with_gas))
+
+
+def test_the_mean_of_the_positions_is_of_the_even_ones() -> None:
+    """Eight even positions; the dead centres a and b are none of them."""
+    from reportgen.cases import open_case
+
+    ledger = open_case(FILE).printed
+    torque = [ledger.number("M.eq", k).shown for k in (1, 2, 4, 5, 6, 7, 9, 10)]
+    # Printed to a thousandth of 1 N·m.
+    assert ledger.number("M.mean.positions").shown == pytest.approx(sum(torque) / 8, abs=5.1e-4)
+
+
+def test_the_report_says_how_labels_and_numbers_go_together_and_why_there_is_no_power() -> None:
+    """The labels once; that the mean is nothing by construction in summary and conclusion."""
+    text = told(api.document(api.load(FILE, "en")))
+    pairs = "number 1 is position 0, number 2 is position 1, number 3 is position a, number 4 is position 2, …"
+    assert text.count(pairs) == 1
+    assert text.count("what a combustion engine delivers comes from its indicator diagram") == 2
+    with_gas = told(api.document(api.load(FILE.with_name("engine-v-02.yaml"), "en")))
+    assert "zero, and with it the mean power" not in with_gas

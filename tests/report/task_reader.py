@@ -1,0 +1,341 @@
+"""Reads the printed task of a machine, in English, and writes the assignment that it states.
+
+It knows the words of a task and the keys of a file, and nothing of the program: whoever has the paper has as much.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+STROKES = ("intake", "compression", "expansion", "exhaust")
+COMMON = {"n": "n", "ω_1": "omega1", "g": "g"}
+LENGTHS = {
+    "engine-single": {"H": "H", "K": "K", "e": "e", "R": "R", "L": "L", "D": "D", "s": "s", "ρ": "rho"},
+    "engine-twin": {"H": "H", "λ": "lambda", "D": "D", "s": "s", "δ": "crank_angle"},
+    "engine-v": {
+        "l_AB": "AB",
+        "l_BC": "BC",
+        "l_BD": "BD",
+        "l_DE": "DE",
+        "l_BE": "DE",
+        "D": "D",
+        "P_C": "PC",
+        "P_E": "PE",
+    }
+    | {"α": "alpha", "β": "beta"},
+    "four-bar": {"l_AB": "AB", "l_BC": "BC", "l_CD": "CD", "l_AD": "AD", "α": "frame", "l_BF": "BF"},
+    "lever-six-bar": {f"l_{rod}": rod for rod in ("AB", "AC", "CD", "CE", "EF")} | {"y_F": "guide"},
+    "scotch-yoke": {"l_OA": "r", "α": "guide"},
+    "shaper": {"a": "a", "b": "b", "l_3": "l3", "l_4": "l4", "H": "H"},
+    "slider-crank": {"l_AB": "r", "l_BC": "l", "e": "e", "α": "guide", "s": "s"},
+    "slotted-lever": {"l_AB": "AB", "l_AC": "AC", "l_CD": "CD"},
+    "toggle-press": {"l_OA": "OA", "l_AB": "AB", "l_BD": "BD"},
+}
+"""Which key of the parameters stands for which printed symbol."""
+
+File = dict[str, Any]
+
+
+def typed(value: str) -> str:
+    """A printed quantity as a file has it: 0.5 kg·m² → 0.5 kg m2."""
+    return value.replace("−", "-").replace("°", " deg").replace("·", " ").replace("²", "2").replace("³", "3")
+
+
+@dataclass(frozen=True)
+class Task:
+    """The lines of a task: sentences, and tables by their captions, each a list of rows."""
+
+    text: str
+    tables: Mapping[str, Sequence[Sequence[str]]]
+
+    @classmethod
+    def of(cls, text: str) -> Task:
+        before = text.partition("Filling in the answer sheet")[0]
+        tables: dict[str, list[list[str]]] = {}
+        sentences, caption = [], ""
+        for line in before.splitlines():
+            if line.startswith("[") and line.endswith("]"):
+                caption = line[1:-1]
+                tables.setdefault(caption, [])
+            elif " | " in line and caption:
+                tables[caption].append([cell.strip() for cell in line.split("|")])
+            else:
+                sentences.append(line)
+        return cls("\n".join(sentences), tables)
+
+    def find(self, pattern: str) -> str | None:
+        """The first group of a pattern among the sentences."""
+        found = re.search(pattern, self.text)
+        return found[1] if found else None
+
+    def table(self, caption: str) -> Sequence[Sequence[str]]:
+        """The table whose caption begins so; none if there is none."""
+        return next((rows for name, rows in self.tables.items() if name.startswith(caption)), ())
+
+    @property
+    def data(self) -> dict[str, str]:
+        """The given quantities by their symbols."""
+        rows = self.table("Given data") or self.table("Lengths")
+        return {symbol: typed(value) for _, symbol, value in rows[1:]}
+
+
+def file_of(kind: str, text: str) -> File:
+    """The assignment that a printed task states."""
+    task = Task.of(text)
+    data = task.data
+    file: File = {"kind": kind, "positions": _positions(task)}
+    if kind == "linkage":
+        return file | {"parameters": _linkage(task, data)}
+    symbols = COMMON | LENGTHS[kind]
+    parameters: File = {symbols[symbol]: value for symbol, value in data.items() if symbol in symbols}
+    for symbol, value in data.items():
+        if found := re.fullmatch(r"([Gm])_(\d)|(s)_(\d)|(J)_S?(\d)", symbol):
+            letter, link = (part for part in found.groups() if part)
+            parameters[letter + link] = value
+    if "δ_ω" in data:
+        parameters["flywheel"] = {"delta": data["δ_ω"]}
+    parameters |= OWN.get(kind, lambda task, data: {})(task, data)
+    file["parameters"] = parameters
+    if rows := task.table("Indicator diagram"):
+        file["indicator"] = _diagram(rows)
+    if kind == "engine-twin":
+        pair = re.search(r"piston 3 is on its (\w+) stroke and piston 5 on its (\w+) stroke", task.text)
+        assert pair is not None
+        file["indicator"]["firing"] = list(pair.groups())
+    return file
+
+
+def _positions(task: Task) -> File:
+    """How many positions, which way the crank turns, and where it is first."""
+    count = task.find(r"at (\d+) (?:equidistant )?positions")
+    assert count is not None
+    found: File = {"count": count}
+    if turned := task.find(r"turns (anticlockwise|clockwise)"):
+        found["direction"] = turned
+    if start := task.find(r"the crank stands at (\S+)° to the x-axis"):
+        found["start"] = typed(f"{start}°")
+    return found
+
+
+# --- tables -----------------------------------------------------------------------------------------
+
+
+def _rows(rows: Sequence[Sequence[str]]) -> dict[str, list[str]]:
+    """A table of rows with their names in the first column, its blocks below one another put together."""
+    found: dict[str, list[str]] = {}
+    for name, *values in rows:
+        found.setdefault(name.lower(), []).extend(typed(value) for value in values if value)
+    return found
+
+
+def _columns(rows: Sequence[Sequence[str]]) -> dict[str, list[str]]:
+    """A table of columns folded into sets side by side."""
+    head, *body = rows
+    names = list(dict.fromkeys(head))
+    width = len(names)
+    sets = [row[first : first + width] for first in range(0, len(head), width) for row in body]
+    return {name: [typed(one[i]) for one in sets if one[i]] for i, name in enumerate(names)}
+
+
+def _diagram(rows: Sequence[Sequence[str]]) -> File:
+    if rows[0][0] == "s/H":
+        values = _rows(rows)
+        return {"unit": "N/cm2", "by": "stroke", "s": values["s/h"]} | {name: values[name] for name in STROKES}
+    columns = _columns(rows)
+    angles = [f"{angle} deg" for angle in columns["φ"]]
+    return {"unit": "N/cm2", "by": "crank_angle", "angle": angles, "p": columns["p"]}
+
+
+def _force_table(rows: Sequence[Sequence[str]]) -> File:
+    if rows[0][0] == "s/H":
+        values = _rows(rows)
+        return {"by": "stroke", "unit": "N", "s": values["s/h"]} | {way: values[way] for way in ("inward", "outward")}
+    columns = _columns(rows)
+    return {"by": "crank_angle", "unit": "N", "angle": [f"{angle} deg" for angle in columns["φ"]], "F": columns["P"]}
+
+
+# --- what is a kind's own -----------------------------------------------------------------------------
+
+
+def _working_force(task: Task, data: Mapping[str, str]) -> File:
+    """A constant force with its stroke, or a table."""
+    if "P" in data:
+        way = task.find(r"acts only on the way (inward|outward)") or "both"
+        return {"force": {"by": "constant", "F": data["P"], "stroke": way}}
+    rows = task.table("Working force")
+    return {"force": _force_table(rows)} if rows else {}
+
+
+def _torque(task: Task, data: Mapping[str, str]) -> File:
+    if "M_3" not in data:
+        return {}
+    sense = task.find(r"has a constant sense, (anticlockwise|clockwise)")
+    return {"torque": {"M": data["M_3"], "sense": sense or "opposing"}}
+
+
+def _engine_v(task: Task, data: Mapping[str, str]) -> File:
+    top = task.find(r"that of piston E at its (first|second)")
+    return {"second_top": "1" if top == "first" else "2"} if top else {}
+
+
+def _four_bar(task: Task, data: Mapping[str, str]) -> File:
+    found = _torque(task, data)
+    found["branch"] = "open" if task.find(r"C lies to the (left|right)") == "left" else "crossed"
+    if "x_E" in data:
+        found["E"] = {"along": data["x_E"], "across": data["y_E"]}
+    if "P_3" in data:
+        found["force"] = {"P": data["P_3"], "angle": data["α_P"]}
+    return found
+
+
+def _lever(task: Task, data: Mapping[str, str]) -> File:
+    found: File = {"D": {"x": data["x_D"], "y": data["y_D"]}}
+    sides = re.search(r"C lies to the (left|right) of the way from A to D, F to the (left|right) of E", task.text)
+    assert sides is not None
+    found["C"], found["F"] = sides.groups()
+    if "P_5" in data:
+        sense = task.find(r"The force P_5 on the slider .*? to the (left|right)\.")
+        found["force"] = {"P": data["P_5"], "sense": sense or "opposing"}
+    return found
+
+
+def _toggle(task: Task, data: Mapping[str, str]) -> File:
+    found: File = {"D": {"x": data["x_D"], "y": data["y_D"]}, "B": task.find(r"B lies to the (left|right)")}
+    if rows := task.table("Pressing force"):
+        values = _rows(rows)
+        found["press"] = {"unit": "N", "s": values["s/h"], "P": values["down"]}
+    return found
+
+
+def _slotted(task: Task, data: Mapping[str, str]) -> File:
+    angle = data.get("α") or data.get("φ_CA") or data.get("α_CA")
+    return _torque(task, data) | ({"axis": angle} if angle else {})
+
+
+def _shaper(task: Task, data: Mapping[str, str]) -> File:
+    if "P" not in data:
+        return {}
+    return {"cutting": {"F": data["P"]} | ({"free": data["k"]} if "k" in data else {})}
+
+
+OWN = {
+    "engine-v": _engine_v,
+    "four-bar": _four_bar,
+    "lever-six-bar": _lever,
+    "scotch-yoke": _working_force,
+    "shaper": _shaper,
+    "slider-crank": _working_force,
+    "slotted-lever": _slotted,
+    "toggle-press": _toggle,
+}
+
+
+# --- a declared linkage -------------------------------------------------------------------------------
+
+
+def _name(point: str) -> str:
+    return point.replace("_", "")
+
+
+def _linkage(task: Task, data: Mapping[str, str]) -> File:
+    guides = {row[0]: row for row in task.table("Guides")[1:]}
+    file: File = {
+        "frame": {_name(row[0]): [typed(row[1]), typed(row[2])] for row in task.table("Fixed points")[1:]},
+        "driver": _driver(task, data, guides),
+        "groups": [_group(row, data, guides, task) for row in task.table("Groups")[1:]],
+    }
+    points = task.table("Further points")[1:]
+    file["points"] = {_name(row[0]): {"link": row[1], "at": [typed(row[2]), typed(row[3])]} for row in points}
+    centres = re.findall(r"(\w+) of link (\d+)[.,]", task.find(r"Mass centres: (.*)") or "")
+    file["masses"] = [_body(_name(centre), link, data) for centre, link in centres]
+    file["loads"] = list(_loads(task))
+    if "g" in data:
+        file["g"] = data["g"]
+    if "δ_ω" in data:
+        file["flywheel"] = {"delta": data["δ_ω"]}
+    if "their cycle takes two turns" in task.text:
+        file["turns"] = "2"
+    return file
+
+
+def _driver(task: Task, data: Mapping[str, str], guides: Mapping[str, Sequence[str]]) -> File:
+    if centre := task.find(r"turns \w+ about the fixed point (\w+)"):
+        arm = next(symbol for symbol in data if symbol.startswith(f"l_{centre}"))
+        pin = arm.removeprefix(f"l_{centre}")
+        speed = {COMMON[symbol]: data[symbol] for symbol in ("n", "ω_1") if symbol in data}
+        return {"type": "crank", "centre": _name(centre), "pin": pin, "length": data[arm]} | speed
+    start = re.search(r"pin (\w+) stands (\S+) mm along .* link 1 moves (in|against)", task.text)
+    assert start is not None
+    begin = float(typed(start[2]))
+    span = 1e3 * float(data["H_1"].split()[0])
+    end = begin + (span if start[3] == "in" else -span)
+    speed = data[f"v_{start[1]}"]
+    ends = {"start": f"{begin} mm", "end": f"{end:.10g} mm"}
+    return {"type": "slider", "pin": start[1], "guide": _guide(guides["1"]), "speed": speed} | ends
+
+
+def _guide(row: Sequence[str]) -> File:
+    return {"on": row[1], "at": [typed(row[2]), typed(row[3])], "angle": typed(row[4])}
+
+
+def _group(row: Sequence[str], data: Mapping[str, str], guides: Mapping[str, Sequence[str]], task: Task) -> File:
+    """A group by its row; lengths by the names of its joints."""
+    links, kind, joints = row[0].split(", "), row[1], [_name(one) for one in row[2].split(", ")]
+    group: File = {"type": kind, "links": links, "joints": joints}
+    match kind:
+        case "RRR":
+            first, middle, last = joints
+            group["lengths"] = [data[f"l_{first}{middle}"], data[f"l_{last}{middle}"]]
+            group["side"] = "left" if "to the left" in row[3] else "right"
+        case "RRP":
+            group |= {"length": data[f"l_{''.join(joints)}"], "guide": _guide(guides[links[1]])}
+            group["end"] = "near" if "less far" in row[3] else "far"
+        case "RPR":
+            group["axis"] = "away" if "away" in row[3] else "towards"
+            if offset := task.find(
+                rf"The line of the slot of link {links[1]} passes .*? at a distance of ([^.]*\S mm)"
+            ):
+                group["offset"] = typed(offset)
+        case "PRP":
+            group["guides"] = [_guide(guides[link]) for link in links]
+        case "RPP":
+            group["guide"] = _guide(guides[links[1]])
+            if across := task.find(rf"to the guide of link {links[1]} by (\S+°)"):
+                group["across"] = typed(across)
+    return group
+
+
+def _body(centre: str, link: str, data: Mapping[str, str]) -> File:
+    own = {letter: data[f"{letter}_{link}"] for letter in "Gm" if f"{letter}_{link}" in data}
+    moment = next((data[symbol] for symbol in (f"J_{centre}", f"J_{centre}{link}") if symbol in data), None)
+    return {"link": link, "at": centre} | own | ({"J": moment} if moment else {})
+
+
+def _loads(task: Task) -> list[File]:
+    found = []
+    for line in re.findall(r"^[PM]_\d+\w*: .*$", task.text, re.MULTILINE):
+        symbol, _, words = line.partition(": ")
+        link = re.search(r"(?:link|slider|piston) (\d+)", words)
+        assert link is not None
+        load: File = {"link": link[1]}
+        if at := re.search(r"at (\w+), at (\S+°)", words):
+            load |= {"at": _name(at[1]), "direction": typed(at[2])}
+        size = re.search(r"a (?:force|torque) of (.*?) on link", words)
+        rows = task.table(f"Values of the load on link {link[1]}")
+        if size:
+            load |= {"by": "constant", "F" if symbol[0] == "P" else "M": typed(size[1])}
+            load |= {"against": "motion"} if "always against" in words else {}
+        elif "along its guide" in words:
+            load |= _force_table(rows)
+        else:
+            (across, over), (_, values) = _columns(rows).items()
+            unit = {"unit": "N"} if symbol[0] == "P" else {"torque_unit": "N m"}
+            by = {"by": "way", "way": [f"{one} mm" for one in over]}
+            if across == "φ":
+                by = {"by": "angle", "angle": [f"{one} deg" for one in over]}
+            load |= by | unit | {"values": values}
+        found.append(load)
+    return found
