@@ -51,6 +51,7 @@ from reportgen.report.report import Report
 
 PROPERTIES = (
     # the assignment, in words
+    "extent_words",
     "machine_title",
     "turn_sense",
     "turn_words",
@@ -361,6 +362,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
     "first_turn": Report.first_turn,
+    "parts": Report.parts,
     "force_list": equations.force_list,
     "group_kind": equations.group_kind,
     "load_sense": phrases.load_sense,
@@ -413,7 +415,7 @@ def compose(case: Calculation) -> Document:
     report = Report(case)
     words, named = report.words, names(report)
     blocks: list[Block] = [_cover(report)]
-    for section in _sections(report):
+    for section in report.sections:
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"])]
         else:
@@ -436,16 +438,6 @@ def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
     """Says where a plate stands."""
     paper = PAPERS.get(min(plate.paper), "")
     return Paragraph(report.prose.inlines(report.words["plate"].format(key=plate.key, paper=paper)))
-
-
-def _sections(report: Report) -> Iterator[str]:
-    """The sections of the outline, that on instant centres behind the velocities if any link has one."""
-    outline = report.machine.outline
-    last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
-    for index, section in enumerate(outline):
-        yield section
-        if report.plane_links and index == last:
-            yield "centres"
 
 
 def _cover(report: Report) -> Cover:
