@@ -100,6 +100,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     # the assignment, in words
     "attached": chapters.attached,
     "begins_at": chapters.begins_at,
+    "reactions_at": comments.reactions_at,
     "signature": chapters.signature,
     "started": chapters.started,
     "variant_words": chapters.variant_words,

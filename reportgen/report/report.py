@@ -42,12 +42,15 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
         (
             # sections of the outline: results at the front, symbols, further methods, curves, the appendix
             *("overview", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
-            # parts of sections: closed formulas
+            # parts of sections: tables that the work goes on without
+            *("joints", "coordinates", "inertia-positions", "reactions", "conclusion-reactions"),
+            *("flywheel-table", "flywheel-speed"),
+            # closed formulas
             *("formulas-velocity", "formulas-acceleration"),
             # constructions step by step
             *("velocity-stages", "acceleration-stages", "force-stages"),
-            # plans of the other positions, with what is read from them on the way
-            *("velocity-plates", "acceleration-plates", "force-plates", "inertia-positions", "polar"),
+            # plans of the other positions
+            *("velocity-plates", "acceleration-plates", "force-plates", "polar"),
             # remarks
             *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
             *("comments/reactions", "comments/torque", "comments/flywheel"),

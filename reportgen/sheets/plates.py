@@ -217,7 +217,7 @@ def _forces(report: Report) -> Iterator[Series]:
         yield _curve("flywheel-work", "forces", flywheel_work)
         if report.has_reduced_inertia:
             yield _curve("wittenbauer", "forces", wittenbauer)
-        if report.needs_flywheel:
+        if report.needs_flywheel and report.parts("flywheel-speed"):
             yield _curve("flywheel-speed", "forces", flywheel_speed)
     for name, columns in (("loads", (gas, applied, inertia)), ("reactions", (reactions,)), ("balance", (balance,))):
         yield one(name, layer="tables", draw=_table(*columns, cycle=True))
