@@ -196,9 +196,10 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents (levels 1 to 3) with true page numbers."""
+    """The table of contents (levels 1 to 3) with true page numbers, `alone` on its pages or with what follows."""
 
     title: str
+    alone: bool = True
 
 
 @dataclass(frozen=True, slots=True)

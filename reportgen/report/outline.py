@@ -418,7 +418,7 @@ def compose(case: Calculation) -> Document:
     blocks: list[Block] = [_cover(report)]
     for section in report.sections:
         if section == "contents":
-            blocks += [PageBreak(), Contents(words["document"]["contents"])]
+            blocks += [PageBreak(), Contents(words["document"]["contents"], bool(report.parts("contents-page")))]
         else:
             blocks += report.prose.render(section, named)
     assignment = case.assignment

@@ -40,10 +40,11 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "full": frozenset(),
     "short": frozenset(
         (
+            "contents-page",
             # sections of the outline: results at the front, symbols, further methods, curves, the appendix
-            *("overview", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
+            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
             # parts of sections: tables that the work goes on without
-            *("joints", "coordinates", "inertia-positions", "reactions", "conclusion-reactions"),
+            *("joints", "coordinates", "relative", "inertia-positions", "reactions", "conclusion-reactions"),
             *("flywheel-table", "flywheel-speed"),
             # closed formulas
             *("formulas-velocity", "formulas-acceleration"),

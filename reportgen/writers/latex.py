@@ -155,8 +155,8 @@ class _Writer:
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
                 return self.cover(block)
-            case tree.Contents(title):
-                return self.contents(title)
+            case tree.Contents(title, alone):
+                return self.contents(title, alone)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
             case tree.PageBreak():
@@ -209,13 +209,13 @@ class _Writer:
         number = rf"{escape(section.number)}\quad " if section.number else ""
         return number + self.inlines(section.title)
 
-    def contents(self, title: str) -> str:
+    def contents(self, title: str, alone: bool) -> str:
         lines = [r"\clearpage", _command("headline", escape(title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
         )
-        return "\n".join([*lines, r"\clearpage"])
+        return "\n".join([*lines, r"\clearpage"] if alone else lines)
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape
