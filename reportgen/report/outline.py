@@ -233,14 +233,13 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
 
 @dataclass(frozen=True, slots=True)
 class QuantityTable:
-    """A table of the quantities whose ids a function gives, at all positions of one turn or of the cycle."""
+    """A table of the quantities whose ids a function gives, at some positions, by the name of the report's property."""
 
     ids: Callable[[Report], Sequence[str]]
-    cycle: bool = False
+    at: str = "positions"
 
     def __call__(self, report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-        positions = report.all_positions if self.cycle else report.positions
-        return tables.tables(report, key, caption, self.ids(report), positions)
+        return tables.tables(report, key, caption, self.ids(report), getattr(report, self.at))
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,12 +285,12 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "a": QuantityTable(result_tables.accelerations),
     # forces
     "strokes": result_tables.strokes,
-    "gas": QuantityTable(result_tables.gas, cycle=True),
-    "inertia": QuantityTable(result_tables.inertia, cycle=True),
-    "R": QuantityTable(result_tables.reactions, cycle=True),
-    "R.angles": QuantityTable(result_tables.reaction_angles, cycle=True),
+    "gas": QuantityTable(result_tables.gas, "load_positions"),
+    "inertia": QuantityTable(result_tables.inertia, "all_positions"),
+    "R": QuantityTable(result_tables.reactions, "all_positions"),
+    "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
-    "M": QuantityTable(result_tables.balance, cycle=True),
+    "M": QuantityTable(result_tables.balance, "all_positions"),
     "flywheel": result_tables.flywheel,
     "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
 }
@@ -301,7 +300,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
 def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
     """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
 
-    A name that is not in `TABLES` is a table of the quantities whose ids are given, over the cycle or at positions.
+    A name that is not in `TABLES` is a table of the loads whose ids are given, or of other quantities at positions.
     """
     texts = report.words["tables"][words or name]
     position = next((k for k in arguments if isinstance(k, Position)), None)
@@ -318,7 +317,7 @@ def _of_ids(
     ids: Sequence[str],
     positions: Iterable[int] | None = None,
 ) -> tuple[Table | Paragraph, ...]:
-    return tables.tables(report, key, caption, ids, positions or report.all_positions)
+    return tables.tables(report, key, caption, ids, positions or report.load_positions)
 
 
 # --- names with parentheses -------------------------------------------------------------------------

@@ -45,6 +45,7 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             *("overview", "foreword", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
             # parts of sections: tables that the work goes on without
             *("joints", "coordinates", "relative", "inertia-positions", "reactions", "conclusion-reactions"),
+            *("loads-everywhere",),
             *("flywheel-table", "flywheel-speed"),
             # closed formulas
             *("formulas-velocity", "formulas-acceleration"),
@@ -228,6 +229,11 @@ class Report:
         """The positions of the cycle that are shown."""
         evenly = range(1, self.machine.positions + 1, self.thinned or 1)
         return self.machine.numbered(sorted({*evenly, *self.worked, *self.worked_forces}))
+
+    @property
+    def load_positions(self) -> tuple[Position, ...]:
+        """The positions at which the loads are given: those of the cycle that are shown, or the worked ones."""
+        return self.all_positions if self.parts("loads-everywhere") else self.worked_forces
 
     @property
     def worked(self) -> tuple[Position, ...]:
