@@ -242,6 +242,8 @@ class Document:
     """Left text of the running footer, and the word before the page number."""
     words: Words
     blocks: tuple[Block, ...] = field(default=())
+    close: bool = False
+    """Whether it is set in smaller type with less room between lines and blocks."""
 
 
 def text_of(document: Document) -> str:

@@ -430,6 +430,7 @@ def compose(case: Calculation) -> Document:
             footer=("", words["document"]["page"]),
             words=Words(**words["document"]),
             blocks=tuple(plates_last(blocks, partial(_plate_is_last, report))),
+            close=not report.parts("usual-type"),
         )
     )
 

@@ -40,13 +40,13 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "full": frozenset(),
     "short": frozenset(
         (
-            "contents-page",
+            # the usual type, a page of its own for the contents
+            *("usual-type", "contents-page"),
             # sections of the outline: results at the front, symbols, further methods, curves, the appendix
             *("overview", "foreword", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
             # parts of sections: tables that the work goes on without
             *("joints", "coordinates", "relative", "inertia-positions", "reactions", "conclusion-reactions"),
-            *("loads-everywhere",),
-            *("flywheel-table", "flywheel-speed"),
+            *("loads-everywhere", "flywheel-table", "flywheel-work", "flywheel-speed"),
             # closed formulas
             *("formulas-velocity", "formulas-acceleration"),
             # constructions step by step

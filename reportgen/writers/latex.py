@@ -53,6 +53,7 @@ def write(document: tree.Document) -> str:
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
         gap=f"{tree.ABREAST:g}",
+        close=document.close,
         body=body,
     )
 

@@ -114,6 +114,7 @@ def write(document: tree.Document) -> str:
             f"lang: {literal(document.language)}",
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
+            *(("close: true",) if document.close else ()),
         )
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
