@@ -196,10 +196,10 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents (levels 1 to 3) with true page numbers, `alone` on its pages or with what follows."""
+    """The table of contents with true page numbers: levels 1 to 3 on pages of their own, or `brief`, levels 1 and 2."""
 
     title: str
-    alone: bool = True
+    brief: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -417,7 +417,7 @@ def compose(case: Calculation) -> Document:
     blocks: list[Block] = [_cover(report)]
     for section in report.sections:
         if section == "contents":
-            blocks += [PageBreak(), Contents(words["document"]["contents"], bool(report.parts("contents-page")))]
+            blocks += [PageBreak(), Contents(words["document"]["contents"], not report.parts("contents-page"))]
         else:
             blocks += report.prose.render(section, named)
     assignment = case.assignment

@@ -45,6 +45,7 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             # sections of the outline: results at the front, symbols, further methods, curves, the appendix
             *("overview", "foreword", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
             # parts of sections: tables that the work goes on without
+            *("velocity-senses", "acceleration-senses", "mean-positions"),
             *("joints", "coordinates", "relative", "inertia-positions", "reactions", "conclusion-reactions"),
             *("loads-everywhere", "flywheel-table", "flywheel-work", "flywheel-speed"),
             # closed formulas

@@ -156,8 +156,8 @@ class _Writer:
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
                 return self.cover(block)
-            case tree.Contents(title, alone):
-                return self.contents(title, alone)
+            case tree.Contents(title, brief):
+                return self.contents(title, brief)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
             case tree.PageBreak():
@@ -210,13 +210,14 @@ class _Writer:
         number = rf"{escape(section.number)}\quad " if section.number else ""
         return number + self.inlines(section.title)
 
-    def contents(self, title: str, alone: bool) -> str:
+    def contents(self, title: str, brief: bool) -> str:
         lines = [r"\clearpage", _command("headline", escape(title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
+            if entry.section.level < CONTENTS_LEVEL or not brief
         )
-        return "\n".join([*lines, r"\clearpage"] if alone else lines)
+        return "\n".join(lines if brief else [*lines, r"\clearpage"])
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape

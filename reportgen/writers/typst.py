@@ -207,8 +207,8 @@ class _Blocks:
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case tree.Contents(title, alone):
-                return f"#contents({literal(title)},alone:{str(alone).lower()})"
+            case tree.Contents(title, brief):
+                return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
             case tree.PageBreak():
