@@ -90,7 +90,7 @@ def build(
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
-    return build_each(path, out, engine, language, keep_source, formats, extent)[0]
+    return build_each(path, out, engine, language, keep_source, formats, extent=extent)[0]
 
 
 def build_each(

@@ -53,7 +53,7 @@ def build(
     def work(file: Path) -> None:
         folder = out / file.stem
         refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
-        print(*api.build_each(file, out, engine, lang, keep_source, formats, extent), sep="\n", flush=True)
+        print(*api.build_each(file, out, engine, lang, keep_source, formats, extent=extent), sep="\n", flush=True)
 
     for_each(files, lang, work)
 

@@ -233,7 +233,7 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
 
 @dataclass(frozen=True, slots=True)
 class QuantityTable:
-    """A table of the quantities whose ids a function gives, at some positions, by the name of the report's property."""
+    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report."""
 
     ids: Callable[[Report], Sequence[str]]
     at: str = "positions"

@@ -35,32 +35,33 @@ DENSE = 361
 """Samples of a turn from which curves are drawn."""
 
 OPENING: Mapping[Extent, tuple[str, ...]] = {"full": (), "short": ("contents", "foreword")}
-"""The sections that stand before all others, in place of the order of the outline."""
+"""The sections that stand before all others, whatever the order of the outline."""
 LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "full": frozenset(),
     "short": frozenset(
         (
-            # the usual type, a page of its own for the contents
-            *("usual-type", "contents-page"),
-            # sections of the outline: results at the front, symbols, further methods, curves, the appendix
-            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "further-references", "checks"),
-            # parts of sections: tables that the work goes on without
-            *("velocity-senses", "acceleration-senses", "mean-positions"),
-            *("joints", "coordinates", "relative", "inertia-positions", "reactions", "conclusion-reactions"),
-            *("loads-everywhere", "flywheel-table", "flywheel-work", "flywheel-speed"),
-            # closed formulas
-            *("formulas-velocity", "formulas-acceleration"),
-            # constructions step by step
+            # sections of the outline
+            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "checks"),
+            # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
-            # plans of the other positions
-            *("velocity-plates", "acceleration-plates", "force-plates", "polar"),
+            *("velocity-plates", "acceleration-plates", "force-plates"),
+            *("polar", "flywheel-work", "flywheel-speed"),
+            # a second method, and the book that it is taken from
+            *("formulas-velocity", "formulas-acceleration", "further-references"),
+            # tables that the work goes on without, and what is said of them
+            *("joints", "coordinates", "velocity-senses", "acceleration-senses", "inertia-positions"),
+            *("reactions", "mean-positions", "flywheel-table", "conclusion-reactions"),
             # remarks
             *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
             *("comments/reactions", "comments/torque", "comments/flywheel"),
+            # in tables relative velocities and accelerations, and loads at other than worked positions
+            *("relative", "loads-everywhere"),
+            # the usual size of type, pages of their own for the contents
+            *("usual-type", "contents-page"),
         )
     ),
 }
-"""The sections, and the named parts of sections, that a report of an extent goes without."""
+"""The sections, parts of sections and further parts that a report of an extent goes without."""
 
 
 @dataclass(frozen=True)
