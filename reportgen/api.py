@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch
@@ -91,13 +92,15 @@ def build(
     language: Language | None = None,
     keep_source: bool = False,
     formats: Sequence[str] = ("pdf",),
+    extent: Extent | None = None,
 ) -> Path:
     """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
 
+    It has the language and the extent of the file unless others are given.
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
-    return build_each(path, out, engine, language, keep_source, formats)[0]
+    return build_each(path, out, engine, language, keep_source, formats, extent=extent)[0]
 
 
 def build_each(
@@ -107,9 +110,12 @@ def build_each(
     language: Language | None,
     keep_source: bool,
     formats: Sequence[str],
+    extent: Extent | None = None,
 ) -> list[Path]:
     """Write the complete report in some of `FORMATS`; gives their paths in that order."""
     assignment = load(path, language)
+    if extent is not None:
+        assignment = assignment.with_extent(extent)
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)):

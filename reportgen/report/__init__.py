@@ -196,9 +196,10 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents (levels 1 to 3) with true page numbers."""
+    """The table of contents with true page numbers: levels 1 to 3 on pages of their own, or `brief`, levels 1 and 2."""
 
     title: str
+    brief: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -246,6 +247,8 @@ class Document:
     """Left text of the running footer, and the word before the page number."""
     words: Words
     blocks: tuple[Block, ...] = field(default=())
+    close: bool = False
+    """Whether it is set in smaller type with less room between lines and blocks."""
 
 
 def text_of(document: Document) -> str:

@@ -59,6 +59,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
         gap=f"{tree.ABREAST:g}",
+        close=document.close,
         body=body,
         family=FAMILIES.get(letter.font),
         size=f"{letter.size:g}",
@@ -165,8 +166,8 @@ class _Writer:
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
                 return self.cover(block)
-            case tree.Contents(title):
-                return self.contents(title)
+            case tree.Contents(title, brief):
+                return self.contents(title, brief)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
             case tree.PageBreak():
@@ -219,13 +220,14 @@ class _Writer:
         number = rf"{escape(section.number)}\quad " if section.number else ""
         return number + self.inlines(section.title)
 
-    def contents(self, title: str) -> str:
+    def contents(self, title: str, brief: bool) -> str:
         lines = [r"\clearpage", _command("headline", escape(title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
+            if entry.section.level < CONTENTS_LEVEL or not brief
         )
-        return "\n".join([*lines, r"\clearpage"])
+        return "\n".join(lines if brief else [*lines, r"\clearpage"])
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape

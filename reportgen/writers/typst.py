@@ -116,6 +116,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
             *_in(letter),
+            *(("close: true",) if document.close else ()),
         )
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
@@ -218,8 +219,8 @@ class _Blocks:
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case tree.Contents(title):
-                return f"#contents({literal(title)})"
+            case tree.Contents(title, brief):
+                return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
             case tree.PageBreak():

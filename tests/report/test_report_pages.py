@@ -156,7 +156,8 @@ def test_no_larger_paper_is_taken_for_what_fits(written: Written) -> None:
     """A plate fits the text block of an A4 page neither upright nor turned."""
     for block in built.walk(written.document.blocks):
         if isinstance(block, Plate):
-            assert not (in_text(close(block.scene)) or across(close(block.scene))), block.key
+            assert not in_text(close(block.scene)), block.key
+            assert not across(close(block.scene)), block.key
 
 
 def test_the_typesetter_runs_once(monkeypatch: pytest.MonkeyPatch) -> None:
