@@ -155,9 +155,9 @@ def _fonts(engine: Engine) -> list[str]:
         from reportgen.writers import latex
 
         return list(latex.FAMILIES)
-    from reportgen.writers import typst_run
+    from reportgen.writers import typst
 
-    return typst_run.families()
+    return typst.families()
 
 
 def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tuple[str, bytes]:
@@ -170,10 +170,10 @@ def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tup
 
         source = latex.write(tree, letter)
         return source, pdflatex.compile(source).pdf
-    from reportgen.writers import typst, typst_run
+    from reportgen.writers import typst
 
     source = typst.write(tree, letter)
-    return source, typst_run.compile(source, system=bool(letter.font))
+    return source, typst.compile(source, system=bool(letter.font))
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------
@@ -257,12 +257,12 @@ def sheet_files(
     to draw or a plate has no place on the size.
     """
     from reportgen.sheets import dxf
-    from reportgen.writers import typst, typst_run
+    from reportgen.writers import typst
 
     case = open_case(path, language)
     sheets = case.sheets(size, sets, block)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: typst_run.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
+        "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {
