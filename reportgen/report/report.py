@@ -163,7 +163,7 @@ class Report:
     @property
     def machine_title(self) -> str:
         title = self.case.title
-        return title[:1].lower() + title[1:]
+        return title[:1].lower() + title[1:] if title[1:2].islower() else title
 
     @property
     def variant(self) -> str:
