@@ -91,6 +91,7 @@ def test_what_would_fill_lines_is_not_written_by_symbols(tmp_path: Path, languag
     assert all(len(line) < 1200 for line in text.splitlines())
 
 
+@proof
 @pytest.mark.parametrize(("a", "b", "put_in"), [(37, 101, True), (0, 90, False)])
 def test_values_kept_out_are_put_in_where_an_answer_needs_them(tmp_path: Path, a: int, b: int, put_in: bool) -> None:
     """Else a reader could not check the numbers of the answer."""

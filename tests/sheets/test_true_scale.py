@@ -186,6 +186,7 @@ def test_the_file_is_sound_and_shows_the_whole_sheet(name: str) -> None:
     assert window.dxf.view_height == window.dxf.height == sheet.height
 
 
+@proof
 def test_the_same_sheet_gives_the_same_bytes() -> None:
     sheet = laid("four-bar-01", "A1").sheets[0]
     assert dxf.write_sheet(sheet, "vi") == dxf.write_sheet(sheet, "vi")
