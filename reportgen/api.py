@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch
@@ -91,13 +92,15 @@ def build(
     language: Language | None = None,
     keep_source: bool = False,
     formats: Sequence[str] = ("pdf",),
+    extent: Extent | None = None,
 ) -> Path:
     """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
 
+    It has the language and the extent of the file unless others are given.
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
-    return build_each(path, out, engine, language, keep_source, formats)[0]
+    return build_each(path, out, engine, language, keep_source, formats, extent=extent)[0]
 
 
 def build_each(
@@ -107,9 +110,12 @@ def build_each(
     language: Language | None,
     keep_source: bool,
     formats: Sequence[str],
+    extent: Extent | None = None,
 ) -> list[Path]:
     """Write the complete report in some of `FORMATS`; gives their paths in that order."""
     assignment = load(path, language)
+    if extent is not None:
+        assignment = assignment.with_extent(extent)
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)):
@@ -149,9 +155,9 @@ def _fonts(engine: Engine) -> list[str]:
         from reportgen.writers import latex
 
         return list(latex.FAMILIES)
-    from reportgen.writers import typst_run
+    from reportgen.writers import typst
 
-    return typst_run.families()
+    return typst.families()
 
 
 def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tuple[str, bytes]:
@@ -166,7 +172,8 @@ def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tup
         return source, pdflatex.compile(source).pdf
     from reportgen.writers import typst
 
-    return typst.typeset(tree, letter)
+    source = typst.write(tree, letter)
+    return source, typst.compile(source, system=bool(letter.font))
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------
@@ -250,12 +257,12 @@ def sheet_files(
     to draw or a plate has no place on the size.
     """
     from reportgen.sheets import dxf
-    from reportgen.writers import typst, typst_run
+    from reportgen.writers import typst
 
     case = open_case(path, language)
     sheets = case.sheets(size, sets, block)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: typst_run.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
+        "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {

@@ -21,6 +21,7 @@ from reportgen.base.units import Given, Language, QuantityFault, read_number, re
 
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
+Extent = Literal["full", "short"]
 
 
 class Part(BaseModel):
@@ -51,11 +52,13 @@ class Student(Part):
 class ReportSection(Part):
     """The report's language, cover and the positions written out in full, by number or label (None: all).
 
+    `extent` says how much the report of a machine contains; an exercise has one extent, whatever is given.
     `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
     sheets that are handed in with the report.  The text is set in letters of a `font` in a `size`.
     """
 
     language: Language = "vi"
+    extent: Extent = "full"
     school: Annotated[str, SchoolFolder()] | None = None
     font: OneLine | None = None
     size: Literal["11 pt", "12 pt", "13 pt", "14 pt"] = "12 pt"
@@ -195,6 +198,10 @@ class Assignment:
     def with_language(self, language: Language) -> Assignment:
         """The same, reported in another language."""
         return replace(self, report=self.report.model_copy(update={"language": language}))
+
+    def with_extent(self, extent: Extent) -> Assignment:
+        """The same, reported to another extent."""
+        return replace(self, report=self.report.model_copy(update={"extent": extent}))
 
 
 def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:

@@ -289,9 +289,9 @@ def outline(
     """The report's sections in order; without mass and load it ends with the kinematics.
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the velocities, `course` the
-    accelerations.
+    kinematic diagrams.
     """
-    kinematics = (*OPENING, sizes, "positions", "velocity", *summary, "acceleration", *course)
+    kinematics = (*OPENING, sizes, "positions", "velocity", *summary, "acceleration", "diagrams", *course)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()

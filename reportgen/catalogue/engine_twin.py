@@ -165,6 +165,7 @@ def machine(assignment: Assignment) -> Machine:
         applied=gas_forces(pistons),
         sliders=pistons,
         positive={piston.pin: -1j for piston in pistons},
+        essential=("foreword", "velocity-senses", "acceleration-senses"),
         paths=("S2", "S4"),
         compared=compared(plans),
     )

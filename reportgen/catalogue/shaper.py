@@ -147,5 +147,6 @@ def machine(assignment: Assignment) -> Machine:
         paths=("D",),
         compared=slotted.RAM_COMPARED,
         equations=slotted.ram_equations(positions.sign),
+        essential=("diagrams",),
         facts={"form": "parted" if "free" in q else "whole"},
     )

@@ -41,6 +41,9 @@ def build(
     lang: LangOption = None,
     keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
     format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, html; parted by commas.")] = "pdf",
+    extent: Annotated[
+        Literal["full", "short"] | None, typer.Option("--extent", help="Instead of the file's own.", show_default=False)
+    ] = None,
 ) -> None:
     """Write the complete report of each FILE to DIR/<id>/report.pdf, or as a page for a browser, report.html."""
     from reportgen import api
@@ -50,7 +53,7 @@ def build(
     def work(file: Path) -> None:
         folder = out / file.stem
         refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
-        print(*api.build_each(file, out, engine, lang, keep_source, formats), sep="\n", flush=True)
+        print(*api.build_each(file, out, engine, lang, keep_source, formats, extent=extent), sep="\n", flush=True)
 
     for_each(files, lang, work)
 

@@ -247,7 +247,10 @@ class Ledger:
                 families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None, written=None)
             elif (scale := vocabulary.scale_on_paper(id)) in scales:
                 longer = self.families[scale].values / scales[scale]
-                families[id] = replace(family, values=family.values * longer)
+                # One that was as long as another of another drawing is so no longer.
+                again = isinstance(family.definition, Ref) and vocabulary.scale_on_paper(family.definition.id) != scale
+                definition = None if again else family.definition
+                families[id] = replace(family, values=family.values * longer, definition=definition)
         return replace(self, families=families, decimals=dict.fromkeys(scales))
 
     def ancestors(self, id: str) -> tuple[str, ...]:

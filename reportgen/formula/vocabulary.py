@@ -40,7 +40,7 @@ KINDS: dict[str, QuantityKind] = {
     "ratio": QuantityKind(""),
     "count": QuantityKind("", decimals=0),
     "sign": QuantityKind("", decimals=0),
-    "share": QuantityKind("%", 1e-2, decimals=2),
+    "share": QuantityKind("%", 1e-2, decimals=3),
     "angle": QuantityKind("°", math.pi / 180, decimals=2),
     "direction": QuantityKind("°", math.pi / 180, decimals=1),
     "speed of rotation": QuantityKind("rpm"),

@@ -289,6 +289,8 @@ class Machine:
     """What the positions of the cycle are called; empty: their numbers."""
     span: float = 0.0
     """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
+    essential: tuple[str, ...] = ()
+    """Sections that the task of the kind asks for, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """What the kind's own words may name beside quantities."""
 

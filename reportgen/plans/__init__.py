@@ -114,7 +114,7 @@ def _gas(q: Sheet, analysis: Analysis) -> None:
 def _between_nodes(q: Sheet, state: GasState) -> Expression:
     """The pressure between the two points x′, p′ and x″, p″ of the diagram next to each position.
 
-        p = p′ + (p″ − p′)(x − x′)/(x″ − x′)
+        p = p′ + (p″ − p′)/(x″ − x′)·(x − x′)
 
     x is s/H, or the angle φ of the cycle.
     """
@@ -136,7 +136,7 @@ def _between_nodes(q: Sheet, state: GasState) -> Expression:
             (place, q.give(ids.node(f"p{mark}", link), pressure, Symbol("p", sup=mark), "pressure", hidden=True))
         )
     (x1, p1), (x2, p2) = ends
-    return p1 + (p2 - p1) * (x - x1) / (x2 - x1)
+    return p1 + (p2 - p1) / (x2 - x1) * (x - x1)
 
 
 def _stroke(q: Sheet, piston: Piston) -> Ref:

@@ -154,18 +154,22 @@ class Table:
 class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
-    Where the page has no room for it, the text runs on to the end of the page before it.
+    Where the page has no room for it, the text runs on to the end of the page before it.  One that is `turned` by 90°
+    has a page for itself.
     """
 
     scenes: tuple[Scene, ...]
     caption: Inlines = ()
     key: str = ""
     number: str = ""
+    turned: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size.
+    """A figure on a page of its own paper size (mm), for what the A4 text block cannot hold in true size either way.
+
+    Plates stand together at the end of their chapter.
 
     With `continues` it is a further page of the figure before it, whose number it shares.
     """
@@ -192,9 +196,10 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents (levels 1 to 3) with true page numbers."""
+    """The table of contents with true page numbers: levels 1 to 3 on pages of their own, or `brief`, levels 1 and 2."""
 
     title: str
+    brief: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,6 +247,8 @@ class Document:
     """Left text of the running footer, and the word before the page number."""
     words: Words
     blocks: tuple[Block, ...] = field(default=())
+    close: bool = False
+    """Whether it is set in smaller type with less room between lines and blocks."""
 
 
 def text_of(document: Document) -> str:
@@ -350,8 +357,10 @@ UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
-LONG_FIGURE = 110.0
-"""A figure of several rows that is higher than this (mm) may break between them; its caption then comes first."""
+FIGURE_HEIGHT = 238.0
+"""What of an A4 page a figure may fill above its caption (mm)."""
+TOGETHER_HEIGHT = 120.0
+"""Rows of a figure that are together higher than this (mm) stand apart, the later ones as its continuation."""
 
 # --- equations --------------------------------------------------------------------------------------
 
@@ -432,9 +441,14 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
     return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
 
 
-def breaks(rows: Sequence[Sequence[Scene]]) -> bool:
-    """Whether a figure's rows may stand on more than one page."""
-    return len(rows) > 1 and height(rows) > LONG_FIGURE
+def in_parts(figure: Figure) -> list[list[list[Scene]]]:
+    """The rows of a figure in parts, none of several rows so high that it would leave much of a page white."""
+    parts: list[list[list[Scene]]] = [[]]
+    for row in in_rows(figure.scenes):
+        if parts[-1] and height([*parts[-1], row]) > TOGETHER_HEIGHT:
+            parts.append([])
+        parts[-1].append(row)
+    return parts
 
 
 def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:

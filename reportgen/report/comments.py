@@ -55,6 +55,12 @@ def worked_at(report: Report) -> str:
     return where(report, report.assignment.worked_positions)
 
 
+def reactions_at(report: Report) -> str:
+    """Where a report finds the reactions: all over the cycle, or where it works all out in full."""
+    everywhere = str(report.words["reactions_at"]).format(count=report.cycle_count)
+    return everywhere if report.parts("reactions") else worked_at(report)
+
+
 def shown(report: Report, id: str, positions: Iterable[int]) -> np.ndarray:
     """The values of a quantity as printed [N], nan where it does not exist."""
     return np.array([report.ledger.number(id, k).shown for k in positions])

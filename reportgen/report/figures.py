@@ -18,6 +18,7 @@ from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
 from reportgen.drawing.forces import Sliding
 from reportgen.drawing.forces import coriolis as coriolis_figure
+from reportgen.drawing.geometry import moved
 from reportgen.drawing.labels import Canvas, sheets
 from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
 from reportgen.drawing.scheme import Looks
@@ -29,17 +30,21 @@ from reportgen.machine.loads import FULL_TURN, Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
+from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.report import DENSE, Report
 
-A4_ACROSS = (297.0, 210.0)
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)
 LARGER = tuple(
     size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
 )
 """Sheets A2, A1, A0, lying and standing."""
-TEXT_BLOCK = (160.0, 225.0)
-"""What of an A4 page a figure may fill with its caption."""
+FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
+"""What of an A4 page a figure may fill."""
+TURNED_ROOM = (255.0, 143.0)
+"""What of it a figure may fill that is turned by 90°."""
+PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
+"""The names of sheets by their shorter side (mm)."""
 WHITE = (34.0, 64.0)
 """What of a plate's page (mm) its margins, header and caption take."""
 HALF = 0.5
@@ -53,17 +58,29 @@ SHOWN_AT = 1
 
 @dataclass(frozen=True, slots=True)
 class FigureScenes:
-    """The scenes of a figure; `paper` (mm) asks for a page of its own for each."""
+    """The scenes of a figure; `paper` (mm) asks for a page of its own for each, `turned` for one of A4 across."""
 
     scenes: tuple[Scene, ...]
     paper: tuple[float, float] | None = None
     note: Chain | None = None
     """A scale to print behind the caption."""
+    turned: bool = False
 
 
 def in_text(*scenes: Scene) -> bool:
     """Whether a figure is one scene that fits a text block in true size."""
-    return len(scenes) == 1 and scenes[0].width <= TEXT_BLOCK[0] and scenes[0].height <= TEXT_BLOCK[1]
+    return len(scenes) == 1 and scenes[0].width <= FIGURE_ROOM[0] and scenes[0].height <= FIGURE_ROOM[1]
+
+
+def across(scene: Scene) -> bool:
+    """Whether a scene fits a text block that is turned by 90°."""
+    return scene.width <= TURNED_ROOM[0] and scene.height <= TURNED_ROOM[1]
+
+
+def close(scene: Scene) -> Scene:
+    """A scene without the outer part of the white around it."""
+    items = tuple(moved(item, complex(-CLOSE, -CLOSE)) for item in scene.items)
+    return replace(scene, width=scene.width - 2 * CLOSE, height=scene.height - 2 * CLOSE, items=items)
 
 
 def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
@@ -72,17 +89,20 @@ def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
 
 
 def on_paper(*scenes: Scene) -> FigureScenes:
-    """Scenes in the text if they fit there in true size, else each on a page large enough for all of them."""
-    if all(map(in_text, scenes)):
-        return FigureScenes(scenes)
+    """Scenes in the text if they fit there in true size, else turned, else each on a page large enough for all."""
+    for shown in (scenes, tuple(map(close, scenes))):
+        if all(map(in_text, shown)):
+            return FigureScenes(shown)
+        if len(shown) == 1 and across(shown[0]):
+            return FigureScenes(shown, turned=True)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
-    papers = (paper for paper in (A4_ACROSS, A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    papers = (paper for paper in (A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
     return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
 def beside_one_another(*scenes: Scene) -> FigureScenes:
     """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
-    together = sheets(scenes, *TEXT_BLOCK, trim=CLOSE)
+    together = sheets(scenes, *FIGURE_ROOM, trim=CLOSE)
     if in_text(*together):
         return FigureScenes(together)
     return FigureScenes(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)

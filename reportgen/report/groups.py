@@ -143,7 +143,7 @@ class GroupView:
         self.points = (*self.points_i, *self.points_j)
         self.polygon = next((one for one in polygons if one.name == self.name), None)
         self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
-        self.by_crank = driver.kind == "crank"
+        self.by_crank = driver.kind == "crank" and all(ledger[ids.scale(what)].definition is not None for what in "va")
 
     def __str__(self) -> str:
         return self.name

@@ -23,6 +23,8 @@ from reportgen.report import (
     PageBreak,
     Paragraph,
     Plate,
+    Reference,
+    Section,
     Table,
     Text,
     Words,
@@ -41,7 +43,7 @@ from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
-from reportgen.report.figures import FigureScenes
+from reportgen.report.figures import PAPERS, FigureScenes
 from reportgen.report.groups import GroupView
 from reportgen.report.numbering import number
 from reportgen.report.report import Report
@@ -50,6 +52,7 @@ from reportgen.report.report import Report
 
 PROPERTIES = (
     # the assignment, in words
+    "extent_words",
     "machine_title",
     "turn_sense",
     "turn_words",
@@ -98,6 +101,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     # the assignment, in words
     "attached": chapters.attached,
     "begins_at": chapters.begins_at,
+    "reactions_at": comments.reactions_at,
     "signature": chapters.signature,
     "started": chapters.started,
     "variant_words": chapters.variant_words,
@@ -210,10 +214,26 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
-        return (Figure(drawn.scenes, inlines, key),)
+        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned),)
     first, *others = drawn.scenes
     further = (Plate(scene, drawn.paper, continues=True) for scene in others)
     return Plate(first, drawn.paper, inlines, key), *further
+
+
+def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
+    """The blocks with the plates of each chapter at its end; where one was called for, it is `said` where it stands."""
+    plates: list[Plate] = []
+    for block in blocks:
+        if isinstance(block, Plate):
+            plates.append(block)
+            if not block.continues:
+                yield said(block)
+            continue
+        if isinstance(block, Section) and block.level == 1:
+            yield from plates
+            plates.clear()
+        yield block
+    yield from plates
 
 
 # --- tables -----------------------------------------------------------------------------------------
@@ -221,14 +241,13 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
 
 @dataclass(frozen=True, slots=True)
 class QuantityTable:
-    """A table of the quantities whose ids a function gives, at all positions of one turn or of the cycle."""
+    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report."""
 
     ids: Callable[[Report], Sequence[str]]
-    cycle: bool = False
+    at: str = "positions"
 
     def __call__(self, report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-        positions = report.all_positions if self.cycle else report.positions
-        return tables.tables(report, key, caption, self.ids(report), positions)
+        return tables.tables(report, key, caption, self.ids(report), getattr(report, self.at))
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,12 +293,12 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "a": QuantityTable(result_tables.accelerations),
     # forces
     "strokes": result_tables.strokes,
-    "gas": QuantityTable(result_tables.gas, cycle=True),
-    "inertia": QuantityTable(result_tables.inertia, cycle=True),
-    "R": QuantityTable(result_tables.reactions, cycle=True),
-    "R.angles": QuantityTable(result_tables.reaction_angles, cycle=True),
+    "gas": QuantityTable(result_tables.gas, "load_positions"),
+    "inertia": QuantityTable(result_tables.inertia, "all_positions"),
+    "R": QuantityTable(result_tables.reactions, "all_positions"),
+    "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
-    "M": QuantityTable(result_tables.balance, cycle=True),
+    "M": QuantityTable(result_tables.balance, "all_positions"),
     "flywheel": result_tables.flywheel,
     "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
 }
@@ -289,7 +308,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
 def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
     """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
 
-    A name that is not in `TABLES` is a table of the quantities whose ids are given, over the cycle or at positions.
+    A name that is not in `TABLES` is a table of the loads whose ids are given, or of other quantities at positions.
     """
     texts = report.words["tables"][words or name]
     position = next((k for k in arguments if isinstance(k, Position)), None)
@@ -306,7 +325,7 @@ def _of_ids(
     ids: Sequence[str],
     positions: Iterable[int] | None = None,
 ) -> tuple[Table | Paragraph, ...]:
-    return tables.tables(report, key, caption, ids, positions or report.all_positions)
+    return tables.tables(report, key, caption, ids, positions or report.load_positions)
 
 
 # --- names with parentheses -------------------------------------------------------------------------
@@ -352,6 +371,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
     "first_turn": Report.first_turn,
+    "parts": Report.parts,
     "force_list": equations.force_list,
     "group_kind": equations.group_kind,
     "load_sense": phrases.load_sense,
@@ -404,9 +424,9 @@ def compose(case: Calculation) -> Document:
     report = Report(case)
     words, named = report.words, names(report)
     blocks: list[Block] = [_cover(report)]
-    for section in _sections(report):
+    for section in report.sections:
         if section == "contents":
-            blocks += [PageBreak(), Contents(words["document"]["contents"])]
+            blocks += [PageBreak(), Contents(words["document"]["contents"], not report.parts("contents-page"))]
         else:
             blocks += report.prose.render(section, named)
     assignment = case.assignment
@@ -418,19 +438,16 @@ def compose(case: Calculation) -> Document:
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
             words=Words.among(words["document"]),
-            blocks=tuple(blocks),
+            blocks=tuple(plates_last(blocks, partial(_plate_is_last, report))),
+            close=not report.parts("usual-type"),
         )
     )
 
 
-def _sections(report: Report) -> Iterator[str]:
-    """The sections of the outline, that on instant centres behind the velocities if any link has one."""
-    outline = report.machine.outline
-    last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
-    for index, section in enumerate(outline):
-        yield section
-        if report.plane_links and index == last:
-            yield "centres"
+def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
+    """Says where a plate stands."""
+    paper = PAPERS.get(min(plate.paper), "")
+    return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))
 
 
 def _cover(report: Report) -> Cover:

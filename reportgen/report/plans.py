@@ -32,7 +32,7 @@ from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
 from reportgen.plans.sides import Side, image
 from reportgen.report import SCENE_GAP, Inlines
-from reportgen.report.figures import A3_ACROSS, TEXT_BLOCK, FigureScenes, on_paper, scale_note
+from reportgen.report.figures import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper, scale_note
 from reportgen.report.groups import GroupView
 from reportgen.report.phrases import counted
 from reportgen.report.report import Report
@@ -136,7 +136,7 @@ def motion_construction(report: Report, what: What) -> Construction[str]:
 def _worked(report: Report, drawing: Plan, k: int) -> Scene:
     """A worked plan with the mechanism beside it."""
     small = thumbnail(report.machine.linkage, report.analysis.motion, k - 1)
-    return plan(drawing, beside=(small,), width=TEXT_BLOCK[0])
+    return plan(drawing, beside=(small,), width=FIGURE_ROOM[0])
 
 
 def _scale(report: Report, id: str, k: int | None = None) -> Chain:
@@ -184,7 +184,7 @@ def _plates(
 
     for share in SHARES:
         last = share == SHARES[-1]
-        room = TEXT_BLOCK if last else ROOM
+        room = FIGURE_ROOM if last else ROOM
         if share * largest > LARGEST and not last:
             continue
         drawn: list[Scene] = []

@@ -5,7 +5,7 @@ What of it templates may name stands in the namespace, with the functions, table
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.assignment import Assignment
+from reportgen.assignment.common import Extent
 from reportgen.drawing.charts import Area
 from reportgen.drawing.sheet import USUAL_FORM, Form
 from reportgen.formula import Symbol, ids, vocabulary
@@ -32,6 +33,35 @@ PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
+
+OPENING: Mapping[Extent, tuple[str, ...]] = {"full": (), "short": ("contents", "foreword")}
+"""The sections that stand before all others, whatever the order of the outline."""
+LEFT_OUT: Mapping[Extent, frozenset[str]] = {
+    "full": frozenset(),
+    "short": frozenset(
+        (
+            # sections of the outline
+            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "checks"),
+            # constructions step by step, plans of the other positions, further curves
+            *("velocity-stages", "acceleration-stages", "force-stages"),
+            *("velocity-plates", "acceleration-plates", "force-plates"),
+            *("polar", "flywheel-work", "flywheel-speed"),
+            # a second method, and the book that it is taken from
+            *("formulas-velocity", "formulas-acceleration", "further-references"),
+            # tables that the work goes on without, and what is said of them
+            *("joints", "coordinates", "velocity-senses", "acceleration-senses", "inertia-positions"),
+            *("reactions", "mean-positions", "flywheel-table", "conclusion-reactions"),
+            # remarks
+            *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
+            *("comments/reactions", "comments/torque", "comments/flywheel"),
+            # in tables relative velocities and accelerations, and loads at other than worked positions
+            *("relative", "loads-everywhere"),
+            # the usual size of type, pages of their own for the contents
+            *("usual-type", "contents-page"),
+        )
+    ),
+}
+"""The sections, parts of sections and further parts that a report of an extent goes without."""
 
 
 @dataclass(frozen=True)
@@ -100,12 +130,40 @@ class Report:
         between = np.abs(grid[:, None] - own).min(axis=1) > SAME_ANGLE
         return analyse(self.machine, np.sort(np.concatenate((grid[between], own))))
 
+    # --- how much it contains
+
+    def parts(self, *names: str) -> list[str]:
+        """Those of the sections or parts of sections that a report of this extent has, in order."""
+        left_out = LEFT_OUT[self.assignment.report.extent].difference(self.machine.essential)
+        return [name for name in names if name not in left_out]
+
+    @property
+    def sections(self) -> list[str]:
+        """The sections in order."""
+        every = tuple(self._outline())
+        opening = [name for name in OPENING[self.assignment.report.extent] if name in every]
+        return self.parts(*dict.fromkeys([*opening, *every]))
+
+    def _outline(self) -> Iterator[str]:
+        """The machine's outline, the section on instant centres behind the velocities if any link has one."""
+        outline = self.machine.outline
+        last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
+        for index, section in enumerate(outline):
+            yield section
+            if self.plane_links and index == last:
+                yield "centres"
+
+    @property
+    def extent_words(self) -> str:
+        """Which extent is asked for, in a sentence."""
+        return str(self.words["extents"][self.assignment.report.extent])
+
     # --- the assignment in words
 
     @property
     def machine_title(self) -> str:
         title = self.case.title
-        return title[:1].lower() + title[1:]
+        return title[:1].lower() + title[1:] if title[1:2].islower() else title
 
     @property
     def variant(self) -> str:
@@ -175,6 +233,11 @@ class Report:
         return self.machine.numbered(sorted({*evenly, *self.worked, *self.worked_forces}))
 
     @property
+    def load_positions(self) -> tuple[Position, ...]:
+        """The positions at which the loads are given: those of the cycle that are shown, or the worked ones."""
+        return self.all_positions if self.parts("loads-everywhere") else self.worked_forces
+
+    @property
     def worked(self) -> tuple[Position, ...]:
         """The positions of one turn whose motion is worked out in full."""
         count = self.machine.count
@@ -187,8 +250,8 @@ class Report:
 
     @property
     def plates(self) -> tuple[int, ...]:
-        """Positions whose plans are drawn: all of the cycle, or the worked ones when there are very many."""
-        if self.assignment.positions.count <= PLATES_UP_TO:
+        """Positions whose plans are drawn: all of the cycle, or the worked ones in a short report or of very many."""
+        if self.assignment.positions.count <= PLATES_UP_TO and self.parts("velocity-plates"):
             return tuple(range(1, self.assignment.cycle_positions + 1))
         return self.assignment.worked_positions
 
@@ -300,8 +363,8 @@ class Report:
 
     @property
     def has_formulas(self) -> bool:
-        """Whether closed formulas check the plans."""
-        return bool(self.machine.compared)
+        """Whether closed formulas check the plans, and the report shows them."""
+        return bool(self.machine.compared) and bool(self.parts("formulas-velocity"))
 
     @property
     def needs_flywheel(self) -> bool:

@@ -126,7 +126,8 @@ def velocities(report: Report) -> list[str]:
     columns: list[str] = []
     for group in report.groups:
         # Relative to a fixed point a velocity is the point's own.
-        columns += [ids.velocity(group.M), *(side.velocity for side in group.moving), ids.velocity(group.Q)]
+        relative = [side.velocity for side in group.moving if report.parts("relative")]
+        columns += [ids.velocity(group.M), *relative, ids.velocity(group.Q)]
         columns += [ids.velocity(place) for place in group.points]
     return [*report.known(columns), *_of_links(report, "omega")]
 
@@ -144,7 +145,8 @@ def accelerations(report: Report) -> list[str]:
     columns: list[str] = []
     for group in report.groups:
         columns.append(ids.acceleration(group.M))
-        columns += [ids.acceleration(side.relative, part) for side in group.sides for part in _parts(side)]
+        if report.parts("relative"):
+            columns += [ids.acceleration(side.relative, part) for side in group.sides for part in _parts(side)]
         columns += [ids.acceleration(group.Q), *(ids.acceleration(place) for place in group.points)]
     return [*report.known(columns), *_of_links(report, "eps")]
 

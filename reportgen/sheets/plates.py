@@ -125,11 +125,12 @@ def _kinematics(report: Report) -> Iterator[Series]:
     for what, name in NAMES.items():
         size = _on_plan(report, ids.plan_point.only(what=what), ids.scale(what))
         yield one(name, layer=name, draw=partial(_motion_plans, what=what), scale=ids.scale(what), size=size)
-    for k in report.worked:
+    for k in report.worked if report.parts("centres") else ():
         if any(centre_state(report, link, k) == "found" for link in report.plane_links):
             draw = partial(_centres, k=k)
             yield one("centres", layer="velocity", draw=draw, scale="mu.l", key="centres", size=whole)
-    yield _curve("motion", "kinematics", motion)
+    if report.parts("diagrams"):
+        yield _curve("motion", "kinematics", motion)
     yield one("dimensions", layer="tables", draw=_dimensions, scale="mu.l")
     yield one("velocities", layer="tables", draw=_table(velocity_segments, velocities), scale="mu.v")
     yield one("accelerations", layer="tables", draw=_table(acceleration_segments, accelerations), scale="mu.a")
@@ -209,14 +210,14 @@ def _forces(report: Report) -> Iterator[Series]:
         size = _on_plan(report, ids.plan_point.only(what="v"), "mu.v")
         yield one("lever", draw=partial(_lever, k=k), scale="mu.v", key="lever", size=size)
     yield _curve("torque", "forces", torque)
-    if report.loads_crank and report.driver.centre:
+    if report.loads_crank and report.driver.centre and report.parts("polar"):
         yield _curve("polar", "forces", polar)
     if report.flywheel is not None:
         yield _curve("flywheel-torque", "forces", flywheel_torque)
         yield _curve("flywheel-work", "forces", flywheel_work)
         if report.has_reduced_inertia:
             yield _curve("wittenbauer", "forces", wittenbauer)
-        if report.needs_flywheel:
+        if report.needs_flywheel and report.parts("flywheel-speed"):
             yield _curve("flywheel-speed", "forces", flywheel_speed)
     for name, columns in (("loads", (gas, applied, inertia)), ("reactions", (reactions,)), ("balance", (balance,))):
         yield one(name, layer="tables", draw=_table(*columns, cycle=True))

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 CONTENTS_LEVEL = 3
 """The deepest level of heading that the contents and the outline list."""
-CAPTION = 15.0
-"""About what a figure's caption takes, with the white around it (mm)."""
 HEADING, OPENING, TITLE, ROW = 12, 20, 14, 5.0
 """Approximate heights in mm: of a heading, of the words before a table, of its caption, and of a row."""
 WORDS, LINE = 9, 12
@@ -61,6 +59,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
         gap=f"{tree.ABREAST:g}",
+        close=document.close,
         body=body,
         family=FAMILIES.get(letter.font),
         size=f"{letter.size:g}",
@@ -126,8 +125,6 @@ class _Writer:
         room = self.room_to_table(blocks)
         if room:
             needed = _command("needed", f"{room:g}mm")
-            if isinstance(following, tree.Table):
-                needed = _command("tableroom", f"{_whole(following):g}mm") + needed
         else:
             short = isinstance(following, tree.Equation) and not isinstance(following.rows[0], VectorEquation)
             needed = _command("neededbelow", f"{SHORT if short else LONG:g}mm")
@@ -169,8 +166,8 @@ class _Writer:
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
                 return self.cover(block)
-            case tree.Contents(title):
-                return self.contents(title)
+            case tree.Contents(title, brief):
+                return self.contents(title, brief)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
             case tree.PageBreak():
@@ -223,13 +220,14 @@ class _Writer:
         number = rf"{escape(section.number)}\quad " if section.number else ""
         return number + self.inlines(section.title)
 
-    def contents(self, title: str) -> str:
+    def contents(self, title: str, brief: bool) -> str:
         lines = [r"\clearpage", _command("headline", escape(title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
+            if entry.section.level < CONTENTS_LEVEL or not brief
         )
-        return "\n".join([*lines, r"\clearpage"])
+        return "\n".join(lines if brief else [*lines, r"\clearpage"])
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape
@@ -288,24 +286,26 @@ class _Writer:
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
-    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The caption of what goes on from the page before."""
         return _command("captiontext", "", escape(f"{word} {block.number} ({self.document.words.continued})"), "")
 
     def figure(self, figure: tree.Figure) -> str:
-        """Its rows with the caption below; a figure that breaks between its rows has the caption first."""
-        scenes = tree.in_rows(figure.scenes)
-        breaks = tree.breaks(scenes)
-        rows = ("\n\\scenebreak\n" if breaks else "\n\\scenegap\n").join(
-            _command("scenerow", rf"\hskip{tree.SCENE_GAP:g}mm ".join(map(self.scene, row))) for row in scenes
-        )
-        caption = self.caption(self.document.words.figure, figure)
-        if breaks:
-            first = rf"{{{tree.height(scenes[:1]) + CAPTION:g}mm}}"
-            return "\n".join(
-                [r"\begin{longscenes}" + first, _command("captionabove", caption), rows, r"\end{longscenes}"]
-            )
-        return "\n".join([r"\begin{scenes}", rows, _command("figurecaption", caption), r"\end{scenes}"])
+        """Its rows with the caption below, on as many pages as they need."""
+        if figure.turned:
+            drawing = paint_latex(figure.scenes[0], self.formulas)
+            shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
+            return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
+        word = self.document.words.figure
+        first, *others = tree.in_parts(figure)
+        further = (self.rows(rows, self.again(word, figure)) for rows in others)
+        return "\n".join((self.rows(first, self.caption(word, figure)), *further))
+
+    def rows(self, rows: Sequence[Sequence[Scene]], caption: str) -> str:
+        """Rows of scenes with the caption below."""
+        gap = rf"\hskip{tree.SCENE_GAP:g}mm "
+        drawn = "\n\\scenegap\n".join(_command("scenerow", gap.join(map(self.scene, row))) for row in rows)
+        return "\n".join([r"\begin{scenes}", drawn, _command("figurecaption", caption), r"\end{scenes}"])
 
     def scene(self, scene: Scene) -> str:
         painted = paint_latex(scene, self.formulas)
@@ -340,7 +340,7 @@ class _Writer:
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
         framed = r"\framedtable" if block.framed else ""
-        room = _command("tableroom", f"{_whole(block):g}mm") + _command("needed", f"{_height(block):g}mm")
+        room = _command("needed", f"{_height(block):g}mm")
         return f"{room}\\begin{{belowfigures}}\\tablesize{framed}\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:
@@ -374,11 +374,6 @@ def _height(block: tree.Table) -> float:
     """About how much paper (mm) a table needs with its caption, up to its first possible break."""
     rows = len(block.rows) if len(block.rows) <= tree.WHOLE_TABLE else tree.TOGETHER
     return TITLE + ROW * (len(block.head) + rows)
-
-
-def _whole(block: tree.Table) -> float:
-    """About how much paper (mm) a whole table needs with the lines before it."""
-    return OPENING + TITLE + ROW * (len(block.head) + len(block.rows))
 
 
 def _column(width: float, align: str) -> str:

@@ -8,9 +8,15 @@ between spaces, because identifiers of Typst may hold a hyphen.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+import json
+import re
+import tempfile
+import unicodedata
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
+from pathlib import Path
 from typing import ClassVar
 
 from reportgen import report as tree
@@ -36,7 +42,6 @@ from reportgen.formula.setting import (
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_run import breadth, settle
 
 
 def literal(text: str) -> str:
@@ -102,13 +107,6 @@ LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
-HELD = 40
-"""A plate waits for the end of its page behind at most so many blocks."""
-
-
-def typeset(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> tuple[str, bytes]:
-    """The source of a document with its PDF; raises `TypesetterError`."""
-    return settle(write(document, letter), system=bool(letter.font))
 
 
 def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
@@ -124,6 +122,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
             *_in(letter),
+            *(("close: true",) if document.close else ()),
         )
     )
     body = _Blocks(document.language, document.words).write(document.blocks)
@@ -169,24 +168,12 @@ class _Blocks:
         self.formulas = TypstFormulas(language)
         self.words = words
         self.room = room
-        self.figure = ""
-        """The key of the last figure, which may still wait for the next page."""
-        self.count = 0
-        """Of the figures and plates that may wait."""
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
         lines: list[str] = []
         run_in = ""
-        held = _Held()
         for block, following in pairwise((*blocks, None)):
-            if held and held.ends_before(block):
-                held.release(lines)
-            if block is None:
-                continue
-            if isinstance(block, tree.Plate):
-                held = _Held(self.name("plate"), [len(lines) + 1])
-                lines += [f"#let {held.name} = [{self.block(block)}]", ""]
-                continue
+            assert block is not None
             if isinstance(block, tree.Section) and block.level > 3:
                 run_in = self.run_in(block)
                 if not isinstance(following, tree.Paragraph):
@@ -202,9 +189,6 @@ class _Blocks:
             else:
                 lines.append(f"#K[{run_in}{self.block(block)}]")
             run_in = ""
-            if held and not isinstance(block, tree.Section) and not tree.leads(block, following, self.language):
-                held.places.append(len(lines))
-                lines.append("")
         return "\n\n".join(lines)
 
     def block(self, block: tree.Block) -> str:
@@ -220,16 +204,15 @@ class _Blocks:
                 return self.equation(block)
             case tree.Table():
                 return self.table(block)
-            case tree.Figure(scenes, _, key):
-                rows = tree.in_rows(scenes)
-                drawings = ",".join(_array(map(self.scene, row)) for row in rows)
+            case tree.Figure(scenes, _, key, turned=turned):
                 label = self.caption(self.words.figure, block)
-                if tree.breaks(rows) or self.room < tree.TEXT_WIDTH:
-                    return f"#place.flush()#F({literal(key)},{label},\n{drawings})"
-                before, self.figure = self.figure, key
-                height = tree.height(rows)
-                name = literal(self.name("figure"))
-                return f"#W({name},{literal(key)},{literal(before)},{height:.1f},{label},\n{drawings})"
+                if turned:
+                    return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
+                first, *others = tree.in_parts(block)
+                again = f"{self.again(self.words.figure, block)},[]"
+                figures = [f"#W({literal(key)},{label},\n{self.rows(first)})"]
+                figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
+                return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
                 label = (
                     f"{self.again(self.words.figure, block)},[]"
@@ -242,17 +225,12 @@ class _Blocks:
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case tree.Contents(title):
-                return f"#contents({literal(title)})"
+            case tree.Contents(title, brief):
+                return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
-
-    def name(self, kind: str) -> str:
-        """A name of its own for a figure or plate that may wait."""
-        self.count += 1
-        return f"{kind}{self.count}"
 
     # --- inlines ----------------------------------------------------------------------------------
 
@@ -344,6 +322,9 @@ class _Blocks:
         body = self.content(cell.inlines)
         return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
 
+    def rows(self, rows: Sequence[Sequence[Scene]]) -> str:
+        return ",".join(_array(map(self.scene, row)) for row in rows)
+
     def scene(self, scene: Scene) -> str:
         return f"({paint_typst(scene, self.formulas)},{literal(scene.title)})"
 
@@ -351,35 +332,9 @@ class _Blocks:
         """The two arguments of a caption: its label, and what it says."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
 
-    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
+    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The label of what goes on from the page before."""
         return literal(f"{word} {block.number} ({self.words.continued})")
-
-
-@dataclass
-class _Held:
-    """A plate that lets the text run on to the end of its page: its name, and where in the source it may stand."""
-
-    name: str = ""
-    places: list[int] = field(default_factory=list)
-
-    def __bool__(self) -> bool:
-        return bool(self.places)
-
-    def ends_before(self, block: tree.Block | None) -> bool:
-        """Whether the plate must stand before a block: figures keep their order, parts their own."""
-        match block:
-            case None | tree.Figure() | tree.Plate() | tree.PageBreak() | tree.Contents() | tree.Cover():
-                return True
-            case tree.Section(level=level):
-                return level == 1
-        return len(self.places) > HELD
-
-    def release(self, lines: list[str]) -> None:
-        """Fill the places; the typesetter finds out which is the last one on the page."""
-        for index, place in enumerate(self.places):
-            lines[place] = f"#hold({literal(self.name)},{index},{len(self.places) - 1},{self.name})"
-        self.places.clear()
 
 
 def _text(text: str) -> str:
@@ -395,3 +350,121 @@ def _text(text: str) -> str:
 def _label(key: str) -> str:
     """An anchor behind the block before it, for links to `key`."""
     return f"#label({literal(key)})" if key else ""
+
+
+# --- the typesetter, which runs once for each source -------------------------------------------------
+
+
+def compile(source: str, system: bool = False) -> bytes:
+    """The PDF of a Typst source, byte for byte the same from run to run; it may name fonts of the `system`.
+
+    Raises `TypesetterError` with the message's first lines.
+    """
+    try:
+        import typst
+    except ModuleNotFoundError as error:
+        raise TypesetterError("typst is not installed: pip install typst") from error
+    except ImportError as error:
+        raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
+    own = not needs_system_fonts(source, lacking)
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        path = Path(folder) / "report.typ"
+        path.write_text(source, encoding="utf-8", newline="")
+        try:
+            pdf = typst.compile(str(path), root=folder, ignore_system_fonts=own and not system)
+        except typst.TypstError as error:
+            lines = str(getattr(error, "message", error)).splitlines()
+            raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+    assert isinstance(pdf, bytes)
+    return pdf
+
+
+def families() -> list[str]:
+    """The fonts that a source may name: the typesetter's own and those of the system, in order."""
+    import typst
+
+    return sorted(typst.Fonts(include_system_fonts=True).families())
+
+
+@lru_cache(maxsize=16)
+def breadth(font: str) -> float:
+    """How many times as broad as in the typesetter's own font a text is in another, at least 1."""
+    import typst
+
+    answer = typst.query(BREADTH.format(font=font, own=FONT).encode(), "<breadth>", field="value", one=True)
+    return max(1.0, float(json.loads(answer)))
+
+
+def lacking(letters: str, system: bool) -> str:
+    """Those of the letters that none of the typesetter's own fonts, or the `system`'s either, has."""
+    import typst
+
+    if not letters:
+        return ""
+    asked = question(letters).encode()
+    answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
+    return "".join(json.loads(answer))
+
+
+# --- letters that Typst's own fonts do not have ---------------------------------------------------
+# Names in Chinese, Thai, Lao and other scripts, emoji.
+# Typst leaves out in silence what no font has. So its fonts are asked first, then those of the system; what neither
+# has is told as a warning.
+
+COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
+"""Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
+FONT = "New Computer Modern"
+NOWHERE = r"\u{10fffe}"
+"""No character, and therefore in no font: the typesetter sets the same in its place as for a letter it lacks."""
+BATCH = 400
+"""So many different letters are asked for at most; a text of more is not worth a warning."""
+
+Lacking = Callable[[str, bool], str]
+"""Those of some letters that none of the typesetter's own fonts has, or, if asked, the system's either."""
+
+QUESTION = """\
+#set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
+#context [
+  #let size(letter) = {{ let box = measure(letter); (box.width, box.height) }}
+  #metadata(({letters},).filter(letter => size(letter) == size("{nowhere}"))) <lacking>
+]
+"""
+
+
+BREADTH = """\
+#let breadth(font, weight) = measure(text(font: font, weight: weight, size: 10pt)[
+  Hamburgefonstiv vận tốc góc của khâu 0123456789,0123456789]).width
+#context [#metadata(calc.max(..("regular", "bold").map(weight =>
+  breadth("{font}", weight) / breadth("{own}", weight)))) <breadth>]
+"""
+"""What the typesetter is asked about the letters of a font; words and numbers, as tables have them."""
+
+
+class MissingLettersWarning(UserWarning):
+    """Letters of a text have no place on the page, since no font has them."""
+
+    def __init__(self, letters: str) -> None:
+        self.letters = letters
+        super().__init__(f"no font has {' '.join(letters)}: left out on the page")
+
+
+def uncommon(text: str) -> str:
+    """The letters, digits and signs of a text, each once, that the typesetter's own fonts may lack."""
+    left = dict.fromkeys(COMMON.sub("", text))
+    return "".join(letter for letter in left if unicodedata.category(letter)[0] in "LNPS")[:BATCH]
+
+
+def question(letters: str) -> str:
+    """What the typesetter is asked: which of the letters, one at least, it sets as it sets what no font has."""
+    listed = ", ".join(f'"\\u{{{ord(letter):x}}}"' for letter in letters)
+    return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
+
+
+def needs_system_fonts(text: str, lacking: Lacking) -> bool:
+    """Whether a text has letters that only the system's fonts may have; warns of those that no font has."""
+    wanted = lacking(uncommon(text), False)
+    if not wanted:
+        return False
+    if missing := lacking(wanted, True):
+        warnings.warn(MissingLettersWarning(missing), stacklevel=2)
+    return missing != wanted

@@ -269,6 +269,7 @@ def batch_command(*arguments: object) -> subprocess.CompletedProcess[str]:
     )
 
 
+@proof
 def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> None:
     roster, given = write_class(tmp_path, {"K1": "kind: ship\n"})
     done = batch_command(roster, "--assignments", given, "--out", tmp_path / "out", "--jobs", 1, "--lang", "en")

@@ -84,13 +84,14 @@ def test_what_would_fill_lines_is_not_written_by_symbols(tmp_path: Path, languag
     assert case.literal["v.B"] is None
     assert case.literal["omega.2"] is not None
     text = text_of(solution(case))
-    number = case.ledger.number("v.B")
+    number = case.printed.number("v.B")
     assert text.count(write(number.value, number.decimals, language)) >= 2
     told = {"vi": "Với v_B, v_M, biểu thức quá dài", "en": "Expressions for v_B, v_M would be too long"}
     assert told[language] in text
     assert all(len(line) < 1200 for line in text.splitlines())
 
 
+@proof
 @pytest.mark.parametrize(("a", "b", "put_in"), [(37, 101, True), (0, 90, False)])
 def test_values_kept_out_are_put_in_where_an_answer_needs_them(tmp_path: Path, a: int, b: int, put_in: bool) -> None:
     """Else a reader could not check the numbers of the answer."""

@@ -20,7 +20,7 @@ from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import PageBreak, text_of
 from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.marking import students
 from tests.marking.keys import csv_rows, small_key
 from tests.marking.test_wording import FILES, TELLING, key
@@ -122,6 +122,7 @@ def test_half_a_step_is_rounded_up(share: float, scale: Scale, mark: float) -> N
 # --- a fuller sheet under a smaller choice ----------------------------------------------------------
 
 
+@proof
 def test_what_is_not_asked_for_but_filled_in_is_judged_and_earns_nothing(tmp_path: Path) -> None:
     from reportgen.classes import assess
 

@@ -140,6 +140,7 @@ def test_names_in_a_sheet_are_no_paths(few: Path, tmp_path: Path) -> None:
     assert [problem.code for problem in result.problems] == ["sheet-unknown"]
 
 
+@proof
 def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Path) -> None:
     """Neither names nor numbers of classmates stand in the marked sheet or on the page of feedback."""
     files = list(assess.put(graded, Policy(), tmp_path, "typst", None))
@@ -201,6 +202,7 @@ def test_comparing_an_empty_or_right_sheet(assignments: Path, tmp_path: Path) ->
     assert "still missing" in lines[0]
 
 
+@proof
 def test_policy_of_the_demo(graded: Graded, assignments: Path) -> None:
     weighed = assess.grade([demo.SHEETS], assignments, POLICY)
     by_id = {marking.key.id: marking for marking in weighed.markings}

@@ -71,6 +71,7 @@ def test_running_lines_cannot_end_their_style() -> None:
     assert not set(quoted("</style>'\"\\;}<!--\n")[1:-1]) & set("</>'\";}!-\n")
 
 
+@proof
 def test_formats_of_a_report(tmp_path: Path) -> None:
     done = command("build", SLIDE, "--format", "html,pdf", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
@@ -90,6 +91,7 @@ def test_an_unknown_format_is_wrong_usage(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@proof
 def test_a_faulty_file_leaves_the_last_page(tmp_path: Path) -> None:
     file = tmp_path / "one.yaml"
     file.write_text(SLIDE.read_text(encoding="utf-8"), encoding="utf-8")

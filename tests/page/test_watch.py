@@ -23,7 +23,7 @@ from typer.testing import CliRunner
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.page.watch import Desk, Server
-from tests.lanes import proof
+from tests.lanes import matrix, proof
 from tests.page.browser import Browser
 from tests.report import built
 
@@ -151,7 +151,7 @@ def pipe(folder: Path) -> None:
     os.mkfifo(folder / "given.yaml")
 
 
-@pytest.mark.parametrize("lose", [moved_away, pipe])
+@pytest.mark.parametrize("lose", matrix([moved_away, pipe], [pipe]))
 def test_a_file_that_was_lost_is_told_and_goes_on_when_it_is_back(
     file: Path, tmp_path: Path, lose: Callable[[Path], None]
 ) -> None:
@@ -224,6 +224,7 @@ def test_only_this_machine_and_only_its_own_page_are_served(served: Server) -> N
     assert status(address, Host=f"localhost:{served.server_port}", Origin=root) == 200
 
 
+@proof
 def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server) -> None:
     desk = served.desk
     until(lambda: desk.edition.reports == 1)

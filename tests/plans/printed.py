@@ -50,9 +50,10 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
                 what = "on paper"
             case "direction":
                 drawn = _on_paper(unrounded, id)
-                scale = _scale_of(unrounded, id)
+                scale = vocabulary.scale_on_paper(_side(unrounded, id))
                 with np.errstate(divide="ignore"):
-                    allowed = np.maximum(np.radians(DIRECTION), _read(longest, scale) / drawn)
+                    off = np.maximum(_read(longest, scale), _laid_off(unrounded, _side(unrounded, id), longest))
+                    allowed = np.maximum(np.radians(DIRECTION), off / drawn)
                 told = drawn >= TOLD * 1e-3
                 what = "direction"
             case _:
@@ -127,11 +128,10 @@ def _is_loaded(ledger: Ledger, family: Family) -> np.ndarray:
     return np.broadcast_to(np.abs(load.values) > ZERO * load.scale, family.values.shape)
 
 
-def _scale_of(ledger: Ledger, direction: str) -> str:
-    """The scale of the plan in which a vector is drawn; "" for one that is not."""
+def _side(ledger: Ledger, direction: str) -> str:
+    """The id of the length on paper of the vector whose direction it is; "" for one that is not drawn."""
     of = vocabulary.vector_of(direction)
-    drawn = (id for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of)
-    return next(map(vocabulary.scale_on_paper, drawn), "")
+    return next((id for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of), "")
 
 
 def _on_paper(ledger: Ledger, direction: str) -> np.ndarray:

@@ -117,6 +117,6 @@ def test_a_force_across_the_guide_hands_nothing_on_to_the_crank(tmp_path: Path) 
     opened = MachineCase(api.load(file, "en"))
     assert np.abs(opened.analysis.torque).max() < 1e-9
     text = text_of(compose(opened))
-    assert "the groups hand no force on to the crank" in text
+    assert "The groups hand no force on to the crank" in text
     assert "polar diagram" not in text
     assert [opened.ledger["M.least"].at(None), opened.ledger["M.greatest"].at(None)] == [0, 0]

@@ -234,7 +234,7 @@ def test_every_word_is_used() -> None:
     assert unused == []
 
 
-@pytest.mark.parametrize("table", matrix(["meanings", "zero", "positive"], ["zero"]))
+@pytest.mark.parametrize("table", matrix(["meanings", "zero", "positive"], []))
 def test_every_name_of_quantities_is_that_of_one(table: str) -> None:
     """Each name in a key of these tables, common or a machine's own, is that of a quantity that the words are for."""
     names: dict[str, set[bool]] = {}

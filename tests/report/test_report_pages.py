@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 import pytest
+import typst
 
-from reportgen.report import Block, Emph, Figure, List, Paragraph, Plate, Reference, Strong, Table
-from tests.report import pages
+from reportgen import api
+from reportgen.report import Block, Emph, Figure, List, Paragraph, Plate, Reference, Section, Strong, Table
+from reportgen.report.figures import across, close, in_text
+from tests.report import built, pages
 from tests.report.built import Report, Written
+from tests.report.pages import Page
 from tests.report.test_report_figures import captions
 from tests.report.test_report_files import contents_pages
 from tests.report.thin_pages import thin
@@ -86,12 +91,12 @@ def test_a_table_that_goes_on_says_so(report: Report) -> None:
 
 
 def test_a_figure_follows_its_mention_closely(report: Report) -> None:
-    """Pages of another size, which a figure passes over, are not counted."""
+    """Plates, which stand at the end of their part, are not counted."""
     word = report.document.words.figure
     a4 = [page.number for page in report.pages if not page.is_plate]
     place: dict[str, int] = {}
     for page in report.pages:
-        for number in captions(page, word):
+        for number in () if page.is_plate else captions(page, word):
             place.setdefault(number, page.number)
     prose: dict[str, int] = {}
     for page in report.pages:
@@ -112,3 +117,52 @@ def test_a_figure_follows_its_mention_closely(report: Report) -> None:
     }
     assert len(prose) > 0.8 * len(place)
     assert late == {}
+
+
+def test_figures_stand_in_their_order_within_their_section(report: Report) -> None:
+    """No figure comes before one with a smaller number, nor on a page before its section or behind the next one."""
+    blocks, word = report.document.blocks, report.document.words.figure
+    places: dict[str, int] = {}
+    for page in report.pages:
+        for number in captions(page, word):
+            places.setdefault(number, page.number)
+    assert list(places) == [one.number for one in blocks if isinstance(one, (Figure, Plate)) and one.number in places]
+    started = {number: page.number for page in report.pages for number in headings(page)}
+    section, found = "", {}
+    for block in blocks:
+        if isinstance(block, Section) and block.level <= 2:
+            section = block.number
+        elif isinstance(block, Figure):
+            found[block.number] = section
+    order = [one.number for one in blocks if isinstance(one, Section) and one.level <= 2]
+    for number, own in found.items():
+        if own in started and number in places:
+            after = [started[one] for one in order[order.index(own) + 1 :] if one in started]
+            assert started[own] <= places[number] <= min(after, default=len(report.pages)), number
+
+
+def headings(page: Page) -> Iterator[str]:
+    """The numbers of the sections of the first two levels that begin on a page."""
+    lines: dict[int, str] = {}
+    for glyph in page.body:
+        if glyph.size > 13:
+            lines[round(glyph.origin[1])] = lines.get(round(glyph.origin[1]), "") + glyph.char
+    for text in lines.values():
+        if found := re.match(r"\s*(\d+(?:\.\d+)?)(?=\s|[^\d.])", text):
+            yield found[1]
+
+
+def test_no_larger_paper_is_taken_for_what_fits(written: Written) -> None:
+    """A plate fits the text block of an A4 page neither upright nor turned."""
+    for block in built.walk(written.document.blocks):
+        if isinstance(block, Plate):
+            assert not in_text(close(block.scene)), block.key
+            assert not across(close(block.scene)), block.key
+
+
+def test_the_typesetter_runs_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    runs: list[object] = []
+    once = typst.compile
+    monkeypatch.setattr(typst, "compile", lambda *args, **more: (runs.append(args), once(*args, **more))[1])
+    api.typeset(built.written(built.SAMPLE, "vi").document, "typst")
+    assert len(runs) == 1

@@ -25,7 +25,7 @@ from tests.report.built import Written
 from tests.report.test_rare_groups import SLOTTED, TRANSLATED
 
 RARE = {"slotted": SLOTTED, "translated": TRANSLATED}
-ROUNDED = 5e-3
+ROUNDED = 1e-2
 """Of the largest load: what rounding leaves between a force read from a plan and the equations of equilibrium."""
 FURTHER = 4
 """Positions looked at beside the worked ones."""

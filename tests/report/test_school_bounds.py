@@ -166,8 +166,8 @@ UNFILLED = (
 )
 
 
-@pytest.mark.parametrize("language", ["en", "vi"])
-@pytest.mark.parametrize("words", UNFILLED)
+@pytest.mark.parametrize("language", matrix(["en", "vi"], ["vi"]))
+@pytest.mark.parametrize("words", matrix(UNFILLED, UNFILLED[:1]))
 def test_a_gap_that_nothing_fills_is_a_located_fault(school: School, words: str, language: Language) -> None:
     """Whoever uses the word: a template, or what stands on every page."""
     file = school(f"A note.\n\n%% words\n{words}\n", language)

@@ -47,7 +47,9 @@ def test_every_section_is_asked_for(language: str) -> None:
     """By an outline or the code, which name it in a string, or by another section, whose key may end its name."""
     code = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT.parent / "reportgen").rglob("*.py"))
     files = sorted((ROOT / language).rglob("*.md"))
-    asked = [each for file in files for each in each_of(str(file.relative_to(ROOT)), nodes.Include)]
+    included = [each for file in files for each in each_of(str(file.relative_to(ROOT)), nodes.Include)]
+    # A part that not every report has is named where it is asked for, and where it is left out.
+    asked = [each for each in included if not isinstance(each.template, nodes.Name)]
     patterns = [pattern_of(each) for each in asked]
     names = {name if file.stem not in PARTS else f"{file.stem}/{name}" for file in files for name in sections(file)}
     assert [

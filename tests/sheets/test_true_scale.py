@@ -17,7 +17,7 @@ import pytest
 from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.sheets import dxf
-from reportgen.writers import typst, typst_run
+from reportgen.writers import typst
 from tests.lanes import matrix, proof
 from tests.sheets.laid import MACHINES, ROOT, Laid, laid, plates
 
@@ -133,7 +133,7 @@ def drawn(of: Laid, plate: str) -> set[str]:
 def test_all_arrows_are_as_long_on_paper_as_in_cad(name: str) -> None:
     found = laid(name, "A1")
     for number, sheet in enumerate(found.sheets):
-        with pymupdf.open(stream=typst_run.compile(typst.write_sheet(sheet, "", "vi")), filetype="pdf") as pdf:
+        with pymupdf.open(stream=typst.compile(typst.write_sheet(sheet, "", "vi")), filetype="pdf") as pdf:
             assert pdf.page_count == 1
             size = pdf[0].rect
             assert abs(size.width / pages.MM - sheet.width) < 0.1
@@ -186,12 +186,11 @@ def test_the_file_is_sound_and_shows_the_whole_sheet(name: str) -> None:
     assert window.dxf.view_height == window.dxf.height == sheet.height
 
 
+@proof
 def test_the_same_sheet_gives_the_same_bytes() -> None:
     sheet = laid("four-bar-01", "A1").sheets[0]
     assert dxf.write_sheet(sheet, "vi") == dxf.write_sheet(sheet, "vi")
-    assert typst_run.compile(typst.write_sheet(sheet, "", "vi")) == typst_run.compile(
-        typst.write_sheet(sheet, "", "vi")
-    )
+    assert typst.compile(typst.write_sheet(sheet, "", "vi")) == typst.compile(typst.write_sheet(sheet, "", "vi"))
 
 
 @proof

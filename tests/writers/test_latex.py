@@ -105,7 +105,7 @@ def test_escape_leaves_no_command() -> None:
 def test_sample_has_no_overfull_box(compiled: pdflatex.Compiled) -> None:
     assert compiled.overfull == ()
     # Titles are known before TeX runs, so the second pass only confirms the first one's page numbers.
-    assert compiled.passes <= 3
+    assert compiled.passes <= 2
 
 
 @needs_tex

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.writers import typst_run
-from reportgen.writers.typst_run import MissingLettersWarning, lacking, needs_system_fonts, uncommon
+from reportgen.writers import typst
+from reportgen.writers.typst import MissingLettersWarning, lacking, needs_system_fonts, uncommon
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
 RARE = "\U00012000\U00014400\U00017000\U0001b170\U0001d800\U00016800\U00011a00\U000118a0"
@@ -53,7 +53,7 @@ def test_what_the_system_has_is_printed() -> None:
     there = [letter for letter in wanted if letter not in lacking(wanted, system=True)]
     if not there:
         pytest.skip("this system has no further fonts")
-    pdf = typst_run.compile(f'#set text(font: "New Computer Modern")\n{"".join(there)}')
+    pdf = typst.compile(f'#set text(font: "New Computer Modern")\n{"".join(there)}')
     printed = pymupdf.open(stream=pdf, filetype="pdf")[0].get_text()
     assert set(there) <= set(printed)
 
