@@ -28,7 +28,7 @@ from tests.page.browser import Browser
 from tests.report import built
 
 FILE = built.ROOT / "assignments" / "slider-crank-02.yaml"
-PATIENCE = 20.0
+PATIENCE = 60.0
 
 
 def until(condition: Callable[[], object], patience: float = PATIENCE) -> None:

@@ -46,6 +46,8 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
             case "segment":
                 scale = vocabulary.scale_on_paper(id)
                 allowed = np.maximum(_read(longest, scale), _laid_off(unrounded, id, longest))
+                # An arm is measured to the line of a force, which is off by itself.
+                allowed = 2 * allowed if family.arm else allowed
                 told = _is_loaded(unrounded, family)
                 what = "on paper"
             case "direction":
