@@ -43,9 +43,10 @@ def _name(point: str) -> str:
 def _symbols(task: Task) -> File:
     told = re.search(r"values of the symbols are (.*)\.$", task.text, re.MULTILINE)
     drawn = re.search(r"the figure and the answer sheet are for (.*)\.$", task.text, re.MULTILINE)
-    if told is None and drawn is None:
+    found = told or drawn
+    if found is None:
         return {}
-    pairs = [one.split(" = ") for one in (told or drawn)[1].split(", ")]  # type: ignore[index]
+    pairs = [one.split(" = ") for one in found[1].split(", ")]
     values = {formula(name): typed(value) for name, value in pairs}
     return values if told else {name: {"drawn": value} for name, value in values.items()}
 
