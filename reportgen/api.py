@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,7 +20,7 @@ from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, word
+from reportgen.base.words import as_error, school_folder, word
 from reportgen.cases import open_case, opened
 from reportgen.report.case import Calculation
 
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
-FORMATS = ("pdf", "html")
+FORMATS = ("pdf", "html", "docx")
 """What a report can be written as."""
 
 
@@ -126,6 +127,8 @@ def build_each(
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
+        if "docx" in formats:
+            files["report.docx"] = _word(assignment, tree)
     put_files(Path(out) / assignment.id, files, "report")
     return [Path(out) / assignment.id / f"report.{name}" for name in formats]
 
@@ -134,6 +137,27 @@ def _page(case: Case, tree: Document) -> bytes:
     from reportgen.page import page
 
     return page(case, tree).encode()
+
+
+def _word(assignment: Assignment, tree: Document) -> bytes:
+    """The Word file of a report, in the letter and the size that its file gives; a school's own look goes before.
+
+    Raises `AssignmentError` for a school's Word file that is refused.
+    """
+    from reportgen.report import Letter
+    from reportgen.workbook.letterhead import LETTERHEAD, read_letterhead
+    from reportgen.writers import typst
+    from reportgen.writers import word as writer
+    from reportgen.writers.word_parts import Own
+
+    given = assignment.report
+    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
+    own = None
+    if given.school and (path := school_folder(given.school) / LETTERHEAD).exists():
+        found = read_letterhead(path, tree.language)
+        own = Own(found.styles, found.header, found.footer, found.margins)
+    drawn = partial(typst.pictures, language=tree.language)
+    return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
 
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
@@ -199,6 +223,12 @@ def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping
     """The complete report as a page for a browser, whatever the engine."""
     case = open_case(path, language)
     return {"report.html": _page(case, case.document())}
+
+
+def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The complete report as a Word file, whatever the engine."""
+    case = open_case(path, language)
+    return {"report.docx": _word(case.assignment, case.document())}
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
@@ -276,6 +306,7 @@ MAKERS: Mapping[str, Maker] = {
     "task": task_files,
     "report": report_files,
     "page": page_files,
+    "docx": word_files,
     "key": key_files,
     "sheet": sheet_files,
 }

@@ -78,7 +78,7 @@ def batch(
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
     make: Annotated[
-        str, typer.Option("--make", help="Of task, report, page, key, sheet; parted by commas.")
+        str, typer.Option("--make", help="Of task, report, page, docx, key, sheet; parted by commas.")
     ] = "task,report,key",
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")

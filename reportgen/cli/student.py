@@ -40,12 +40,14 @@ def build(
     engine: EngineOption = "typst",
     lang: LangOption = None,
     keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
-    format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, html; parted by commas.")] = "pdf",
+    format: Annotated[
+        str, typer.Option("--format", metavar="LIST", help="Of pdf, html, docx; parted by commas.")
+    ] = "pdf",
     extent: Annotated[
         Literal["full", "short"] | None, typer.Option("--extent", help="Instead of the file's own.", show_default=False)
     ] = None,
 ) -> None:
-    """Write the complete report of each FILE to DIR/<id>/report.pdf, or as a page for a browser, report.html."""
+    """Write the complete report of each FILE to DIR/<id>/report.pdf, or as a page for a browser or a Word file."""
     from reportgen import api
 
     formats = listed(format, api.FORMATS, "--format", "no_format", lang)

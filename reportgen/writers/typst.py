@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
@@ -105,6 +105,8 @@ def _superscript(text: str) -> str:
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+PPI = 220
+"""Dots an inch of pictures."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 
@@ -377,6 +379,29 @@ def compile(source: str, system: bool = False) -> bytes:
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
     assert isinstance(pdf, bytes)
     return pdf
+
+
+def pictures(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:
+    """Scenes in true size as PNG and as SVG."""
+    import typst
+
+    if not scenes:
+        return []
+    formulas = TypstFormulas(language)
+    pages = (
+        f"#page(width:{scene.width}mm,height:{scene.height}mm,margin:0pt)[#{paint_typst(scene, formulas)}]"
+        for scene in scenes
+    )
+    source = "\n".join((_frame(), SHEET_LOOK, *pages))
+    own = not needs_system_fonts(source, lacking)
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        path = Path(folder) / "figures.typ"
+        path.write_text(source, encoding="utf-8", newline="")
+        compiler = typst.Compiler(str(path), root=folder, ignore_system_fonts=own)
+        made: list[Any] = [compiler.compile(format="png", ppi=PPI), compiler.compile(format="svg")]
+    # What has one page comes alone.
+    pngs, svgs = made if len(scenes) > 1 else ([one] for one in made)
+    return list(zip(pngs, svgs, strict=True))
 
 
 def families() -> list[str]:
