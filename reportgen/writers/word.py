@@ -331,7 +331,7 @@ class _Blocks:
             case tree.Text(text):
                 return run(text, look)
             case tree.Emph(of):
-                return self.inlines(of, look + ITALIC)
+                return self.inlines(of, look.replace(ITALIC, "") + ITALIC)
             case tree.Strong(of):
                 return self.inlines(of, BOLD + look.replace(BOLD, ""))
             case tree.InlineMath(expression, slashed):

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from unittest import mock
@@ -15,6 +16,7 @@ from reportgen import api
 from reportgen import report as tree
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path
+from reportgen.drawing import Label
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula import plain as plain_notation
 from reportgen.formula.plain import Plain
@@ -23,7 +25,8 @@ from reportgen.writers import word
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written
-from tests.writers.docx import WordFile, squash
+from tests.report.test_report_agreement import compared, numbers
+from tests.writers.word_file import WordFile, squash
 
 _STRUCTURE = re.compile(r"[()\[\]|/^_√;:•–]+")
 """What the plain notation of a formula writes where a page has a bar, a fence or a raised letter."""
@@ -148,3 +151,38 @@ def test_headings_are_headings_with_their_numbers(written: Written) -> None:
         for block in written.document.blocks
         if isinstance(block, Section) and block.level <= 3
     ]
+
+
+# --- on paper -------------------------------------------------------------------------------------
+
+NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
+COVER = frozenset({"Institution", "Title", "Subtitle", "CoverField"})
+"""The styles of the cover, which is not compared on paper."""
+
+
+def counted(texts: Iterable[str]) -> Counter[str]:
+    return Counter(number for text in texts for number in NUMBER.findall(unicodedata.normalize("NFKC", text)))
+
+
+def labels(written: Written) -> Iterator[str]:
+    """The texts of drawings, which are pictures in the file."""
+    for _, scene in built.scenes(written.document):
+        for item in scene.items:
+            if isinstance(item, Label):
+                content = item.content
+                yield content if isinstance(content, str) else plain_notation.formula(content, written.language)
+
+
+@pytest.mark.parametrize(
+    ("path", "language"),
+    matrix(built.PRINTED, [*built.BY_BOTH, *built.BY_ONE]),
+    ids=lambda one: getattr(one, "stem", one),
+)
+def test_every_number_of_the_pdf_is_in_the_file_and_no_other(path: Path, language: Language) -> None:
+    pytest.importorskip("pymupdf")
+    report = built.report(path, "typst", language)
+    on_paper = numbers(compared(report))
+    in_file = counted(text for style, text in word_file(path, language).lines if style not in COVER)
+    assert on_paper.total() > 500
+    assert on_paper - in_file - counted(labels(report.written)) == Counter()
+    assert in_file - on_paper == Counter()

@@ -18,6 +18,7 @@ R = "{http://schemas.openxmlformats.org/officeDocument/2006/relationships}"
 WP = "{http://schemas.openxmlformats.org/drawingml/2006/wordprocessingDrawing}"
 Element = ElementTree.Element
 
+GAP = "\u200b"
 _FREE = re.compile("[\\s\u200b]+")
 
 
@@ -85,6 +86,81 @@ class WordFile:
         return "".join(text for style, text in self.lines if style not in without)
 
 
+def recounted(file: WordFile) -> Iterator[tuple[str, str, str]]:
+    """(code, result in the file, result when all fields are counted anew) of numbers and references, in order.
+
+    By the rules of Word: SEQ counts its name, with `\\s 1` from 1 behind each heading 1, with `\\r` from what it says;
+    STYLEREF with `\\s` is the number of the heading before it, REF what its bookmark encloses or, with `\\w`, its
+    paragraph's number.
+    """
+    reader = _Reader(file)
+    marked: dict[str, str] = {}
+    numbers: dict[str, str] = {}
+    counts: dict[str, int] = {}
+    part_of: dict[str, int] = {}
+    part, heading = 0, ""
+    references: list[Field] = []
+    for paragraph in _paragraphs(file.body):
+        number = reader.mark(paragraph, style_of(paragraph))
+        if style_of(paragraph) == "Heading1":
+            part, heading = part + 1, number
+        inside: dict[str | None, str] = {}
+        code, result, state = "", "", ""
+        for one in paragraph.iter():
+            shown = ""
+            match one.tag, one.get(f"{W}fldCharType"):
+                case (_, "begin"):
+                    code, result, state = "", "", "begin"
+                case (_, "separate"):
+                    state = "separate"
+                case (_, "end"):
+                    state = ""
+                    words = code.split()
+                    if words[0] == "REF":
+                        references.append(Field(code.strip(), result))
+                        continue
+                    if words[0] == "STYLEREF":
+                        shown = heading
+                    elif "\\r" in words:
+                        counts[words[1]] = int(words[-1])
+                        continue
+                    else:
+                        name = words[1]
+                        kept = "\\s" not in words or part_of.get(name) == part
+                        counts[name] = (counts.get(name, 0) if kept else 0) + 1
+                        part_of[name], shown = part, str(counts[name])
+                    yield code.strip(), result, shown
+                case (tag, _) if tag == f"{W}bookmarkStart":
+                    mark = inside[one.get(f"{W}id")] = one.get(f"{W}name", "")
+                    marked[mark], numbers[mark] = "", number
+                case (tag, _) if tag == f"{W}bookmarkEnd":
+                    del inside[one.get(f"{W}id")]
+                case (tag, _) if tag == f"{W}instrText":
+                    code += one.text or ""
+                case (tag, _) if tag in (f"{W}t", f"{M}t"):
+                    shown = (one.text or "") * (not state)
+                    result += one.text or ""
+            for mark in inside.values():
+                marked[mark] += shown
+    for field in references:
+        mark = field.code.split()[1]
+        yield field.code, field.result, (numbers if "\\w" in field.code else marked)[mark]
+
+
+def style_of(paragraph: Element) -> str:
+    style = paragraph.find(f"{W}pPr/{W}pStyle")
+    return "" if style is None else style.get(f"{W}val", "")
+
+
+def _paragraphs(element: Element) -> Iterator[Element]:
+    """Of a body in order, those of contents left out."""
+    for child in element:
+        if child.tag == f"{W}p":
+            yield child
+        elif child.tag != f"{W}sdt":
+            yield from _paragraphs(child)
+
+
 class _Reader:
     def __init__(self, file: WordFile) -> None:
         numbering = file.xml("word/numbering.xml")
@@ -111,8 +187,7 @@ class _Reader:
     def paragraphs(self, element: Element) -> Iterator[tuple[str, str]]:
         for child in element:
             if child.tag == f"{W}p":
-                style = child.find(f"{W}pPr/{W}pStyle")
-                name = "" if style is None else style.get(f"{W}val", "")
+                name = style_of(child)
                 yield name, self.mark(child, name) + "".join(text_of(child))
             elif child.tag == f"{W}sdt":
                 inner = child.find(f"{W}sdtContent")
@@ -140,11 +215,18 @@ class _Reader:
         return re.sub("%(.)", lambda found: str(self.counts[key[0], int(found[1]) - 1]), shown)
 
 
+def letters_of(element: Element) -> str:
+    """All letters of an element, formulas and results of fields included."""
+    return "".join(one.text or "" for one in element.iter() if one.tag in (f"{W}t", f"{M}t"))
+
+
 def text_of(element: Element) -> Iterator[str]:
-    """The text of an element, of formulas with the signs that are drawn; no code of a field."""
+    """The text of an element, of formulas with the signs that are drawn, a gap after each run."""
     match element.tag.replace(M, "m:").replace(W, "w:"):
-        case "w:t" | "m:t":
+        case "w:t":
             yield element.text or ""
+        case "m:t":
+            yield f"{element.text or ''}{GAP}"
         case "w:tab" | "w:br":
             yield " "
         case "w:tabs" | "w:pPr":
