@@ -63,11 +63,12 @@ def templates_hash() -> str:
 
 
 def schools() -> list[str]:
-    """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
+    """The folders of templates that belong to a school, such as `tnut` with its `vi.md`, `en.md` and Word file."""
+    signs = ("vi.md", "en.md", "report.docx")
     return sorted(
         folder.name
         for folder in templates().iterdir()
-        if folder.name not in {"vi", "en", "frames"} and any((folder / f"{name}.md").exists() for name in ("vi", "en"))
+        if folder.name not in {"vi", "en", "frames"} and any((folder / name).exists() for name in signs)
     )
 
 

@@ -71,7 +71,7 @@ def _read(path: Path) -> Letterhead:
         if name.lower().endswith(".rels"):
             for relation in package.relations(name).values():
                 if relation.external:
-                    raise package.refused("letterhead-links", text=name)
+                    raise package.refused("letterhead-links")
     relations = package.relations("word/_rels/document.xml.rels")
     named = {id: f"word/{relation.target.removeprefix('/word/')}" for id, relation in relations.items()}
     if "word/document.xml" not in package or "word/styles.xml" not in package:
