@@ -142,7 +142,7 @@ def _page(case: Case, tree: Document) -> bytes:
 def _word(assignment: Assignment, tree: Document) -> bytes:
     """The Word file of a report, in the letter and the size that its file gives; a school's own look goes before.
 
-    Raises `AssignmentError` for a school's Word file that is refused.
+    Raises `TemplateError` for a school's Word file that is refused.
     """
     from reportgen.report import Letter
     from reportgen.workbook.letterhead import LETTERHEAD, read_letterhead

@@ -11,10 +11,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Mark, TemplateError
 from reportgen.base.files import contents
 from reportgen.base.units import Language
-from reportgen.base.words import as_error
+from reportgen.base.words import as_problem
 from reportgen.workbook.package import Attributes, Package, RefusedError
 
 LETTERHEAD = "report.docx"
@@ -48,16 +48,16 @@ class Letterhead:
 
 
 def read_letterhead(path: Path, language: Language) -> Letterhead:
-    """What a report takes over from a file; raises `AssignmentError` for one that is refused."""
+    """What a report takes over from a file; raises `TemplateError` for one that is refused."""
     try:
         return _read(path)
     except RefusedError as refused:
         fault = refused.fault
         code = fault.code if fault.code.startswith("letterhead") else _CODES.get(fault.code[6:], "letterhead-damaged")
-        raise as_error([Fault(code, fault.mark, fault.arguments)], language) from None
+        raise TemplateError(str(as_problem(Fault(code, fault.mark, fault.arguments), language))) from None
     except OSError as error:
         fault = Fault("unreadable", Mark(str(path)), {"reason": error.strerror or type(error).__name__})
-        raise as_error([fault], language) from error
+        raise TemplateError(str(as_problem(fault, language))) from error
 
 
 def _read(path: Path) -> Letterhead:

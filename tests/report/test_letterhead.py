@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.base.errors import AssignmentError
+from reportgen.base.errors import TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import templates
 from reportgen.workbook.letterhead import LARGEST, read_letterhead
@@ -189,7 +189,7 @@ def test_what_could_do_harm_is_a_located_fault(
     code, spoilt = REFUSED[case]
     path = tmp_path / "report.docx"
     path.write_bytes(spoilt(letterhead))
-    with pytest.raises(AssignmentError) as raised:
+    with pytest.raises(TemplateError) as raised:
         read_letterhead(path, language)
     assert str(raised.value).startswith(f"{path}:1:1: error[{code}]: ")
 
