@@ -7,6 +7,7 @@ chromium, and left as it is where there is none.
 from __future__ import annotations
 
 import shutil
+import subprocess
 import sys
 import tempfile
 from dataclasses import replace
@@ -24,6 +25,8 @@ ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
+SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
+"""A part of the text of the page of the Word file."""
 
 SHOWN = ROOT / "assignments" / "plane-motion" / "17.yaml"
 """The exercise that the README shows."""
@@ -32,7 +35,7 @@ MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
 WINDOW, FRAME_WIDTH, STEP, FRAME_MS, FRAME_COLOURS = (1180, 900), 760, 8, 100, 48
 """Of that picture: the window and the width of a frame (pixels), degrees and time (ms) from one to the next."""
-PAGE_DPI, SHEET_DPI, SCHEME_DPI = 100, 38, 60
+PAGE_DPI, WORD_DPI, SHEET_DPI, SCHEME_DPI = 100, 80, 38, 60
 COLOURS = 96
 """Few enough that a picture is small, and enough that thin lines stay smooth."""
 
@@ -124,9 +127,23 @@ def moving() -> None:
     first.save(ROOT / "docs" / "moving.gif", save_all=True, append_images=others, duration=FRAME_MS, loop=0)
 
 
+def word_page() -> None:
+    """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/word.png`."""
+    office = shutil.which("soffice")
+    if office is None:
+        print("docs/word.png is left as it is: LibreOffice Writer is not installed", file=sys.stderr)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        file = api.build(SAMPLE, folder, language="en", formats=["docx"])
+        command = [office, f"-env:UserInstallation=file://{folder}/office", "--headless", "--convert-to", "pdf"]
+        subprocess.run([*command, "--outdir", folder, str(file)], check=True, capture_output=True)
+        save(page_with(SHOWN_IN_WORD, pymupdf.open(f"{folder}/report.pdf")), "word", WORD_DPI)
+
+
 def main() -> None:
-    """Draw the page of the sample and a sheet, then the scheme of each kind from its first assignment file."""
+    """Draw a page of the sample, one of its Word file and a sheet, then the scheme of each kind from its first file."""
     save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
+    word_page()
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
