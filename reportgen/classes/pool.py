@@ -207,8 +207,6 @@ LOADED = (
     "reportgen.writers.typst",
     "jinja2",
     "markdown_it",
-    "matplotlib.path",
-    "matplotlib.ticker",
     "pint",
     "typst",
 )
@@ -225,10 +223,8 @@ def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext
     context.set_forkserver_preload(list(loaded))
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    # matplotlib looks for settings in a folder that is there: a home may be missing.
-    environment = ONE_THREAD | {"MPLCONFIGDIR": tempfile.gettempdir()}
-    before = {name: os.environ.get(name) for name in environment}
-    os.environ |= environment
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ |= ONE_THREAD
     try:
         with _uninterrupted():
             forkserver.ensure_running()
@@ -438,6 +434,6 @@ def _threads(client: Any) -> int:
 
 
 def _run(job: Job) -> Outcome:
-    """The outcome, on a worker; matplotlib is not made for threads, so a process does one job at a time."""
+    """The outcome, on a worker; a process has one folder for scratch files, so it does one job at a time."""
     with _one_at_a_time:
         return run_job(job)
