@@ -200,14 +200,20 @@ def _dismiss(running: Iterable[Future[Outcome]]) -> None:
 
 LOADED = (
     "reportgen.classes.pool",
+    "reportgen.catalogue.driven",
+    "reportgen.catalogue.sliders",
     "reportgen.machine.analysis",
     "reportgen.plans",
     "reportgen.report.outline",
     "reportgen.drawing.charts",
+    "reportgen.writers.latex",
+    "reportgen.writers.pdflatex",
     "reportgen.writers.typst",
     "jinja2",
     "markdown_it",
+    "numpy.polynomial",
     "pint",
+    "pylatex",
     "typst",
 )
 """What the process that workers are forked from has loaded, so that each finds it loaded."""
