@@ -202,17 +202,19 @@ def positions_scene(report: Report, beside: Canvas | None = None) -> Scene:
 
 
 def extremes(report: Report) -> FigureScenes:
-    """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
+    """The mechanism where its first slider turns back (I, II: its stroke begins and ends), as large as the scheme."""
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
     shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
-    return on_paper(_position_plan(report, motion, shows))
+    return on_paper(_position_plan(report, motion, shows, factor=_reduction(report)))
 
 
-def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None) -> Scene:
+def _position_plan(
+    report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None, factor: float = 1.0
+) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
-    scale = drawing_scale(report)
-    notes = looks(report, scale).notes
+    scale = drawing_scale(report) * factor
+    notes = looks(report, scale, factor).notes
     return position_plan(report.machine.linkage, motion, dense, scale, shows, notes, beside=beside)
 
 

@@ -28,8 +28,8 @@ TELLING = ["engine-twin-05", "shaper-01", "slotted-lever-01", "linkage-slide"]
 """A book's engine, curves that are asked for, motion alone, a sliding driver."""
 ENGINE, OTHER = 25, 20
 """Pages that a short report may take."""
-LARGER = {"linkage-8": 24, "toggle-press-01": 23, "shaper-02": 21}
-"""Those of three groups, of a flywheel, of curves and every load take more, as counted."""
+LARGER = {"linkage-8": 24, "toggle-press-01": 23}
+"""Those of three groups and of a flywheel take more, as counted."""
 
 
 def case(name: str, extent: Extent) -> MachineCase:
