@@ -266,17 +266,19 @@ def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> tuple[tuple
         for i in crowded:
             request = changed.get(i) or spots[i].request
             if request.short is not None:
-                if request.short == KEY:
-                    keyed.append(i)
-                short = (str(len(keyed)),) if request.short == KEY else request.short
-                changed[i] = replace(request, parts=short, short=None)
+                keyed += [i] if request.short == KEY else []
+                changed[i] = replace(request, parts=request.short, short=None)
             elif i in first and (to := _neighbour(i, spots)) is not None:
-                one, other = (changed.get(j) or spots[j].request for j in sorted((i, to)))
-                changed.pop(i, None)
-                changed[to] = _shared(one, other)
+                pair = {j: changed.pop(j, spots[j].request) for j in sorted((i, to))}
+                names = (replace(one, parts=requests[j].parts) if j in keyed else one for j, one in pair.items())
+                changed[to] = _shared(*names)
+                keyed = [j for j in keyed if j not in pair]
                 field.owners[field.owners == i] = to
                 del spots[i]
             first.add(i)
+        for n, i in enumerate(keyed, 1):
+            if (one := changed.get(i, spots[i].request)).parts != (str(n),):
+                changed[i] = replace(one, parts=(str(n),))
         if changed:
             spots |= field.spots(changed)
         if before == (len(first), len(spots)):
