@@ -46,18 +46,18 @@ def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> 
     ]
     kept = [(shown, values) for shown, values in courses if np.abs(values).max() > 1e-12]
     wide = any(values.min() <= WIDE for _, values in kept)
-    written = [(shown, _as_written(report, values)) for shown, values in kept]
+    written = [(shown, _as_written(report, shown.sub, values)) for shown, values in kept]
     columns = [(shown, *(values[index] for index in at)) for shown, values in written]
     titles = [report.words["table"]["position"], *map(str, report.positions)]
     first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
     return side_by_side(report, key, caption, first, titles=titles, columns=columns, most=most, widest=22.0, together=2)
 
 
-def _as_written(report: Report, course: np.ndarray) -> list[Number]:
-    """A coordinate (m) at all positions as its numbers in mm."""
+def _as_written(report: Report, point: str, course: np.ndarray) -> list[Number]:
+    """The coordinate (m) of a point at all positions as its numbers in mm."""
     values, decimals = course, 5
     for id, family in report.case.ledger.families.items():
-        if family.kind == "length" and family.definition is not None and family.values.shape == course.shape:
+        if (family.kind, family.symbol.sub) == ("length", point) and family.values.shape == course.shape:
             sense = np.sign(np.dot(family.values, course))
             if np.allclose(sense * family.values, course, rtol=0, atol=ZERO * np.abs(course).max()):
                 values, decimals = sense * report.ledger[id].values, report.ledger.decimals[id] or 5
