@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import box, clusters
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import LEFT_OUT, Canvas, Request, finish, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
@@ -438,7 +438,7 @@ def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
     named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
     return [
-        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL, short=())
+        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL, short=LEFT_OUT)
         for group in clusters(named, 0.6, lambda mark: mark[0])
     ]
 

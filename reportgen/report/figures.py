@@ -19,9 +19,10 @@ from reportgen.drawing import scheme as scheme_figure
 from reportgen.drawing.forces import Sliding
 from reportgen.drawing.forces import coriolis as coriolis_figure
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.labels import Canvas, sheets
+from reportgen.drawing.labels import Canvas
 from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
 from reportgen.drawing.scheme import Looks
+from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.flywheel import SAME_ANGLE

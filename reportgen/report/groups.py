@@ -427,6 +427,7 @@ class PlaneLink:
         self.link, self.rod, self.group = turn.link, turn.rod, group
         self.base, self.point = NamedPoint(turn.base), NamedPoint(turn.point)
         self.omega = ids.angular_velocity(self.link)
+        self.velocities = [ids.velocity(point) for point in (self.base, self.point)]
         self.rates = [ids.centre_omega(self.link), ids.centre_velocity(self.link)]
         self.distances, self.angles, self.projections = (
             [name(self.link, point) for point in (self.base, self.point)]

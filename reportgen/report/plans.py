@@ -13,7 +13,6 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
-from reportgen.drawing.labels import sheets
 from reportgen.drawing.plan import (
     Construction,
     Plan,
@@ -27,6 +26,7 @@ from reportgen.drawing.plan import (
     stages,
 )
 from reportgen.drawing.scheme import thumbnail
+from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
