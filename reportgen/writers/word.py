@@ -85,8 +85,8 @@ def write(
         "core": properties(document.title, document.author, document.language),
     }
     for index, page in enumerate(pages, start=1):
-        parts[f"header{index}"] = own.header or _header(document, page)
-        parts[f"footer{index}"] = own.footer or _footer(document, page)
+        parts[f"header{index}"] = own.header or _running("Header", document, page)
+        parts[f"footer{index}"] = own.footer or _running("Footer", document, page)
     media = {
         f"figure{index}.{end}": content
         for index, pair in enumerate(scenes, start=1)
@@ -95,22 +95,25 @@ def write(
     return packed(parts, media)
 
 
-def _header(document: tree.Document, page: PageSetup) -> str:
-    """The report and, at the right, the chapter that runs there; Word fills it in on each page."""
-    stop = f"<w:tabs>{right_tab(page.room)}</w:tabs>"
-    content = run(document.header[0]) + TAB + field("STYLEREF 1", "")
-    return f"{PROLOGUE}<w:hdr {DECLARED}>{paragraph('Header', content, stop)}</w:hdr>"
-
-
-def _footer(document: tree.Document, page: PageSetup) -> str:
-    stop = f"<w:tabs>{right_tab(page.room)}</w:tabs>"
-    left = " – ".join(filter(None, (document.footer[0], document.header[1])))
-    content = run(left) + TAB + run(f"{document.footer[1]} ") + field("PAGE", "")
-    return f"{PROLOGUE}<w:ftr {DECLARED}>{paragraph('Footer', content, stop)}</w:ftr>"
+def _running(kind: str, document: tree.Document, page: PageSetup) -> str:
+    """A header with the report and the chapter that runs there, a footer with the variant and the page."""
+    texts = {
+        "Header": (document.header[0], field("STYLEREF 1", "")),
+        "Footer": (
+            " – ".join(filter(None, (document.footer[0], document.header[1]))),
+            run(f"{document.footer[1]} ") + field("PAGE", ""),
+        ),
+    }
+    left, right = texts[kind]
+    line = paragraph(kind, run(left) + TAB + right, f"<w:tabs>{right_tab(page.room)}</w:tabs>")
+    name = {"Header": "hdr", "Footer": "ftr"}[kind]
+    return f"{PROLOGUE}<w:{name} {DECLARED}>{line}</w:{name}>"
 
 
 EQUATION = "Equation"
 """What the counter of equations is called."""
+LINKED = "\\h \\* MERGEFORMAT"
+"""A reference leads to what it names, and looks like the text that it stands in, not like a caption."""
 TAB, BREAK = "<w:r><w:tab/></w:r>", "<w:r><w:br/></w:r>"
 AFTER = paragraph("Gap", "", spaced(0, 10))
 """Below a table with its caption."""
@@ -127,10 +130,6 @@ class _Setting:
     @property
     def indent(self) -> float:
         return LIST_INDENT * self.level
-
-    @property
-    def room(self) -> float:
-        return tree.TEXT_WIDTH - self.indent
 
     @property
     def lines(self) -> str:
@@ -173,12 +172,14 @@ class _Blocks:
         body = []
         for index, (page, blocks) in enumerate(runs, start=1):
             body.append(self.write(_broken(blocks)))
-            ending = section(page, self._running(page, pages))
+            ending = section(page, self.running(page, pages))
             last = index == len(runs)
-            body.append(ending if last else f'<w:p><w:pPr><w:pStyle w:val="Gap"/>{ending}</w:pPr></w:p>')
+            # Nothing but a paragraph ends a section.
+            body.append(GAP + ending if last else f'<w:p><w:pPr><w:pStyle w:val="Gap"/>{ending}</w:pPr></w:p>')
         return "".join(body), pages
 
-    def _running(self, page: PageSetup, pages: Sequence[PageSetup]) -> str:
+    def running(self, page: PageSetup, pages: Sequence[PageSetup]) -> str:
+        """The references of a section to its header and footer."""
         if not page.running:
             return ""
         number = pages.index(page) + 1
@@ -340,7 +341,7 @@ class _Blocks:
                 return run(written(number, self.language).text(NARROW), look)
             case tree.Reference(key, text):
                 place = self.places.get(key)
-                return field(f"REF {place.bookmark}{place.shown} \\h", text, look) if place else run(text, look)
+                return field(f"REF {place.bookmark}{place.shown} {LINKED}", text, look) if place else run(text, look)
             case tree.LineBreak():
                 return BREAK
 
@@ -368,7 +369,7 @@ class _Blocks:
     def again(self, block: tree.Figure | tree.Plate) -> str:
         """The caption of what goes on from the page before."""
         place = self.places.get(self._figure)
-        number = field(f"REF {place.bookmark} \\h", block.number, BOLD) if place else run(block.number, BOLD)
+        number = field(f"REF {place.bookmark} {LINKED}", block.number, BOLD) if place else run(block.number, BOLD)
         return run(f"{self.words.figure} ", BOLD) + number + run(f" ({self.words.continued})", BOLD)
 
     # --- tables -----------------------------------------------------------------------------------
