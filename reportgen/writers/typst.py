@@ -401,7 +401,9 @@ def pictures(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, b
         made: list[Any] = [compiler.compile(format="png", ppi=PPI), compiler.compile(format="svg")]
     # What has one page comes alone.
     pngs, svgs = made if len(scenes) > 1 else ([one] for one in made)
-    return list(zip(pngs, svgs, strict=True))
+    # Letters are symbols that are used; groups that are used look the same, and more programs know them.
+    grouped = (svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>") for svg in svgs)
+    return list(zip(pngs, grouped, strict=True))
 
 
 def families() -> list[str]:

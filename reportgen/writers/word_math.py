@@ -271,6 +271,8 @@ def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range
 
 GAP = paragraph("Gap", "")
 """Between two tables, which would grow together without it."""
+KEPT_GAP = paragraph("Gap", "", KEPT)
+"""The same between those that stay on one page."""
 NUMBER_ROOM = 16.0
 """What the number of an equation takes at the right (mm)."""
 SLIVER = 1.0
@@ -323,7 +325,7 @@ class Equations:
         room = TEXT_WIDTH - indent
         *before, last = in_groups(rows, room)
         groups = [*((group, "", KEPT) for group in before), (last, number, kept)]
-        return GAP.join(self.group(group, shown, indent, lines) for group, shown, lines in groups)
+        return KEPT_GAP.join(self.group(group, shown, indent, lines) for group, shown, lines in groups)
 
     def group(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
         if isinstance(rows[0], VectorEquation):
@@ -389,7 +391,7 @@ class Equations:
                 found.append(grid(sizes, rows, number, indent, kept, ruled))
             else:
                 found.append(grid(sizes, rows, "", indent, KEPT, ruled))
-        return GAP.join(found)
+        return KEPT_GAP.join(found)
 
     def term(self, term: TermColumn) -> list[GridEntry]:
         signs = "".join(sign.of for sign in term.signs)

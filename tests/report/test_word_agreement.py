@@ -117,6 +117,17 @@ def test_an_exercise_is_in_the_file_in_order(path: Path, language: Language) -> 
     assert_in_order(document, WordFile(word.write(document, no_pictures)))
 
 
+SHORT = [(path, language) for path in built.TYPESET for language in built.LANGUAGES]
+
+
+@pytest.mark.parametrize(
+    ("path", "language"), matrix(SHORT, [(built.SAMPLE, "vi")]), ids=lambda one: getattr(one, "stem", one)
+)
+def test_a_short_report_is_in_the_file_in_order(path: Path, language: Language) -> None:
+    document = api.document(api.load(path, language).with_extent("short"))
+    assert_in_order(document, WordFile(word.write(document, no_pictures)))
+
+
 def assert_in_order(document: Document, file: WordFile) -> None:
     """Letter by letter; of a vector equation, whose storeys may be parted, as many of each letter."""
     text, at = said(file), 0
