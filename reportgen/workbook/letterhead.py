@@ -29,6 +29,7 @@ FIELDS = frozenset({"PAGE", "NUMPAGES", "SECTION", "SECTIONPAGES", "STYLEREF", "
 """What a header may have Word fill in; other fields can reach for files or change from day to day."""
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 _XML = "http://www.w3.org/XML/1998/namespace"
+_ROOTS = frozenset(f"{{{WORD}}}{name}" for name in ("styles", "hdr", "ftr"))
 _PICTURES = frozenset({"drawing", "pict"})
 _OBJECTS = frozenset({"object", "control", "altChunk", "subDoc"})
 _CODES = {name: f"letterhead-{name}" for name in ("bomb", "macros", "links", "entities")}
@@ -155,5 +156,8 @@ def _part(package: Package, name: str) -> str:
     for code in codes:
         if (code.split() or [""])[0].upper() not in FIELDS:
             raise package.refused("letterhead-field", text=code.strip(), known=", ".join(sorted(FIELDS)))
+    root: ElementTree.Element | None = builder.close()
+    if root is None or root.tag not in _ROOTS:
+        raise package.refused("letterhead-damaged")
     ElementTree.register_namespace("w", WORD)
-    return ElementTree.tostring(builder.close(), encoding="unicode")
+    return ElementTree.tostring(root, encoding="unicode")

@@ -174,6 +174,10 @@ REFUSED: Mapping[str, tuple[str, Callable[[bytes], bytes]]] = {
     "large": ("letterhead-bomb", lambda _: b"PK" + bytes(LARGEST)),
     "no zip": ("letterhead-damaged", lambda _: b"{\\rtf1}"),
     "damaged": ("letterhead-damaged", lambda one: one[: len(one) // 2]),
+    "another root": (
+        "letterhead-damaged",
+        lambda one: changed(one, {}, lambda name, part: b"<x/>" if name == "word/styles.xml" else part),
+    ),
     "no styles": (
         "letterhead-damaged",
         lambda one: changed(one, {}, lambda name, part: b"<" if "styles" in name else part),
