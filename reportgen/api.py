@@ -163,7 +163,7 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
     given = assignment.report
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
     own = None
-    if given.school and (path := school_folder(given.school) / LETTERHEAD).exists():
+    if assignment.school is not None and (path := school_folder(assignment.school) / LETTERHEAD).exists():
         found = read_letterhead(path, tree.language)
         own = Own(found.styles, found.header, found.footer, found.margins)
     drawn = partial(typst.pictures, language=tree.language)

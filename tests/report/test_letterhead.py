@@ -101,6 +101,15 @@ def test_styles_header_footer_and_margins_are_taken_over(school: Put, letterhead
     assert found == pytest.approx([31, 28, 18], abs=0.05)
 
 
+def test_it_may_lie_beside_the_assignment(letterhead: bytes, tmp_path: Path) -> None:
+    (tmp_path / "ours").mkdir()
+    (tmp_path / "ours" / "report.docx").write_bytes(letterhead)
+    path = tmp_path / "mine.yaml"
+    path.write_text(EXERCISE.read_text(encoding="utf-8") + "\nreport: {templates: ours}\n", encoding="utf-8")
+    file = WordFile(api.word_files(path, "typst", None)["report.docx"])
+    assert "Khoa Cơ khí" in file.parts["word/header1.xml"].decode()
+
+
 def test_what_is_made_with_it_is_valid(school: Put, letterhead: bytes, tmp_path: Path) -> None:
     audit = pytest.importorskip("openxml_audit")
     path = tmp_path / "report.docx"
