@@ -246,7 +246,7 @@ class _Blocks:
         title = self.bookmarked(self._entries[id(section)], self.inlines(section.title))
         if section.key:
             title = self.bookmarked(self.places[section.key].bookmark, title)
-        # In a list of its own a heading has no number.
+        # List 0 is none: a heading outside of all lists has no number.
         unnumbered = "" if section.number else '<w:numPr><w:ilvl w:val="0"/><w:numId w:val="0"/></w:numPr>'
         return paragraph(f"Heading{section.level}", title + self.counters(section), unnumbered)
 
@@ -286,19 +286,19 @@ class _Blocks:
         first, *others = (*cover.institution, "")
         lines = [paragraph("Institution", run(first, BOLD))] if first else []
         lines += [paragraph("Institution", run(line)) for line in others if line]
-        low = '<w:spacing w:before="{}" w:after="200"/>'
+        low = '<w:spacing w:before="{}" w:after="{}"/>'
         lines += [
-            paragraph("Title", run(line), "" if index else low.format(twips(52)))
+            paragraph("Title", run(line), "" if index else low.format(twips(52), 200))
             for index, line in enumerate(cover.title)
         ]
         lines += [paragraph("Subtitle", run(line)) for line in cover.subtitle]
         for index, (label, value) in enumerate(cover.fields):
             stops = f'<w:tabs><w:tab w:val="left" w:pos="{twips(58)}"/>{right_tab(COVER.room - 10, "dot")}</w:tabs>'
-            white = "" if index else low.format(twips(34)).replace('"200"', '"160"')
+            white = "" if index else low.format(twips(34), 160)
             hanging = f'<w:ind w:left="{twips(58)}" w:hanging="{twips(48)}"/>'
             shown = run(f"{label}:") + TAB + (run(value, BOLD) if value else TAB)
             lines.append(paragraph("CoverField", shown, stops + white + hanging))
-        lines.append(paragraph("Institution", run(cover.place_and_date, ITALIC), low.format(twips(26))))
+        lines.append(paragraph("Institution", run(cover.place_and_date, ITALIC), low.format(twips(26), 80)))
         return "".join(lines)
 
     def contents(self, title: str, brief: bool) -> str:
