@@ -181,7 +181,7 @@ def draw_forces(
         ]
         items += _extension(end, *shafts[arm.force])
         if same[0] is arm:
-            items += _dimension(arm.about, end, *shafts[arm.force])
+            items += _dimension(arm.about, end, *shafts[arm.force], name=" ".join(["h", *(one.force for one in same)]))
             requests.append(_arm_name(arm.about, end, same))
     return Canvas(tuple(items), tuple(requests))
 
@@ -262,10 +262,10 @@ def _extension(base: complex, start: complex, end: complex) -> list[Item]:
     return []
 
 
-def _dimension(about: complex, base: complex, start: complex, end: complex) -> list[Item]:
+def _dimension(about: complex, base: complex, start: complex, end: complex, name: str) -> list[Item]:
     """The arm with a head at each end where there is room, and the right angle at its foot."""
     reach = base - about
-    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD)]
+    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD, name)]
     if abs(reach) > 4 * style.DIMENSION_HEAD:
         items.append(Arrow(about + reach / 2, about, style.DIMENSION, style.DIMENSION_HEAD))
     if abs(reach) > 3:

@@ -260,7 +260,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
 def lever(report: Report, k: int) -> FigureScenes:
     """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
     ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1
-    per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0])
+    per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0]) / report.enlarged
     forces, arms = [], []
     for load in report.analysis.loads:
         if not _has_force(report, load, k):

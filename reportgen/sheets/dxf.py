@@ -97,11 +97,15 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
 
 
 def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
-    """The items of a part in model space, as one named group."""
-    group: list[Any]
-    with document.groups.new(part.name).edit_data() as group:
-        for item in part.scene.items:
-            group.extend(_entities(document, item, part, texts))
+    """The items of a part in model space, as one named group; each named vector is one by itself, too: "9.1 pb"."""
+    groups: dict[str, list[Any]] = {part.name: []}
+    for item in part.scene.items:
+        entities = list(_entities(document, item, part, texts))
+        groups[part.name] += entities
+        if isinstance(item, Arrow) and item.name:
+            groups.setdefault(f"{part.name} {item.name}", []).extend(entities)
+    for name, entities in groups.items():
+        document.groups.new(name).extend(entities)
 
 
 def _layout(document: Drawing, sheet: DrawingSheet) -> None:
@@ -162,7 +166,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
         case Hatch(points, spacing, stroke, turn):
             for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
-        case Label(where, content, anchor, size, turn):
+        case Label(where, content, anchor, size, turn, _, narrow):
             attributes = {
                 "layer": "text",
                 "style": STYLE,
@@ -171,7 +175,8 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
                 "insert": at(where),
                 "rotation": turn,
             }
-            yield model.add_mtext(texts.content(content), dxfattribs=attributes)
+            text = texts.content(content)
+            yield model.add_mtext(f"\\W{narrow:.4g};{text}" if narrow < 1.0 else text, dxfattribs=attributes)
 
 
 def _arrowhead(document: Drawing) -> str:
