@@ -12,7 +12,6 @@ from reportgen.assignment.common import Drawing
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
 from reportgen.base.source import read_source
-from reportgen.base.units import MM, Given
 from reportgen.base.words import as_error, word
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.report.case import Calculation, Opened
@@ -45,7 +44,7 @@ def drawing_sheets(
         raise SheetError(word("no_plates", case.assignment.language, sets=", ".join(sets)))
 
     def with_crank(length: float) -> Plates:
-        drawing = Drawing(crank=Given(length / MM, length, "mm", f"{length:g} mm"))
+        drawing = Drawing.model_validate({"crank": f"{length:g} mm"})
         return plates_by_set(type(case)(replace(case.assignment, drawing=drawing)), sets, every)
 
     crank = Report(case).drawn_crank

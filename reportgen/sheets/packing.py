@@ -248,7 +248,7 @@ class Packing:
                 if right + GAP > self.beside + DUST:
                     column = self._narrowest(plates[start:end], above)
                     right = ends[start] + GAP + column.width if column else math.inf
-                if column and right + GAP <= self.wide + DUST and right < ends[end]:
+                if column and right + GAP <= self.wide + DUST and right <= ends[end] + DUST:
                     ends[end], found[end] = right, [*found[start], column]
         return next((columns for columns in reversed(found) if columns), [])
 
@@ -287,7 +287,7 @@ class Packing:
         ]
         across = min(free)
         down = [
-            ((self.high if across * number + right <= self.beside else self.above) - column.height)
+            ((self.high if across * number + right <= self.beside - GAP else self.above) - column.height)
             / (len(column.rows) + 1)
             for number, (column, right) in enumerate(zip(columns, rights, strict=True), start=1)
         ]
