@@ -63,8 +63,8 @@ class BlockCell:
     """Height of capitals, mm; a field that needs more room takes a smaller one."""
     align: Align = "center"
     heavy: bool = False
-    turn: int = 0
-    """Degrees anticlockwise, 0 or 90."""
+    turned: bool = False
+    """Whether the text goes upwards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,17 +141,17 @@ def _letters(cell: BlockCell) -> Iterator[Label]:
     It may stand in several lines; letters that need not be narrower come first.  Of the smallest ones none is left out:
     they are as narrow as they must be.
     """
-    along, across = (cell.height, cell.width) if cell.turn else (cell.width, cell.height)
+    along, across = (cell.height, cell.width) if cell.turned else (cell.width, cell.height)
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
     tried = [_broken(cell.text, height, along - 2 * PADDING, across - 2 * PADDING) for height in heights]
     height, lines, narrow = next((one for one in tried if one[2] >= NARROW), tried[-1])
     anchor: Anchor = "left" if cell.align == "left" else "center"
-    u = 1j if cell.turn else 1 + 0j
+    u = 1j if cell.turned else 1 + 0j
     middle = complex(cell.x + cell.width / 2, cell.y + cell.height / 2)
     start = middle - u * (along / 2 - PADDING) if cell.align == "left" else middle
     for number, line in enumerate(lines):
         down = LEADING * height * (number - (len(lines) - 1) / 2)
-        yield Label(start - 1j * u * down, line, anchor, font_size(height), cell.turn, narrow=narrow)
+        yield Label(start - 1j * u * down, line, anchor, font_size(height), 90 * cell.turned, narrow=narrow)
 
 
 def _broken(text: str, height: float, along: float, across: float) -> tuple[float, list[str], float]:
@@ -223,7 +223,7 @@ class _Cell(Part):
     letters: Annotated[float, Decimal(Interval(least=2.5, most=20))] = 2.5
     align: Align = "center"
     heavy: Annotated[bool, Flag()] = False
-    turn: Literal[0, 90] = 0
+    turned: Annotated[bool, Flag()] = False
 
 
 class _SideCell(_Cell):

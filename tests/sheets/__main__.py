@@ -1,4 +1,4 @@
-"""All assignments on all sizes, checked, with the number of their sheets.
+"""All assignments on all sizes, checked, one size after the other.
 
 python -m tests.sheets [--all] [A1 …]
 """
@@ -9,7 +9,7 @@ import argparse
 
 from reportgen.sheets.frame import SIZES
 from tests.sheets.handed_in import check
-from tests.sheets.laid import EVERY, laid
+from tests.sheets.laid import EVERY
 
 parser = argparse.ArgumentParser(prog="python -m tests.sheets")
 parser.add_argument("sizes", nargs="*", default=list(SIZES))
@@ -18,4 +18,4 @@ options = parser.parse_args()
 for size in options.sizes:
     for name in EVERY:
         check(name, size, options.all)
-    print(size, {name: len(laid(name, size, options.all).sheets) for name in EVERY})
+    print(size, "in order")

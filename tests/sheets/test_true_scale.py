@@ -20,6 +20,7 @@ from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
 from reportgen.plans.sides import image
+from reportgen.report.plans import motion_construction
 from reportgen.report.report import Report
 from reportgen.sheets import dxf
 from reportgen.writers import typst
@@ -40,6 +41,8 @@ CAD = 1e-4
 """Places in a DXF file are written to a millionth of a millimetre."""
 RULER = 0.02
 """Millimetres: places in the PDF are written to a thousandth, its heads to the angle of the arrow."""
+BY_RATIO = {("engine-single-I", "drawn.BC"): 0.01, ("engine-single-VI", "drawn.BC"): 0.1}
+"""What rounding R/λ makes of a rod (mm): four digits of λ are half a thousandth of 159 mm at most."""
 DRAWN = 1.0
 """A shorter arm (mm) is hidden by the point that it is taken about."""
 
@@ -112,27 +115,36 @@ def position(name: str, *told: Group) -> int:
 ))  # fmt: skip
 def test_segments_of_velocities_and_accelerations_are_those_printed(name: str, every: bool) -> None:
     """On the worked plans, and where there is every plan at all positions; a segment goes from point to point."""
-    ledger, measured = laid(name, "A1").case.printed, 0
-    wrong = []
+    case, measured = laid(name, "A1").case, 0
+    ledger = case.printed
     for what, title in (("v", "velocity"), ("a", "acceleration")):
         shown = [*scenes(name, every, title), *(scenes(name, every, f"{title}-plates") if every else ())]
         assert shown
+        # The report computes the segments of some points that it does not draw, as of the crank's mass centre.
+        drawn = {
+            found["corner"]
+            for id in motion_construction(Report(case), what).corners
+            if (found := ids.plan_point.read(id))
+        }
         for head, plan in shown:
             k = position(name, plan, head)
             points = {"p": 0j, **{image(point): vector for point, vector in plan.vectors.items()}}
             for id in ledger.families:
-                found = None
-                if (ends := ids.segment.read(id)) and ends["what"] == what:
+                if (
+                    (ends := ids.segment.read(id))
+                    and ends["what"] == what
+                    and {ends["start"], ends["end"]} <= {"p", *drawn}
+                ):
                     start, end = (points.get(ends[one], 0j) for one in ("start", "end"))
-                    found = abs(end - start)
+                    vectors, found = 1 if ends["start"] == "p" else 2, abs(end - start)
                 elif what == "a" and (part := ids.relative_segment.read(id)):
                     letter = {"t": "τ"}.get(part["part"], part["part"])
-                    found = abs(plan.vectors.get(f"{letter}{part['relative']}", 0j))
-                if found is not None:
-                    measured += 1
-                    if not abs(found - ledger.number(id, k).value) < PRINTED + CAD:
-                        wrong.append((id, k, found, ledger.number(id, k).value))
-    assert not wrong, wrong[:20]
+                    vectors, found = 1, abs(plan.vectors.get(f"{letter}{part['relative']}", 0j))
+                else:
+                    continue
+                # From one vector's end to another's both are rounded.
+                assert abs(found - ledger.number(id, k).value) < vectors * PRINTED + CAD, (id, k)
+                measured += 1
     assert measured > 4
 
 
@@ -179,14 +191,17 @@ def test_arms_are_those_printed(name: str) -> None:
 
 @pytest.mark.parametrize("name", matrix(MACHINES, TELLING))
 def test_links_are_drawn_as_long_as_printed(name: str) -> None:
-    """From joint to joint on the position plan, to mass centres on the scheme or the separated links."""
+    """From joint to joint on the position plan, to mass centres on the scheme or the separated links.
+
+    The mechanism is drawn as it is given; a rod that is printed as R/λ has the digits of a printed λ.
+    """
     ledger = laid(name, "A1").case.printed
     shown = [*scenes(name, False, "positions"), *scenes(name, False, "bodies"), *scenes(name, False, "scheme")]
     lengths = [abs(one - other) for _, scene in shown for one, other in combinations(dict.fromkeys(scene.places), 2)]
     for id, family in ledger.families.items():
         if ids.drawn.read(id) and len(family.values) == 1:
-            size = ledger.number(id).value
-            assert any(abs(one - size) < PRINTED + CAD for one in lengths), (id, size)
+            size, rounding = ledger.number(id).value, BY_RATIO.get((name, id), 0.0)
+            assert any(abs(one - size) < PRINTED + CAD + rounding for one in lengths), (id, size)
 
 
 @proof
