@@ -265,7 +265,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     modules: 155,
     longest_module: 500,
     lines_of_code: 30960,
-    template_files: 54,
+    template_files: 55,
     words_of_architecture: 1500,
     ids_by_f_string: 0,
     class_names_twice: 0,

@@ -26,7 +26,7 @@ from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
 """The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
-SHEET_WIDTH, SHEET_HEIGHT = 90.0, 45.0
+SHEET_WIDTH, SHEET_HEIGHT = 90.0, 50.0
 """Of that area on a drawing sheet at most, mm."""
 HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
 """Of a chart with its text and of the area inside its axes, where two charts stand side by side, mm."""

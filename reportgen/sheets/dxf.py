@@ -47,7 +47,8 @@ AXIS_PARTS = 4
 STYLE, FONT = "lc_opengost-ar", "arial.ttf"
 """The text style's name, which LibreCAD takes for that of a stroke font of its own, and the font of all others.
 
-The second has all letters of Vietnamese.  None of LibreCAD's has; the first has Greek, the minus and other signs.
+The second has Greek and all letters of Vietnamese.  The first, as LibreCAD has it, lacks most of the latter; they are
+in the file of that name in `templates/frames/letters`.
 """
 WIDTHS = (13, 18, 25, 35, 50, 70, 100)
 """Line weights that DXF knows, hundredths of a millimetre."""
@@ -62,6 +63,10 @@ ATTACHMENT: dict[Anchor, int] = {
     "bottom": 8,
     "bottom-right": 9,
 }
+HALIGN = {"left": 0, "center": 1}
+"""Where a line of text stands at its place; in the middle of its height."""
+ORDERS = frozenset("%^\\")
+"""Signs that begin an order in a line of text."""
 SHADE = 254
 """The colour index of a link's inside, a light gray."""
 STACK = 0.7
@@ -167,16 +172,15 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
             for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
         case Label(where, content, anchor, size, turn, _, narrow):
-            attributes = {
-                "layer": "text",
-                "style": STYLE,
-                "char_height": round(CAPITAL * POINT * size, 4),
-                "attachment_point": ATTACHMENT[anchor],
-                "insert": at(where),
-                "rotation": turn,
-            }
-            text = texts.content(content)
-            yield model.add_mtext(f"\\W{narrow:.4g};{text}" if narrow < 1.0 else text, dxfattribs=attributes)
+            letters = {"layer": "text", "style": STYLE, "insert": at(where), "rotation": turn}
+            height = round(CAPITAL * POINT * size, 4)
+            if narrow < 1.0 and isinstance(content, str) and not set(content) & ORDERS:
+                # Only a line of text has a width in every program.
+                how = {"height": height, "width": round(narrow, 4), "halign": HALIGN[anchor], "valign": 2}
+                yield model.add_text(content, dxfattribs={**letters, **how, "align_point": at(where)})
+            else:
+                attributes = {**letters, "char_height": height, "attachment_point": ATTACHMENT[anchor]}
+                yield model.add_mtext(texts.content(content), dxfattribs=attributes)
 
 
 def _arrowhead(document: Drawing) -> str:

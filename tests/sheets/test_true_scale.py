@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import unicodedata
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -290,3 +291,16 @@ def test_each_process_writes_the_same_file(tmp_path: Path) -> None:
         subprocess.run(command, cwd=tmp_path, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
         written.add((tmp_path / seed / file.stem / "sheet-1.dxf").read_bytes())
     assert len(written) == 1
+
+
+def test_the_letters_for_librecad_are_there() -> None:
+    """The shipped font has all of Vietnamese and the Greek and signs of formulas; LibreCAD draws nothing for others."""
+    text = (ROOT / "templates" / "frames" / "letters" / f"{dxf.STYLE}.lff").read_text(encoding="utf-8")
+    has = {chr(int(code, 16)) for code in re.findall(r"^\[([0-9a-f]{4,5})\]", text, re.MULTILINE)}
+    vowels = [
+        unicodedata.normalize("NFC", base + tone)
+        for base in "aăâeêioôơuưy"
+        for tone in ("", *"\u0300\u0301\u0303\u0309\u0323")
+    ]
+    letters = "".join([*vowels, "đ", "αβγδεηθλμνξπρστφψω"])
+    assert set(letters + letters.upper() + "′−·°≡–×²³") <= has | set("\u039c")
