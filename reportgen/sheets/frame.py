@@ -336,7 +336,11 @@ def fields_of(case: Opened, block: TitleBlock, number: int) -> dict[str, str]:
     student, date = given.student, given.date
     initials = "".join(word[0] for word in case.course.split())
     course = case.assignment.sheet.course or initials.upper()
-    parts = {"course": course, "variant": f"{variant:0>2}" if variant else "00", "sheet": f"{number:02}"}
+    parts = {
+        "course": course,
+        "variant": variant.zfill(2) if variant.isdigit() else variant or "00",
+        "sheet": f"{number:02}",
+    }
     return {
         **parts,
         "machine": case.title,

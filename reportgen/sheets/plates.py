@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
 from typing import Any, Literal
 
 from reportgen.drawing import Content, Scene
@@ -289,19 +288,17 @@ def _table(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = 
     shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
     parts = -(-len(at) // MOST_ROWS)
     rows = [at[len(at) * n // parts : len(at) * (n + 1) // parts] for n in range(parts)]
-    scenes: list[Scene] = []
-    while shown:
-        count = _columns(report, shown, at)
-        scenes += (grid(*_quantities(report, shown[:count], some)) for some in rows)
-        shown = shown[count:]
-    yield Drawn(name, "tables", scenes)
-
-
-def _columns(report: Report, quantities: Sequence[str], positions: Sequence[int]) -> int:
-    """How many of the quantities a table has room for, beside the column of positions."""
-    head, rows = _quantities(report, quantities, positions)
-    right = accumulate(widths([*head, *rows]))
-    return max(sum(ENLARGED * one <= WIDEST for one in right) - 1, 1)
+    head, every = _quantities(report, shown, at)
+    first, *across = widths([*head, *every])
+    columns: list[list[str]] = []
+    right = math.inf
+    for id, width in zip(shown, across, strict=True):
+        right += ENLARGED * width
+        if right > WIDEST:
+            columns.append([])
+            right = ENLARGED * (first + width)
+        columns[-1].append(id)
+    yield Drawn(name, "tables", [grid(*_quantities(report, some, at)) for some in columns for at in rows])
 
 
 def _quantities(
