@@ -70,7 +70,8 @@ def on_sheets(
     The title `block` is a file, else that of the language.  Raises `AssignmentError` for a faulty block and for a plate
     that is too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
     """
-    form = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[case.assignment.language]])
+    language = case.assignment.language
+    form = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
         paper, found = _chosen(plates, form, wanted)
