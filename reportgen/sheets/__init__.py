@@ -71,7 +71,7 @@ def on_sheets(
     that is too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
     """
     language = case.assignment.language
-    form = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
+    form = read_block(block or blocks(case.assignment.school or "")[DEFAULT[language]], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
         paper, found = _chosen(plates, form, wanted)
