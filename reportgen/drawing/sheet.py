@@ -82,6 +82,8 @@ HEAD = 5.5
 
 LINE_GAP = 2.5
 """White between the lines of a heading, mm."""
+TALLEST = "Ồg"
+"""Letters that reach as far up and down as any."""
 
 
 def font_size(height: float) -> float:
@@ -126,16 +128,18 @@ def _pen(stroke: Pen) -> Pen:
 
 
 def headed(name: str, *lines: Content) -> Scene:
-    """The head of a plate: its name in larger letters, and lines below it."""
+    """The head of a plate: its name in larger letters, and lines below it, on base lines that no letter moves."""
     rows: list[tuple[Content, float]] = [(name, font_size(HEADING)), *((line, LETTERS) for line in lines)]
     boxes = [box(content, size) for content, size in rows]
-    width, height = max(one.width for one in boxes), sum(one.height + one.depth + LINE_GAP for one in boxes)
+    widest = max(extent.width for extent in boxes)
     items: list[Item] = []
-    top = height
+    base = 0.0
     for (content, size), extent in zip(rows, boxes, strict=True):
-        items.append(Label(complex(width / 2, top), content, "top", size))
-        top -= extent.height + extent.depth + LINE_GAP
-    return Scene(width, height, tuple(items))
+        tall = box(TALLEST, size)
+        base -= tall.height
+        items.append(Label(complex(widest / 2, base - extent.depth), content, "bottom", size))
+        base -= tall.depth + LINE_GAP
+    return Scene(widest, -base, tuple(moved(item, -1j * base) for item in items))
 
 
 # --- a ruled table as a drawing, for sheets on which everything is drawn --------------------------
