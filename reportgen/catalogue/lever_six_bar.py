@@ -14,6 +14,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
+from reportgen.catalogue.loops import ClosedLoops
 from reportgen.formula import Symbol, ids, turned
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
@@ -131,12 +132,17 @@ def machine(assignment: Assignment) -> Machine:
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
+    fixed = {name: q.coordinates(name) for name in linkage.ground}
+    loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")})
     return driven(
         assignment,
         q,
         linkage,
         start,
         {"summary": ("summary",)},
+        formulas=loops.write,
+        compared=tuple(loops.compared),
+        equations=loops.equations,
         applied=_applied(given, linkage, positions, start),
         paths=("S2", "E", "S4"),
         facts={"summary": SUMMARY, "C": given.C, "F": given.F},

@@ -222,16 +222,18 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
 
 
 def equations(report: Report, name: str, position: int | None = None) -> Equation:
-    """Equations of the machine's own, with the numbers at a position if they name quantities."""
+    """Equations of the machine's own; quantities that they name by their symbols, or at a position by their numbers."""
 
-    def number_of(ref: Ref) -> Number:
+    def shown(ref: Ref) -> Expression:
+        if position is None:
+            return report.ledger.symbol(ref.id)
         number = report.ledger.number(ref.id, position)
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
     def in_words(node: Expression) -> Expression:
         return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
 
-    return Equation(tuple(in_words(substitute(row, number_of)) for row in report.machine.equations[name]))
+    return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.equations[name]))
 
 
 def mobility_line(report: Report) -> Equation:
