@@ -297,10 +297,10 @@ def outline(
 ) -> tuple[str, ...]:
     """The report's sections in order; without mass and load it ends with the kinematics.
 
-    `sizes` and `load` tell where lengths and loads come from; `summary` follows the velocities, `course` the
+    `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams.
     """
-    kinematics = (*OPENING, sizes, "positions", "velocity", *summary, "acceleration", "diagrams", *course)
+    kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, "diagrams", *course)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()

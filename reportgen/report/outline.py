@@ -93,6 +93,7 @@ PROPERTIES = (
     "has_turning_links",
     "loads_crank",
     "needs_flywheel",
+    "synthesised",
     "speed_in_rpm",
 )
 """Properties of the `Report`."""
@@ -163,6 +164,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "groups": ("fig.groups", figures.groups),
     "positions": ("fig.positions", figures.positions),
     "extremes": ("fig.extremes", figures.extremes),
+    "swing": ("fig.swing", figures.swing),
     # motion
     "velocity": ("fig.v", VELOCITY.whole),
     "velocity-stages": ("fig.v.stages", VELOCITY.in_stages),

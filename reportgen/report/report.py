@@ -42,6 +42,8 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
         (
             # sections of the outline
             *("overview", "foreword", "symbols", "centres", "diagrams", "course", "checks"),
+            # extreme positions that nothing else stands on
+            *("rocker-extremes", "slider-extremes"),
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates"),
@@ -146,11 +148,9 @@ class Report:
 
     def _outline(self) -> Iterator[str]:
         """The machine's outline, the section on instant centres behind the velocities if any link has one."""
-        outline = self.machine.outline
-        last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
-        for index, section in enumerate(outline):
+        for section in self.machine.outline:
             yield section
-            if self.plane_links and index == last:
+            if self.plane_links and section == "velocity":
                 yield "centres"
 
     @property

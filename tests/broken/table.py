@@ -228,6 +228,12 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
     ],
     "lever-six-bar": [
         ("no fixed point", {"  D: {x: -10 mm, y: -106 mm}\n": ""}, "3:1 missing-key"),
+        ("a coupler and a swing", {"AB: 34 mm": "swing: {angle: 60 deg, K: 1.05}"}, "5:3 both-given"),
+        (
+            "a swing that no links give",
+            {"AB: 34 mm": "swing: {angle: 100 deg, K: 2.5}", "  AC: 90 mm\n": ""},
+            "4:10 no-such-swing",
+        ),
         ("E beyond A", {"CE: 30 mm": "CE: 95 mm"}, "7:7 out-of-range"),
         ("side of no name", {"CE: 30 mm": "…\n  F: above"}, "8:6 choice"),
         ("flywheel, no loads", {"CE: 30 mm": "…\n  flywheel: {delta: 0.1}"}, "8:3 flywheel-without-loads"),
