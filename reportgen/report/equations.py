@@ -236,6 +236,22 @@ def equations(report: Report, name: str, position: int | None = None) -> Equatio
     return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.equations[name]))
 
 
+def functions(report: Report, quantities: Sequence[str]) -> Equation:
+    """Quantities as functions of the driver's place: what is constant by its number, what changes by its symbol."""
+
+    def shown(ref: Ref) -> Expression:
+        family = report.ledger[ref.id]
+        if len(family.values) > 1:
+            return family.symbol
+        number = report.ledger.number(ref.id)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    lines = ((id, report.ledger[id].definition) for id in quantities)
+    return Equation(
+        tuple(Chain((report.ledger.symbol(id), substitute(formula, shown))) for id, formula in lines if formula)
+    )
+
+
 def mobility_line(report: Report) -> Equation:
     """W = 3n − (2t + c) + r − s with the numbers put in."""
     counted = mobility(report.machine.linkage)

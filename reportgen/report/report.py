@@ -41,7 +41,7 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "short": frozenset(
         (
             # sections of the outline
-            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "checks"),
+            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "functions", "checks"),
             # extreme positions that nothing else stands on
             *("rocker-extremes", "slider-extremes"),
             # constructions step by step, plans of the other positions, further curves
@@ -152,6 +152,8 @@ class Report:
             yield section
             if self.plane_links and section == "velocity":
                 yield "centres"
+        if self.assignment.report.listing:
+            yield "listing"
 
     @property
     def extent_words(self) -> str:
