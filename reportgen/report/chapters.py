@@ -17,6 +17,7 @@ from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary, walk
 from reportgen.formula.plain import python
 from reportgen.formula.vocabulary import Chapter, on_plan
+from reportgen.machine import DRIVER
 from reportgen.machine.loads import FULL_TURN, Applied
 from reportgen.report import (
     Block,
@@ -272,6 +273,16 @@ def images(report: Report) -> Inlines:
     """The images of the crank pin on the plans, for the conventions: a and a′."""
     pin = report.driver.pin
     return listed([InlineMath(on_plan(pin)), InlineMath(on_plan(pin, prime=True))])
+
+
+def theory_of(report: Report, what: str) -> list[str]:
+    """The parts of the theory that the plans of velocities ("v") or accelerations ("a") of this report stand on."""
+    points = [place for place in report.machine.linkage.points if place.link != DRIVER]
+    if what == "v":
+        return report.parts("theory-two-equations") if any(abs(place.local.imag) > 0 for place in points) else []
+    inclined = ["theory-inclination"] if report.has_turning_links else []
+    similar = ["theory-similarity"] if any(group.similar("a") for group in report.groups) else []
+    return report.parts(*inclined, *similar)
 
 
 # --- a program of the closed formulas -----------------------------------------------------------------

@@ -6,7 +6,7 @@ All functions here are called by templates under their own names; they take ever
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -21,9 +21,12 @@ from reportgen.formula import (
     ids,
     rebuild,
     refs,
+    sqrt,
     substitute,
+    tan,
     vocabulary,
 )
+from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.sides import Side
@@ -234,6 +237,40 @@ def equations(report: Report, name: str, position: int | None = None) -> Equatio
         return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
 
     return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.equations[name]))
+
+
+ω, ε = Symbol("ω"), Symbol("ε")
+THEORY: Mapping[str, tuple[Expression, ...]] = {
+    "inclination": (Chain((tan(Symbol("α")), Symbol("a", "A", "τ") / Symbol("a", "A", "n"), ε / ω**2)),),
+    "two-equations": (
+        VectorEquation(
+            tuple(
+                tuple(Term(Symbol("v", of, over="vector")) for of in side) for side in ("E", ("B", "EB"), ("C", "EC"))
+            )
+        ),
+    ),
+    "similarity": (
+        Chain(
+            (
+                Symbol("a", "CB"),
+                sqrt(Symbol("a", "CB", "n") ** 2 + Symbol("a", "CB", "τ") ** 2),
+                Symbol("l", "BC") * sqrt(ω**4 + ε**2),
+            )
+        ),
+        Chain(
+            (
+                *(segment(on_plan(p, True), on_plan(q, True)) / Symbol("l", p + q) for p, q in ("BC", "BE", "CE")),
+                sqrt(ω**4 + ε**2) / Symbol("μ", "a"),
+            )
+        ),
+    ),
+}
+"""Equations of no machine that the words for the plans show."""
+
+
+def theory(report: Report, name: str) -> Equation:
+    """An equation that the plans stand on."""
+    return Equation(tuple(report.named(row) if isinstance(row, Symbol) else row for row in THEORY[name]))
 
 
 def functions(report: Report, quantities: Sequence[str]) -> Equation:

@@ -16,8 +16,9 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
-from reportgen.drawing.forces import Sliding
+from reportgen.drawing.forces import Sliding, link_and_plan
 from reportgen.drawing.forces import coriolis as coriolis_figure
+from reportgen.drawing.forces import inclination as inclination_figure
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.labels import Canvas, sheets
 from reportgen.drawing.positions import (
@@ -343,6 +344,21 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> FigureScen
         (ledger.symbol(side.omega), float(np.sign(omega))),
     )
     return FigureScenes((coriolis_figure(sliding),))
+
+
+def inclination(report: Report) -> FigureScenes:
+    """The angle of an acceleration with the line to the centre."""
+    return FigureScenes((inclination_figure(),))
+
+
+def two_equations(report: Report) -> FigureScenes:
+    """A link and the velocities of its points."""
+    return FigureScenes(link_and_plan("v"))
+
+
+def similarity(report: Report) -> FigureScenes:
+    """A link and the accelerations of its points."""
+    return FigureScenes(link_and_plan("a"))
 
 
 # --- instant centres of velocity ------------------------------------------------------------------

@@ -173,6 +173,9 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "acceleration-stages": ("fig.a.stages", ACCELERATION.in_stages),
     "acceleration-plates": ("fig.a.plates", ACCELERATION.on_plates),
     "coriolis": ("fig.coriolis", figures.coriolis),
+    "inclination": ("fig.inclination", figures.inclination),
+    "two-equations": ("fig.twice", figures.two_equations),
+    "similarity": ("fig.similarity", figures.similarity),
     "centres": ("fig.centres", centres.centres),
     "motion": ("fig.motion", curves.motion),
     # forces
@@ -356,6 +359,8 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "v": equations.v,
     "value": equations.value,
     "vector": equations.vector,
+    "theory": equations.theory,
+    "theory_of": chapters.theory_of,
     "zero": Report.is_zero,
     # equations of the machine and of its groups
     "acceleration_equation": equations.acceleration_equation,

@@ -44,6 +44,8 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             *("overview", "foreword", "symbols", "centres", "diagrams", "course", "functions", "checks"),
             # extreme positions that nothing else stands on
             *("rocker-extremes", "slider-extremes"),
+            # what the plans stand on
+            *("theory-two-equations", "theory-inclination", "theory-similarity"),
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates"),
