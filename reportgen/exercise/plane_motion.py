@@ -18,6 +18,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.functions_of_angle import motion_laws
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Negative, Ref
@@ -283,6 +284,8 @@ def why_not(method: file.Method, layout: Layout) -> str:
     match method:
         case "moving frame":
             return "" if layout.given.slots else "no-moving-frame"
+        case "equations":
+            return "" if any(motion_laws(layout, body) for body in layout.members) else "no-equations"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":
