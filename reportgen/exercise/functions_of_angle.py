@@ -1,7 +1,7 @@
 """The equations of motion of a body whose place is a function of its angle alone, and their derivatives.
 
-Such a body turns about a fixed pin, rolls on a fixed line, or has two points on fixed lines that meet; each of its
-points then has P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.
+Such a body rolls on a fixed line, or has two points on fixed lines that meet; each of its points then has
+P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.
 """
 
 from __future__ import annotations
@@ -70,12 +70,9 @@ def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]]
     """The angle (rad) of a body at the instant and the laws of its points, if joints with the ground give both."""
     points, names = layout.points, layout.own(body)
     centre, disc = layout.centres.get(body), layout.given.disc(body)
-    if centre is not None and centre.rule == "pivot":
-        away = [points[name] - centre.at for name in names if not layout.is_centre(centre, name)]
-        φ = cmath.phase(away[0]) if away else 0.0
-        return φ, {
-            name: MotionLaw(centre.at, 0j, (points[name] - centre.at) * cmath.exp(-1j * φ), 0j) for name in names
-        }
+    if centre is not None and centre.by_joint:
+        # What turns about a fixed point or does not turn is found before any method.
+        return None
     if centre is not None and centre.rule == "contact" and disc is not None and disc.centre in layout.slots:
         middle = points[disc.centre]
         way, own = 1j * (middle - centre.at), dict.fromkeys((disc.centre, *names))

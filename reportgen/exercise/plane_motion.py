@@ -285,7 +285,9 @@ def why_not(method: file.Method, layout: Layout) -> str:
         case "moving frame":
             return "" if layout.given.slots else "no-moving-frame"
         case "equations":
-            return "" if any(motion_laws(layout, body) for body in layout.members) else "no-equations"
+            find = layout.given.find
+            asked = {body for one in find for body in ([one.body] if one.of_body else _bodies_of(layout, one.of))}
+            return "" if any(motion_laws(layout, body) for body in asked if body) else "no-equations"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":
@@ -298,6 +300,10 @@ def why_not(method: file.Method, layout: Layout) -> str:
             # It tells no angular velocity.
             asked = any(one.what in ("v", "a") for one in layout.given.find)
             return "" if asked and any(_projects(layout, body) for body in plane) else "no-projection"
+
+
+def _bodies_of(layout: Layout, point: str) -> list[int]:
+    return [body for body, names in layout.members.items() if point in names]
 
 
 def _in_plane_motion(layout: Layout) -> Iterator[int]:

@@ -37,24 +37,6 @@ parameters:
   methods: [equations]
 """.replace("    B: {from", "    K: {from: C, distance: 200 mm, angle: -90 deg}\n    B: {from")
 
-TURNING = """
-kind: plane-motion
-parameters:
-  points:
-    O: {at: [0 mm, 0 mm]}
-    A: {from: O, distance: 300 mm, angle: 40 deg}
-    B: {from: O, distance: 200 mm, angle: 130 deg}
-  bodies:
-    1: {points: [O, A, B]}
-  joints:
-    - {type: pin, at: O, bodies: [0, 1]}
-  given:
-    - {type: omega, body: 1, value: -5 rad/s}
-    - {type: epsilon, body: 1, value: 8 rad/s2}
-  find: [v.A, a.A, v.B, a.B]
-  methods: [equations]
-"""
-
 INCLINED = """
 kind: plane-motion
 parameters:
@@ -76,7 +58,7 @@ parameters:
 """
 
 
-@pytest.mark.parametrize("text", [ROLLING, TURNING, INCLINED], ids=["rolling", "turning", "inclined guides"])
+@pytest.mark.parametrize("text", [ROLLING, INCLINED], ids=["rolling", "inclined guides"])
 def test_values_are_those_of_the_whole_system(tmp_path: Path, text: str) -> None:
     path = tmp_path / "own.yaml"
     path.write_text(text, encoding="utf-8")
