@@ -286,8 +286,8 @@ def why_not(method: file.Method, layout: Layout) -> str:
             return "" if layout.given.slots else "no-moving-frame"
         case "equations":
             find = layout.given.find
-            asked = {body for one in find for body in ([one.body] if one.of_body else _bodies_of(layout, one.of))}
-            return "" if any(motion_laws(layout, body) for body in asked if body) else "no-equations"
+            moving = {body for one in find for body in ([one.body] if one.of_body else _bodies_of(layout, one.of))}
+            return "" if any(motion_laws(layout, body) for body in moving if body) else "no-equations"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":

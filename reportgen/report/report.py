@@ -41,14 +41,14 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "short": frozenset(
         (
             # sections of the outline
-            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "functions", "checks"),
+            *("overview", "foreword", "symbols", "summary", "centres", "diagrams", "course", "functions", "checks"),
             # extreme positions that nothing else stands on
             *("rocker-extremes", "slider-extremes"),
             # what the plans stand on
             *("theory-two-equations", "theory-inclination", "theory-similarity"),
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
-            *("velocity-plates", "acceleration-plates", "force-plates"),
+            *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
             *("polar", "flywheel-work", "flywheel-speed"),
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),
