@@ -18,7 +18,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.functions_of_angle import motion_laws
+from reportgen.exercise.functions_of_angle import motion_laws, rod_on_crank
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Negative, Ref
@@ -287,7 +287,8 @@ def why_not(method: file.Method, layout: Layout) -> str:
         case "equations":
             find = layout.given.find
             moving = {body for one in find for body in ([one.body] if one.of_body else _bodies_of(layout, one.of))}
-            return "" if any(motion_laws(layout, body) for body in moving if body) else "no-equations"
+            laws = [motion_laws(layout, body) or rod_on_crank(layout, body) for body in moving if body]
+            return "" if any(laws) else "no-equations"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":
