@@ -296,7 +296,8 @@ def times(*factors: Expression) -> Expression:
 
 
 def _begins_negative(of: Expression) -> bool:
-    return isinstance(of.terms[0] if isinstance(of, Sum) else of, Negative)
+    first = of.terms[0] if isinstance(of, Sum) else of
+    return isinstance(first, Negative) or (isinstance(first, Number) and first.value < 0)
 
 
 def over(top: Expression, bottom: Expression) -> Expression:
