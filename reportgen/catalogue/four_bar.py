@@ -73,21 +73,26 @@ def proportions(q: Sheet) -> None:
     q.set_out("swing")
     if not _rocks(q):
         return
-    extremes(q, AB, BC, CD, AD, ("AC1", "AC2"))
+    extremes(q, AB, BC, CD, ("AC1", "AC2"), AD, AD**2)
 
 
-def extremes(q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, frame: Ref, ends: tuple[str, str]) -> None:
+def extremes(
+    q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, ends: tuple[str, str], frame: Expression, square: Expression
+) -> None:
     """Both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
 
     Crank and coupler lie in one line from the crank's centre, θ = α₁ − α₂ is the angle between both lines.  The lines
-    to the rocker's pin there are called `ends`; the angles at the crank's centre are α, at the rocker's ψ.
+    to the rocker's pin there are called `ends`; the angles at the crank's centre are α, at the rocker's ψ.  The frame
+    is given by a formula, with its square: a small angle wants it unrounded.
     """
     angle = partial(q.define, kind="angle", scale=1.0)
     lengths, α, ψ = [], [], []
     for number, line, length in (("1", ends[0], coupler + crank), ("2", ends[1], coupler - crank)):
         lengths.append(reach := q.define(ids.length(line), length))
-        α.append(angle(ids.inner_angle(number), acos(cosine(reach, frame, rocker)), Symbol("α", number)))
-        ψ.append(angle(ids.outer_angle(number), acos(cosine(frame, rocker, reach)), Symbol("ψ", number)))
+        at_centre = acos((reach**2 + square - rocker**2) / (2 * reach * frame))
+        α.append(angle(ids.inner_angle(number), at_centre, Symbol("α", number)))
+        at_pivot = acos((square + rocker**2 - reach**2) / (2 * frame * rocker))
+        ψ.append(angle(ids.outer_angle(number), at_pivot, Symbol("ψ", number)))
     larger, smaller = sorted(α, key=q.si, reverse=True)
     θ = angle("theta", larger - smaller)
     q.set_out("extremes", *lengths, *α, *ψ)

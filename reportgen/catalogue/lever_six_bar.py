@@ -214,8 +214,8 @@ def machine(assignment: Assignment) -> Machine:
 
     def formulas(q: Sheet) -> None:
         if given.swing is None:
-            frame = q.define("l.BD", sqrt(q["D.x"] ** 2 + q["D.y"] ** 2))
-            extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], frame, ("BC1", "BC2"))
+            square = q["D.x"] ** 2 + q["D.y"] ** 2
+            extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], ("BC1", "BC2"), sqrt(square), square)
         for slider in sliders:
             _stroke(q, slider, start, positions.sign)
         loops.write(q)
