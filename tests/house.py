@@ -264,7 +264,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     circles: 0,
     modules: 157,
     longest_module: 500,
-    lines_of_code: 32292,
+    lines_of_code: 32618,
     template_files: 54,
     words_of_architecture: 1500,
     ids_by_f_string: 0,

@@ -17,7 +17,9 @@ from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
 from reportgen.assignment.fields import Angle, Date, Flag, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
 from reportgen.base.errors import Finding
+from reportgen.base.files import leads_out
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
+from reportgen.base.words import is_school, named_school, school_files
 
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
@@ -53,14 +55,15 @@ class ReportSection(Part):
     """The report's language, cover and the positions written out in full, by number or label (None: all).
 
     `extent` says how much the report of a machine contains; an exercise has one extent, whatever is given.
-    `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
-    sheets that are handed in with the report, `listing` adds a program of the closed formulas.  The text is set in
-    letters of a `font` in a `size`.
+    `school` names a folder of templates whose words stand before the common ones, `templates` one that lies beside the
+    file; `sheets` the size of the drawing sheets that are handed in with the report, `listing` adds a program of the
+    closed formulas.  The text is set in letters of a `font` in a `size`.
     """
 
     language: Language = "vi"
     extent: Extent = "full"
     school: Annotated[str, SchoolFolder()] | None = None
+    templates: OneLine | None = None
     font: OneLine | None = None
     size: Literal["11 pt", "12 pt", "13 pt", "14 pt"] = "12 pt"
     university: OneLine | None = None
@@ -167,6 +170,16 @@ class Assignment:
         return self.report.language
 
     @property
+    def school(self) -> Path | None:
+        """The folder of a school's own words: one named for the run, else the file's own, else its name among all."""
+        report = self.report
+        if (named := named_school()) is not None:
+            return named
+        if report.templates is not None:
+            return (self.source.parent / report.templates).absolute()
+        return None if report.school is None else Path(report.school)
+
+    @property
     def labels(self) -> Sequence[str]:
         """What the positions of a whole cycle are called: N, or 2N for four strokes, and those that the kind adds."""
         return labels_of(self.names, self.parameters, self.positions, self.turns)
@@ -269,6 +282,24 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
                 yield Finding("no-such-label", place, {"text": named, "known": ", ".join(labels)})
             else:
                 yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
+
+    return check
+
+
+def school_of(path: Path) -> Check:
+    """The school's folder of the file at `path` lies beside it or below, with words in it, and there is one."""
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        named, where = draft.at("report", "templates"), ("report", "templates")
+        if not isinstance(named, str):
+            return
+        folder = path.parent / named
+        if leads_out(folder, path.parent) or any(leads_out(inner, folder) for inner in school_files(folder)):
+            yield Finding("path-outside", where, {"text": named})
+        elif not is_school(folder):
+            yield Finding("no-templates", where, {"place": str(folder.absolute())})
+        else:
+            yield from one_of("report", "school", "templates", required=False)(draft)
 
     return check
 

@@ -146,7 +146,7 @@ class Opened:
 
         A school's templates are rendered in a process that can be ended.  Raises `TemplateError` where that was done.
         """
-        if not self.assignment.report.school:
+        if self.assignment.school is None:
             return make(self)
         from reportgen.base.limits import TEMPLATES, LimitError, call_within
 
@@ -161,7 +161,7 @@ class Opened:
     def places(self) -> tuple[Path, ...]:
         """Where the words of this language, machine and school are looked for."""
         assignment = self.assignment
-        return search_path(assignment.language, assignment.kind, assignment.report.school or "", self.root)
+        return search_path(assignment.language, assignment.kind, assignment.school or "", self.root)
 
     @cached_property
     def words(self) -> Mapping[str, Any]:

@@ -47,7 +47,7 @@ def drawing_sheets(
     chosen = plates.of_sets(sets)
     if not chosen:
         raise SheetError(word("no_plates", language, sets=", ".join(sets)))
-    frame_block = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
+    frame_block = read_block(block or blocks(case.assignment.school or "")[DEFAULT[language]], language)
     size = size or case.assignment.report.sheets or ""
     for paper in (size,) if size else USUAL_SIZES:
         try:

@@ -240,7 +240,7 @@ def _filled(text: str, fields: Mapping[str, str]) -> str:
     return _FIELD.sub(lambda found: fields.get(found[1], ""), text)
 
 
-def blocks(school: str = "") -> dict[str, Path]:
+def blocks(school: Path | str = "") -> dict[str, Path]:
     """The blocks that come with the program and those of a school, by name."""
     folders = [templates() / "frames" / FOLDER, *([templates() / school / FOLDER] if school else [])]
     return {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}

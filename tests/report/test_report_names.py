@@ -54,6 +54,7 @@ def test_every_field_that_takes_a_text_is_tried() -> None:
         "language",
         "extent",
         "school",
+        "templates",
         "font",
         "size",
         "student",
