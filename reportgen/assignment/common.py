@@ -105,6 +105,13 @@ class Drawing(Part):
     crank: Annotated[Given, quantity("mm", least=0.1, most=150)] | None = None
 
 
+class SheetSection(Part):
+    """What drawing sheets say that the report does not: their designation, else the code of the course in it."""
+
+    designation: OneLine | None = None
+    course: OneLine | None = None
+
+
 @dataclass(frozen=True, slots=True)
 class Draft:
     """An assignment while it is checked: plain content, and the sections that are in order by themselves."""
@@ -158,6 +165,7 @@ class Assignment:
     report: ReportSection
     positions: Positions
     drawing: Drawing
+    sheet: SheetSection
     parameters: Any
     indicator: Any
     source: Path
@@ -230,11 +238,13 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
         "report": (ReportSection, ReportSection()),
         "positions": (Positions, Positions()),
         "drawing": (Drawing, Drawing()),
+        "sheet": (SheetSection, SheetSection()),
     }
     if kind is None:
         return common
     if not kind.has_positions:
-        return {"variant": common["variant"], "report": common["report"], "parameters": (kind.parameters, ...)}
+        shared = {name: common[name] for name in ("variant", "report", "sheet")}
+        return {**shared, "parameters": (kind.parameters, ...)}
     parameters = {**common, "parameters": (kind.parameters, ...)}
     if kind.indicator is None:
         return parameters

@@ -73,11 +73,11 @@ def proportions(q: Sheet) -> None:
     q.set_out("swing")
     if not _rocks(q):
         return
-    extremes(q, AB, BC, CD, ("AC1", "AC2"), AD, AD**2)
+    extremes(q, AB, BC, CD, ("AC1", "AC2"), frame=AD, square=AD**2)
 
 
 def extremes(
-    q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, ends: tuple[str, str], frame: Expression, square: Expression
+    q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, ends: tuple[str, str], *, frame: Expression, square: Expression
 ) -> None:
     """Both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
 

@@ -215,7 +215,7 @@ def machine(assignment: Assignment) -> Machine:
     def formulas(q: Sheet) -> None:
         if given.swing is None:
             square = q["D.x"] ** 2 + q["D.y"] ** 2
-            extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], ("BC1", "BC2"), sqrt(square), square)
+            extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], ("BC1", "BC2"), frame=sqrt(square), square=square)
         for slider in sliders:
             _stroke(q, slider, start, positions.sign)
         loops.write(q)

@@ -68,11 +68,12 @@ def sheet(
     files: Files,
     size: Annotated[
         Literal["A0", "A1", "A2", "A3"] | None,
-        typer.Option("--size", help="Of the paper.", show_default="A1, or A0 where a plate needs it"),
+        typer.Option("--size", help="Of the paper.", show_default="the smallest that holds each set"),
     ] = None,
     sets: Annotated[
         Literal["kinematics", "forces", "all"], typer.Option("--set", help="What the sheets show.")
     ] = "all",
+    every: Annotated[bool, typer.Option("--all", help="Every plan of the report, not only those handed in.")] = False,
     format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, dxf; parted by commas.")] = "pdf,dxf",
     block: Annotated[
         str | None,
@@ -111,6 +112,7 @@ def sheet(
                 sets=() if sets == "all" else (sets,),
                 formats=formats,
                 block=path,
+                every=every,
             )
             print(*put_files(out / assignment.id, made, "sheet"), sep="\n", flush=True)
 

@@ -122,8 +122,13 @@ class Case(Protocol):
     def film(self) -> Film | None:
         """What moves on its page, if anything does."""
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        """Its drawing sheets; raises `SheetError` where there is nothing to draw or a plate is too large."""
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its drawing sheets, with `every` plate or those usually handed in.
+
+        Raises `SheetError` where there is nothing to draw, and `AssignmentError` where a plate is too large.
+        """
 
 
 # --- an assignment opened once with its words -----------------------------------------------------
@@ -192,9 +197,6 @@ class Opened:
 class Calculation(Opened):
     """A machine: its assignment with all that is computed of it."""
 
-    found: tuple[Analysis, PlannedLedger] | None = field(default=None, compare=False, repr=False)
-    """What is known already of a calculation whose drawings alone are others."""
-
     @cached_property
     def analysis(self) -> Analysis:
         """Everything computed, as arrays over the positions.
@@ -203,8 +205,6 @@ class Calculation(Opened):
         """
         from reportgen.machine.analysis import analyse
 
-        if self.found is not None:
-            return self.found[0]
         kind, language = self.assignment.kind, self.assignment.language
         machine = getattr(catalogue.module(kind), "machine", None)
         if machine is None:
@@ -216,8 +216,6 @@ class Calculation(Opened):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.plans import write_ledger
 
-        if self.found is not None:
-            return self.found[1]
         written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
@@ -240,11 +238,6 @@ class Calculation(Opened):
     def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
-
-    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Self:
-        """The same with drawings to other scales (SI, by id), one or [N]."""
-        written = replace(self.written, ledger=self.ledger.redrawn(scales))
-        return replace(self, found=(self.analysis, written))
 
 
 # --- the answer key of an assignment, as data -----------------------------------------------------

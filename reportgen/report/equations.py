@@ -32,7 +32,8 @@ from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.sides import Side
 from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.groups import Contact, GroupView
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import lower_digits
+from reportgen.report.report import Report
 
 # --- numbers and symbols
 

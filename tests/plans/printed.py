@@ -20,6 +20,10 @@ DIRECTION, TOLD = 0.5, 3.0
 """A direction (°) of a vector that is so long on paper (mm) at least."""
 ANGLE = 0.01
 """An angle (°): half a unit of the last digit of each of the two that it is the difference of, whatever its size."""
+FORMULAS = "f."
+"""What ids of closed formulas begin with."""
+LAST_DIGIT = 0.005
+"""Half a unit of the last digit of an angle (°), which a closed formula takes as it is printed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +38,7 @@ class Off:
 
 def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
     """Every printed quantity that is no given data; a residue and the arm of a load that is nothing are left out."""
-    longest = _longest(unrounded)
+    longest, by_angles = _longest(unrounded), _by_angles(unrounded)
     for id, family in unrounded.families.items():
         if family.hidden or family.is_plane or family.definition is None or family.residue:
             continue
@@ -53,6 +57,8 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
             # The mean of positions is that of torques as they are printed.
             whole = unrounded["M.eq"] if id == "M.mean.positions" else family
             allowed = np.maximum(SHARE * largest(whole), _measured(unrounded, family))
+            if id.startswith(FORMULAS):
+                allowed = allowed + by_angles[id]
             if family.kind == "angle":
                 allowed = np.maximum(allowed, np.radians(ANGLE))
             what, told = "computed", np.isfinite(family.values)
@@ -64,7 +70,7 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
 
 def _read(longest: dict[str, float], id: str) -> float:
     """What a length on paper (m) may be off."""
-    return ON_PAPER * 1e-3 + OF_LONGEST * longest[vocabulary.scale_on_paper(id)]
+    return ON_PAPER * 1e-3 + OF_LONGEST * longest[scale_on_paper(id)]
 
 
 def _measured(ledger: Ledger, family: Family) -> np.ndarray:
@@ -73,6 +79,19 @@ def _measured(ledger: Ledger, family: Family) -> np.ndarray:
         case Product((Ref(scale), Ref(length))) if ledger[length].kind == "segment":
             return ledger[scale].values * ON_PAPER * 1e-3
     return np.zeros(1)
+
+
+def _by_angles(ledger: Ledger) -> dict[str, np.ndarray]:
+    """What closed formulas may be off besides for the angles that they stand on, each half a unit of its last digit off."""
+    half = np.radians(LAST_DIGIT)
+    off: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(1))
+    for angle, family in ledger.families.items():
+        if angle.startswith(FORMULAS) and family.kind == "angle" and family.how.unit == "°":
+            moved = ledger.evaluate({angle: family.values + half})
+            for id, values in moved.items():
+                if id.startswith(FORMULAS):
+                    off[id] = off[id] + np.nan_to_num(np.abs(values - ledger[id].values))
+    return off
 
 
 def largest(family: Family) -> float:
@@ -86,7 +105,7 @@ def _longest(ledger: Ledger) -> dict[str, float]:
     found: dict[str, float] = defaultdict(float)
     for id, family in ledger.families.items():
         if family.kind == "segment" and not family.hidden:
-            scale = vocabulary.scale_on_paper(id)
+            scale = scale_on_paper(id)
             found[scale] = max(found[scale], float(np.nanmax(np.abs(family.values), initial=0.0)))
     return found
 
@@ -104,3 +123,14 @@ def _side(ledger: Ledger, direction: str) -> str:
     angle = ids.rod_angle.read(direction)
     of = ids.velocity(angle["point"]) if angle else vocabulary.vector_of(direction)
     return next((id for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of), "")
+
+
+def scale_on_paper(id: str) -> str:
+    """The id of the scale of a length or a point on paper; "" for anything else."""
+    if vocabulary.is_laid(id):
+        return "mu.l"
+    if found := ids.plan_point.read(id):
+        return ids.scale(found["what"])
+    if found := ids.force_corner.read(id):
+        return ids.force_scale(found["group"])
+    return vocabulary.plan(id)
