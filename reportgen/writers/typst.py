@@ -216,13 +216,10 @@ class _Blocks:
                 figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
-                label = (
-                    f"{self.again(self.words.figure, block)},[]"
-                    if continues
-                    else self.caption(self.words.figure, block)
-                )
-                drawing = paint_typst(scene, self.formulas)
-                return f"#plate({width:g},{height:g},{scene.height:g},{label},\n{drawing})" + _label(key)
+                again = f"{self.again(self.words.figure, block)},[]"
+                label = again if continues else self.caption(self.words.figure, block)
+                across = f"{width:g},{height:g},{scene.height:g},{label}"
+                return f"#plate({across},\n{paint_typst(scene, self.formulas)})" + _label(key)
             case tree.Cover(institution, title, subtitle, fields, foot):
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
@@ -231,6 +228,8 @@ class _Blocks:
                 return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
+            case tree.Listing(code):
+                return f"#listing({literal(chr(10).join(code))})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
 

@@ -203,9 +203,8 @@ class _Blocks:
                         run_in = ""
                     continue
                 case tree.Paragraph(inlines, align):
-                    jc = f'<w:jc w:val="{align}"/>' if align else ""
-                    content = run_in + self.inlines(inlines)
-                    found.append(paragraph("Normal", content, setting.lines + setting.indented + jc))
+                    properties = setting.lines + setting.indented + (f'<w:jc w:val="{align}"/>' if align else "")
+                    found.append(paragraph("Normal", run_in + self.inlines(inlines), properties))
                     run_in = ""
                     continue
             if found and found[-1].endswith("</w:tbl>"):
@@ -239,6 +238,8 @@ class _Blocks:
             case tree.BlankLine(label):
                 dots = f"<w:tabs>{right_tab(A4.room, 'dot')}</w:tabs>{LEFT}"
                 return paragraph("Normal", run(f"{label} " if label else "") + TAB, dots)
+            case tree.Listing(lines):
+                return "".join(paragraph("Listing", run(line)) for line in lines)
             case _:
                 return NEXT_PAGE
 
@@ -264,8 +265,7 @@ class _Blocks:
 
     def bookmarked(self, name: str, content: str) -> str:
         self._marks += 1
-        start = f'<w:bookmarkStart w:id="{self._marks}" w:name="{name}"/>'
-        return f'{start}{content}<w:bookmarkEnd w:id="{self._marks}"/>'
+        return f'<w:bookmarkStart w:id="{self._marks}" w:name="{name}"/>{content}<w:bookmarkEnd w:id="{self._marks}"/>'
 
     def listing(self, block: tree.List, setting: _Setting) -> str:
         if block.ordered:

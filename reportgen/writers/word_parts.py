@@ -193,15 +193,16 @@ def right_tab(at: float, leader: str = "") -> str:
 
 CENTRE, LEFT = '<w:jc w:val="center"/>', '<w:jc w:val="left"/>'
 BOLD, ITALIC = "<w:b/><w:bCs/>", "<w:i/><w:iCs/>"
-KEPT = "<w:keepNext/>"
+KEPT, MONO = "<w:keepNext/>", '<w:rFonts w:ascii="Courier New" w:hAnsi="Courier New"/>'
 EQUATION_SIZE, KNOWN_SIZE = 12.0, 9.5
 """Of displayed formulas, whose lines are measured in it, and of what is known of vectors below them (points)."""
 
 
 def paragraph_styles(font: str, size: float, close: bool, room: float) -> list[Style]:
     """The styles of a report; of one that is set `close`, type and gaps are smaller."""
-    size, gap, pitch = (size - 1, 4.0, 1.0) if close else (size, 5.0, 1.0)
+    size, gap = (size - 1, 4.0) if close else (size, 5.0)
     face = " ".join(f'w:{one}="{escape(font)}"' for one in ("ascii", "hAnsi", "eastAsia", "cs"))
+    letters = f"<w:rFonts {face}/>{sized(size)}"
     contents = f'<w:tabs><w:tab w:val="left" w:pos="{{tab}}"/>{right_tab(room, "dot")}</w:tabs>'
 
     def heading(level: int, before: float, after: float, points: float, place: str = "") -> Style:
@@ -216,13 +217,7 @@ def paragraph_styles(font: str, size: float, close: bool, room: float) -> list[S
         return Style(f"TOC{level}", f"toc {level}", lines, letters, following="Normal")
 
     return [
-        Style(
-            "Normal",
-            "Normal",
-            f'<w:widowControl/>{spaced(0, gap, pitch)}<w:jc w:val="both"/>',
-            f"<w:rFonts {face}/>{sized(size)}",
-            based="",
-        ),
+        Style("Normal", "Normal", f'<w:widowControl/>{spaced(0, gap, 1)}<w:jc w:val="both"/>', letters, based=""),
         heading(1, 24, 14, size + 4, CENTRE),
         heading(2, 14, 8, size + 2),
         heading(3, 12, 7, size),
@@ -233,6 +228,7 @@ def paragraph_styles(font: str, size: float, close: bool, room: float) -> list[S
         Style("Caption", "caption", spaced(4, 8, 1) + CENTRE, sized(11), following="Normal"),
         Style("List", "List", f"{spaced(0, gap / 2)}<w:contextualSpacing/>"),
         Style("Table", "Table", spaced(0, 0, 1) + LEFT, sized(10)),
+        Style("Listing", "Listing", spaced(0, 0, 1) + LEFT, MONO + sized(7.5)),
         Style("Equation", "Equation", spaced(gap / 2, gap / 2, 1) + CENTRE, sized(EQUATION_SIZE), following="Normal"),
         Style("Known", "Known Quantity", "", sized(KNOWN_SIZE), based="Equation"),
         Style("Figure", "Figure", KEPT + spaced(6, 3, 1) + CENTRE, sized(2), following="Caption"),
