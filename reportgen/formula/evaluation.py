@@ -47,6 +47,12 @@ def within(value: Value, least: Value, most: Value) -> Value:
     return np.where((value >= least) & (value <= most), value, np.nan)
 
 
+def branch(number: Value, *branches: Value) -> Value:
+    """At each position the branch of its number, from 0; numbers [N], branches with any axes in front of theirs."""
+    number, *shaped = np.broadcast_arrays(number, *branches)
+    return np.select([number == index for index in range(len(shaped))], shaped, np.nan)
+
+
 def mean(values: Value, weights: Value = 1.0) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
@@ -103,6 +109,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "quotient": quotient,
     "if_zero": if_zero,
     "within": within,
+    "branch": branch,
 }
 """What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
 
