@@ -13,6 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.units import MM, nice_up
 from reportgen.cam.cam import Designed, Parameters, designed, extreme, positions_of
 from reportgen.cam.design import Touch
 from reportgen.cam.laws import Floats, Motion, Stretch
@@ -23,6 +24,7 @@ from reportgen.formula import (
     Number,
     Operand,
     Ref,
+    Symbol,
     acos,
     as_expression,
     asin,
@@ -43,6 +45,11 @@ from reportgen.report.case import Pitfalls
 MOVING = {"rise": 1, "return": 2}
 """The numbers of what belongs to each of the two phases with motion."""
 STILL = Number(0.0)
+TURN_ON_PAPER, HEIGHT = 0.120, 0.042
+"""The length of a turn in the diagrams of the motion, and about how high each is (m on paper)."""
+LEAST_POLE, MOST_POLE = 5, 30
+"""Pole distances (mm)."""
+KINDS_ON_PAPER = ("length on paper", "reduced velocity on paper", "reduced acceleration on paper")
 
 
 @dataclass(frozen=True)
@@ -86,6 +93,7 @@ class CamSolution:
         q = CamSheet(self)
         q.enter_given()
         q.enter_motion()
+        q.enter_scales()
         q.enter_least()
         if self.cam.flat:
             q.enter_flat()
@@ -203,6 +211,26 @@ class CamSheet:
             )
             q.define(rate, omega * self.ds, scale=motion.stroke)
             q.define(acceleration, omega**2 * self.dds, scale=motion.stroke)
+
+    def enter_scales(self) -> None:
+        """Scales of the diagrams of the motion: μ_s″ is round; with whole pole distances K the others follow."""
+        q, turned = self.q, not self.cam.translating
+        names = ("psi", "dpsi", "ddpsi") if turned else ("s", "ds", "dds")
+        symbols = ("ψ", "ψ′", "ψ″") if turned else ("s", "s′", "s″")
+        kinds = ("angle on paper", "rate on paper", "rate on paper") if turned else KINDS_ON_PAPER
+        traced = self.cam.sampled()
+        first, second, third = (float(np.ptp(part)) for part in (traced.s, traced.ds, traced.dds))
+        L = q.give(ids.cam_diagram("L"), TURN_ON_PAPER, optional=True)
+        μ_φ = q.define(ids.cam_scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
+        chosen = nice_up(third / HEIGHT) if third else nice_up(second / HEIGHT / q.si(μ_φ) / HEIGHT)
+        above = q.give(ids.cam_scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
+        for number, (name, shown, kind, range_) in enumerate(
+            ((names[1], symbols[1], kinds[1], second), (names[0], symbols[0], kinds[0], first)), start=1
+        ):
+            wanted = range_ / HEIGHT / (q.si(above) * q.si(μ_φ)) * MM
+            pole = min(max(round(wanted), LEAST_POLE), MOST_POLE) / MM
+            K = q.give(ids.cam_diagram(number), pole, Symbol("K", str(number)), optional=True)
+            above = q.define(ids.cam_scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
 
     def _formulas(self, one: Stretch, x: Ref) -> tuple[Operand, ...]:
         if one.piece is None:
