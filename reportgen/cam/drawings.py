@@ -30,6 +30,8 @@ RAY = Pen(0.1, style.GRAY)
 NUMBER = 3.2
 """From a roller's centre to its number (mm)."""
 HALF_FACE = 8.0
+FACE_MARGIN = 3.0
+"""What a flat face reaches beyond its farthest points of contact (mm)."""
 GUIDE = 1.6
 """From the axis of a translating follower to the walls of its guide (mm)."""
 LINES = 7
@@ -348,13 +350,14 @@ def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: boo
     With `walls` what holds it is drawn, too.
     """
     if cam.translating:
-        yield Line(tip, tip + 1j * FOLLOWER, style.HEAVY)
+        rise = 1j * cam.motion.stroke * at
+        foot = complex(0.0, tip.imag) if cam.flat else tip
         if cam.flat:
-            axis = complex(0.0, tip.imag)
-            yield Line(axis - HALF_FACE * 1.5, axis + HALF_FACE * 1.5, style.HEAVY)
-            yield Line(axis, axis + 1j * FOLLOWER, style.HEAVY)
+            half = float(np.abs(cam.sampled().ds).max()) * at + FACE_MARGIN
+            yield Line(foot - half, foot + half, style.HEAVY)
+        yield Line(foot, foot + rise + 1j * FOLLOWER, style.HEAVY)
         if walls:
-            yield from guide_walls(complex(0.0, tip.imag) if cam.flat else tip)
+            yield from guide_walls(foot + rise)
     else:
         yield Line(pivot, tip + (unit(tip - pivot) * 8 if cam.flat else 0), style.HEAVY)
         if walls:
@@ -367,7 +370,7 @@ def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: boo
 
 
 def guide_walls(tip: complex) -> Iterator[Item]:
-    """The guide of a translating follower whose end is in its lowest position."""
+    """The guide of a translating follower whose end is in its highest position."""
     for side in (-1, 1):
-        wall = tip + complex(side * GUIDE, 0.7 * FOLLOWER)
+        wall = tip + complex(side * GUIDE, 0.6 * FOLLOWER)
         yield from style.ground(wall - 4j, wall + 4j, 1 if side < 0 else -1)

@@ -9,7 +9,7 @@ import numpy as np
 
 from reportgen.base.units import significant_decimals
 from reportgen.cam.diagrams import angle_axis, axis, motion_charts, names_of, pressure_chart
-from reportgen.cam.drawings import FOLLOWER, PITCH, fitting, follower_parts, guide_walls, pivot_of
+from reportgen.cam.drawings import PITCH, fitting, follower_parts, guide_walls, pivot_of
 from reportgen.cam.laws import NODE, Floats
 from reportgen.cam.profile import Complexes, Traced
 from reportgen.cam.solved import SolvedCam
@@ -41,6 +41,8 @@ ROOM = 120 + 110j
 """What cam and follower may fill (mm)."""
 NORMAL = 30.0
 """The length of the normal that is drawn (mm)."""
+CENTRE = Track(np.zeros(1, complex))
+"""The cam's axis."""
 DIGITS, MOST_DECIMALS = 5, 4
 BESIDE = 2e-5
 """How far from a jump of the motion (rad) both its sides are sampled."""
@@ -61,7 +63,7 @@ def film(case: SolvedCam) -> Film:
         charts=tuple(_charts(case, knots, traced)),
         values=tuple(_values(case, traced)),
         errors=_errors(case, knots, 1 / _scale(case)),
-        layers=("paths",),
+        layers=("paths",) if case.solution.cam.roller else (),
     )
 
 
@@ -90,12 +92,14 @@ def _stage(case: SolvedCam, traced: Traced) -> Stage:
     at = 1 / _scale(case)
     turn = Track(cam.turn * traced.φ)
     profile: list[Item] = [Polyline(tuple(cam.outline() * at), style.VISIBLE, closed=True, fill=style.TINT)]
-    if cam.roller:
-        profile.append(Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True))
     profile.append(Line(0j, 0.6 * cam.r0 * at * 1j, style.THIN))
     items: list[MovingItem] = [
         Still((Circle(0j, cam.r0 * at, style.THIN),)),
-        Carried(tuple(profile), Track(np.zeros(1, complex)), turn),
+        Carried(tuple(profile), CENTRE, turn),
+        *(
+            [Carried((Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True),), CENTRE, turn, "paths")]
+            * bool(cam.roller)
+        ),
         Still(style.pivot(0j)),
     ]
     items += _follower(case, traced, at)
@@ -111,8 +115,6 @@ def _stage(case: SolvedCam, traced: Traced) -> Stage:
         ),
     ]
     low, high = extent(items)
-    if cam.translating:
-        high += 1j * FOLLOWER / 3
     rates = traced.ds * (case.speed or 1.0) * 1j if cam.translating else np.zeros(traced.φ.size, complex)
     drive = (case.speed or 1.0) ** 2 * traced.dds * 1j if cam.translating else np.zeros(traced.φ.size, complex)
     spot = Spot("B", Track(traced.at * at), Track(traced.at), Track(rates), Track(drive))
@@ -135,7 +137,7 @@ def _follower(case: SolvedCam, traced: Traced, at: float) -> Iterator[MovingItem
         parts = tuple(follower_parts(cam, tip, at, 0j, walls=False))
         lifted = Track(1j * (traced.s - traced.s[0]) * at)
         yield Carried(parts, lifted)
-        yield Still(tuple(guide_walls(tip)))
+        yield Still(tuple(guide_walls(tip + 1j * cam.motion.stroke * at)))
         return
     pivot = pivot_of(cam) * at
     start = complex(traced.at[0]) * at

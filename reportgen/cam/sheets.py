@@ -6,7 +6,7 @@ The second sheet has nothing but the profile 1:1 on layers of its own, as a mach
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -27,10 +27,14 @@ CHORD = 1e-6
 """How far the polyline of the profile may lie from the curve (m)."""
 MARGIN = 15.0
 """White around the profile that is cut (mm)."""
-TURN = 1.5
-"""So many times as long as in a report is the turn of its diagrams (180 mm)."""
-LIMITS_ROOM, PROFILE_ROOM = 80 + 90j, 84 + 92j
-"""What diagrams of limits and profiles may fill before they are enlarged (mm)."""
+LARGER = {"A3": 0.7, "A2": 1.0, "A1": 1.4, "A0": 2.0}
+"""How many times as large plates are on a sheet as on one of size A2."""
+TURN = 1.2
+"""There the turn of the diagrams is so many times as long as in a report,"""
+LIMITS_ROOM, PROFILE_ROOM = 58 + 50j, 86 + 92j
+"""and diagrams of limits and profiles fill no more than this (mm) before they are enlarged as all figures of sheets."""
+PROFILES = (2.0, 1.6, 1.25, 1.0, 0.75)
+"""So many times as large profiles are tried."""
 AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
 CONTOUR = Pen(0.5)
 
@@ -45,8 +49,9 @@ def drawing_sheets(case: SolvedCam, size: str = "", block: Path | None = None) -
     wanted = size or case.assignment.report.sheets or ""
     tried = (wanted,) if wanted else USUAL_SIZES
     for paper in tried:
-        parts = _placed(case, room(paper, frame.margins, frame.size))
-        if parts:
+        space = room(paper, frame.margins, frame.size)
+        found = (_placed(_plates(case, LARGER[paper], share), space) for share in PROFILES)
+        if parts := next(filter(None, found), None):
             return [_sheet(case, paper, frame, parts), _true_size(case.solution.cam)]
     raise SheetError(word("cam_sheet", language, size=tried[-1]))
 
@@ -63,40 +68,33 @@ def _sheet(case: SolvedCam, paper: str, block: TitleBlock, parts: list[PlacedSce
     return DrawingSheet(paper, width, height, (*own, *parts))
 
 
-def _plates(case: SolvedCam) -> Iterator[tuple[str, str, Scene]]:
-    """Name, layer and drawing of each plate, as they are set from left to right and from above."""
+def _plates(case: SolvedCam, larger: float, share: float) -> Iterator[tuple[str, str, Scene]]:
+    """Name, layer and drawing of each plate, as they are set in columns; scales are round once plates are enlarged."""
     captions = case.words["cam"]["captions"]
-    # Sheets enlarge what reports draw; scales are round once that is done.
-    yield "law", "curves", _titled(law_diagrams(case, TURN / ENLARGED), str(captions["figure-law"]))
-    if not case.solution.cam.flat:
-        if case.solution.designed.least is not None:
-            yield (
-                "limits",
-                "scheme",
-                _titled(limit_diagram(case, LIMITS_ROOM, ENLARGED), str(captions["figure-limits"])),
-            )
-        yield "pressure", "curves", _titled(pressure_chart(case).scene, str(captions["figure-pressure"]))
+    rooms = larger * LIMITS_ROOM, share * larger * PROFILE_ROOM
+    yield "law", "curves", _titled(law_diagrams(case, larger * TURN / ENLARGED), str(captions["figure-law"]))
+    if not case.solution.cam.flat and case.solution.designed.least is not None:
+        yield "limits", "scheme", _titled(limit_diagram(case, rooms[0], ENLARGED), str(captions["figure-limits"]))
     yield (
         "inversion",
         "positions",
-        _titled(inversion(case, PROFILE_ROOM, enlarged=ENLARGED), str(captions["figure-inversion"])),
+        _titled(inversion(case, rooms[1], True, ENLARGED), str(captions["figure-inversion"])),
     )
-    yield (
-        "profile",
-        "profile",
-        _titled(inversion(case, PROFILE_ROOM, construction=False, enlarged=ENLARGED), str(captions["figure-profile"])),
-    )
+    yield "profile", "profile", _titled(inversion(case, rooms[1], False, ENLARGED), str(captions["figure-profile"]))
+    if not case.solution.cam.flat:
+        chart = pressure_chart(case, half=larger <= 1.0)
+        yield "pressure", "curves", _titled(chart.scene, str(captions["figure-pressure"]))
 
 
 def _titled(scene: Scene, title: str) -> Scene:
     return headed(lettered(scene), title, "")
 
 
-def _placed(case: SolvedCam, space: Room) -> list[PlacedScene]:
+def _placed(plates: Iterable[tuple[str, str, Scene]], space: Room) -> list[PlacedScene]:
     """The plates in columns, each as high as there is room above the title block; none where they do not fit."""
     parts: list[PlacedScene] = []
     left, top, widest = space.low.real + GAP, space.high.imag - GAP, 0.0
-    for name, layer, scene in _plates(case):
+    for name, layer, scene in plates:
         while True:
             below = space.low.imag + GAP
             if left + scene.width > space.high.real - space.block.real:
