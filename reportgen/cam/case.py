@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.cam import film, sheets, views
-from reportgen.cam.cam import exceeded
+from reportgen.cam.file import exceeded
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet

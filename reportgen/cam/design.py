@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.cam.laws import Floats, Motion
+from reportgen.cam.laws import Floats, FollowerMotion
 from reportgen.cam.profile import Cam, greatest
 
 Rule = Literal["apex", "rise", "return"]
@@ -28,7 +28,7 @@ TALLEST = 400
 
 
 @dataclass(frozen=True)
-class Limits:
+class CamLimits:
     """Permissible pressure angles (rad) of rise and return, and the least radius of curvature of the profile (m)."""
 
     rise: float | None
@@ -70,7 +70,7 @@ class NoCamError(ValueError):
         self.code, self.key = code, key
 
 
-def touch(motion: Motion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
+def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
     """Where in a phase a function of s and s′ is greatest."""
     best: Touch | None = None
     for number, one in enumerate(motion.stretches):
@@ -88,7 +88,7 @@ def touch(motion: Motion, phase: str, of: Callable[[Floats, Floats], Floats]) ->
     return best
 
 
-def least_translating(motion: Motion, limits: Limits, e: float | None) -> Least:
+def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None) -> Least:
     """The least cam of a translating follower with a knife or a roller, at a given offset or at the best one.
 
     c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) lead to s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′].
@@ -121,7 +121,7 @@ def least_translating(motion: Motion, limits: Limits, e: float | None) -> Least:
     return at("apex", high, c1 - t1 * high)
 
 
-def least_oscillating(motion: Motion, limits: Limits, arm: float, opposite: int, a: float) -> Least | None:
+def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
     """The least cam of an oscillating roller at a distance a of the pivot; None where no ψ₀ keeps the limits."""
     assert limits.rise is not None
     α1, α2 = limits.rise, limits.back
@@ -154,7 +154,7 @@ def across(a: float, arm: float, psi0: float) -> float:
     return math.sqrt(a**2 + arm**2 - 2 * a * arm * math.cos(psi0))
 
 
-def best_distance(motion: Motion, limits: Limits, arm: float, opposite: int) -> Least:
+def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
     """The least cam of an oscillating roller at the best distance a of the pivot, between 0.4 and 3 arms.
 
     The region of the centres is convex, so that r₀ over a has one valley: a golden section finds it.

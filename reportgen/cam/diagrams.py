@@ -42,9 +42,6 @@ class Graph:
     up: Floats
     zero: float
     scale: Chain
-    pole: float = 0.0
-    """Of the diagram that is integrated: the distance of its pole (mm)."""
-    pole_symbol: Symbol = Symbol("K")
 
     def at(self, y: Floats) -> Floats:
         return self.zero + y

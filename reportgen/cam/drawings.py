@@ -12,7 +12,7 @@ from reportgen.base.units import MM, nice_up
 from reportgen.cam.profile import Cam, Traced
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import unit
+from reportgen.drawing.geometry import clipped, unit
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
 
@@ -22,6 +22,7 @@ PROFILE_ROOM = 138 + 172j
 FOLLOWER = 26.0
 """The length of a translating follower that is drawn (mm)."""
 LIMIT = Pen(0.3, style.RED)
+THIN_LIMIT = Pen(0.12, style.RED)
 REGION = Pen(0.1, style.GRAY)
 PROFILE = Pen(0.5)
 PITCH = Pen(0.25, style.BLUE, style.CHAIN)
@@ -111,10 +112,10 @@ def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     requests: list[Request] = []
     planes: list[HalfPlane] = []
     limits = (
-        ("rise", found.limits.rise, 1, least and least.rise),
-        ("return", found.limits.back, -1, least and least.back),
+        ("rise", found.limits.rise, 1, None if least is None else least.rise),
+        ("return", found.limits.back, -1, None if least is None else least.back),
     )
-    for phase, limit, side, touch in limits:
+    for _, limit, side, touch in limits:
         if limit is None or touch is None:
             continue
         # Down the line s grows less and s′ goes with the other sign: the angle to the axis of s is the limit.
@@ -123,8 +124,8 @@ def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     allowed = region(planes, box)
     if len(allowed) > 2 and planes:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
-    for (phase, limit, side, touch), plane in zip([one for one in limits if one[1] and one[3]], planes, strict=True):
-        assert limit is not None and touch is not None
+    for (phase, limit, side, _), plane in zip([one for one in limits if one[1] and one[3]], planes, strict=True):
+        assert limit is not None
         # The plane's edge from the upper edge of the drawing to the lower one.
         along = plane.inward * -1j * side
         ends = [plane.at + along * (level - plane.at.imag) / along.imag for level in (low, high)]
@@ -193,7 +194,7 @@ def _centre(at: complex) -> tuple[Item, ...]:
 def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     """On each position of the arm l k is laid off along it; a line at 90° − [α] to the arm through its end bounds."""
     found, cam = case.solution.designed, case.solution.cam
-    σ, pivot = cam.opposite, complex(cam.opposite * cam.a, 0)
+    σ, pivot = cam.opposite, pivot_of(cam)
     planes: list[HalfPlane] = []
     shown: list[tuple[complex, complex, HalfPlane]] = []
     for phase, limit, sign in (("rise", found.limits.rise, 1), ("return", found.limits.back, -1)):
@@ -208,7 +209,7 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
                 arm = _arm(cam, float(ψ))
                 end = pivot + arm * cam.arm * (1 + σ * rate)
                 # Into the region: along the arm for the rise, back along it for the return, and to the cam's side.
-                aside = arm * 1j * σ
+                aside = arm * 1j * σ * cam.turn
                 plane = HalfPlane(end, sign * arm * math.cos(limit) + aside * math.sin(limit))
                 planes.append(plane)
                 if index % (160 // (LINES - 1)) == 0:
@@ -225,11 +226,12 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     allowed = region(on_paper, box)
     if len(allowed) > 2:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
-        items.append(Polyline(tuple(allowed), LIMIT, closed=True))
+        items.append(Polyline(tuple(allowed), REGION, closed=True))
     for tip, end, plane in shown:
         items.append(Line(pivot * at, tip * at, RAY))
-        along = plane.inward * 1j
-        items.append(Line((end * at) - 9 * unit(along), (end * at) + 9 * unit(along), Pen(0.15, style.RED)))
+        along = 1j * unit(plane.inward) * abs(box[2] - box[0])
+        if piece := clipped(end * at - along, end * at + along, box[0], box[2]):
+            items.append(Line(*piece, THIN_LIMIT))
         items += [Circle(tip * at, 0.5, Pen(0.2), style.PAPER), Circle(end * at, 0.4, None, style.RED)]
     start = pivot + _arm(cam, 0.0) * cam.arm
     items.append(Line(pivot * at, start * at, style.VISIBLE))
@@ -252,7 +254,7 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
 def _arm(cam: Cam, ψ: float) -> complex:
     """The direction of the arm from its pivot in the fixed frame."""
     q = cam.psi0 + ψ
-    return complex(-cam.opposite * math.cos(q), math.sin(q))
+    return complex(-cam.opposite * cam.turn * math.cos(q), math.sin(q))
 
 
 # --- the profile by inversion -------------------------------------------------------------------------
@@ -293,6 +295,8 @@ def inversion(case: SolvedCam, room: complex = PROFILE_ROOM, construction: bool 
             )
     else:
         items += _follower(cam, at)
+    if cam.roller and case.solution.given.closed_by == "form":
+        items.append(Polyline(tuple(cam.groove() * at), style.VISIBLE, closed=True))
     if cam.roller:
         pitch = cam.sampled().pitch
         items.append(Polyline(tuple(pitch * at), PITCH, closed=True))

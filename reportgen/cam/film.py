@@ -110,16 +110,16 @@ def _stage(case: SolvedCam, traced: Traced) -> Stage:
         MovingVector(place, Track(contact * at - normal * NORMAL / 2), style.NORMAL, 0.0),
         Carried((Circle(0j, 0.7, None, style.RED),), place),
         MovingName(Symbol("K"), place, (Track(contact * at + normal),), 1.0),
-        MovingName(
-            Symbol("O"), Track(np.zeros(1, complex)), (Track(np.array([-3 - 5j])), Track(np.array([3 - 5j]))), 1.6
-        ),
+        MovingName(Symbol("O"), CENTRE, (Track(np.array([-3 - 5j])), Track(np.array([3 - 5j]))), 1.6),
     ]
     low, high = extent(items)
     rates = traced.ds * (case.speed or 1.0) * 1j if cam.translating else np.zeros(traced.φ.size, complex)
     drive = (case.speed or 1.0) ** 2 * traced.dds * 1j if cam.translating else np.zeros(traced.φ.size, complex)
     spot = Spot("B", Track(traced.at * at), Track(traced.at), Track(rates), Track(drive))
     spots = (spot,) if cam.translating and not cam.flat and case.speed else ()
-    return Stage("cam", case.title, tuple(items), low, high, (BarScale(1 / at, "segment"),), spots)
+    return Stage(
+        "cam", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),), spots=spots
+    )
 
 
 def _contact(traced: Traced, roller: float, turn: int) -> tuple[Complexes, Complexes]:

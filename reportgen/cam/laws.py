@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.formula import PI, Expression, Negative, Operand, Ref, cos, sin
+from reportgen.formula import PI, Expression, Negative, Operand, Ref, as_expression, cos, sin
 from reportgen.formula.evaluation import evaluate
 
 Floats = NDArray[np.float64]
@@ -38,8 +38,13 @@ class Piece:
     node: int = -1
 
 
+Pieces = tuple[Piece, ...]
+Named = Callable[[str, int], Operand]
+"""A value of a node: A, V, S or J."""
+
+
 @dataclass(frozen=True)
-class Table:
+class AccelerationGraph:
     """An acceleration given as a graph: ordinates `a` over `x` from 0 to 1, straight between; a repeated x is a jump.
 
     Integrated twice it is scaled to end at S = 1: A = c·a with V and S at each node [K].
@@ -60,13 +65,22 @@ class Table:
         parts = _areas(self.x, self.a)
         return float(parts[parts > 0].sum()), float(-parts[parts < 0].sum())
 
-    def pieces(self, named: Callable[[str, int], Operand] | None = None) -> tuple[Piece, ...]:
-        """A cubic S between each two nodes; `named` gives the values at nodes as the ledger calls them."""
+    @property
+    def slopes(self) -> Floats:
+        """How steeply A goes from each node to the next; 0 where it jumps."""
+        Δ = np.diff(self.x)
+        return np.divide(np.diff(self.nodes[0]), Δ, out=np.zeros(Δ.size), where=Δ > NODE)
+
+    def pieces(
+        self, named: Named | None = None, beyond: Callable[[Expression, int], Expression] | None = None
+    ) -> Pieces:
+        """A cubic S between each two nodes; `named` are values at nodes as the ledger calls them, `beyond` x − xᵢ."""
         A, V, S = self.nodes
-        values = {"x": self.x, "A": A, "V": V, "S": S}
+        values = {"A": A, "V": V, "S": S, "J": self.slopes}
         at = named or (lambda what, i: float(values[what][i]))
+        way = beyond or (lambda x, i: x - float(self.x[i]))
         return tuple(
-            _cubic(i, float(self.x[i]), float(self.x[i + 1]), at)
+            _cubic(i, float(self.x[i]), float(self.x[i + 1]), at, way)
             for i in range(len(self.x) - 1)
             if self.x[i + 1] - self.x[i] > NODE
         )
@@ -88,35 +102,30 @@ def _areas(x: Floats, a: Floats) -> Floats:
 
 
 def _integrated(x: Floats, a: Floats) -> tuple[Floats, Floats]:
-    """V and S at the nodes of a straight-lined graph of A, from 0: V grows by (A₁ + A₂)Δ/2, S by VΔ + (2A₁ + A₂)Δ²/6."""
+    """V and S at the nodes of a graph of A: V grows by (A₁ + A₂)Δ/2 from each to the next, S by VΔ + (2A₁ + A₂)Δ²/6."""
     Δ = np.diff(x)
     V = np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * Δ / 2)))
     return V, np.concatenate(([0.0], np.cumsum(V[:-1] * Δ + (2 * a[:-1] + a[1:]) * Δ**2 / 6)))
 
 
-def _cubic(i: int, start: float, stop: float, at: Callable[[str, int], Operand]) -> Piece:
-    """The piece behind node i: A goes straight to the next node's."""
-
-    def parts(x: Expression) -> tuple[Expression, Operand, Operand]:
-        u = x - at("x", i)
-        return u, at("A", i), (at("A", i + 1) - at("A", i)) / (at("x", i + 1) - at("x", i))
+def _cubic(i: int, start: float, stop: float, at: Named, beyond: Callable[[Expression, int], Expression]) -> Piece:
+    """The piece behind node i: with z = x − xᵢ it is A = Aᵢ + Jᵢz, and V and S are its integrals."""
 
     def S(x: Expression) -> Operand:
-        u, A, J = parts(x)
-        return at("S", i) + at("V", i) * u + A * u**2 / 2 + J * u**3 / 6
+        z = beyond(x, i)
+        return as_expression(at("S", i)) + at("V", i) * z + at("A", i) * z**2 / 2 + at("J", i) * z**3 / 6
 
     def V(x: Expression) -> Operand:
-        u, A, J = parts(x)
-        return at("V", i) + A * u + J * u**2 / 2
+        z = beyond(x, i)
+        return as_expression(at("V", i)) + at("A", i) * z + at("J", i) * z**2 / 2
 
     def acceleration(x: Expression) -> Operand:
-        u, A, J = parts(x)
-        return A + J * u
+        return as_expression(at("A", i)) + at("J", i) * beyond(x, i)
 
     return Piece(start, stop, S, V, acceleration, i)
 
 
-TRAPEZIUM = Table(np.array([0, 1, 3, 5, 7, 8]) / 8, np.array([0.0, 1, 1, -1, -1, 0]))
+TRAPEZIUM = AccelerationGraph(np.array([0, 1, 3, 5, 7, 8]) / 8, np.array([0.0, 1, 1, -1, -1, 0]))
 """Trapezoidal acceleration: it rises and falls within an eighth of Φ each."""
 
 SMOOTH: dict[str, tuple[Piece, ...]] = {
@@ -160,11 +169,11 @@ LAWS = (*SMOOTH, "trapezoidal")
 
 
 @dataclass(frozen=True)
-class Law:
+class MotionLaw:
     """A law by its name, or the table that it is; `pieces` follow one another from 0 to 1."""
 
     name: str
-    table: Table | None = None
+    table: AccelerationGraph | None = None
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -190,11 +199,11 @@ def evaluated(of: Formula, x: Floats) -> Floats:
 _X = Ref("x")
 
 
-def law(name: str) -> Law:
+def law(name: str) -> MotionLaw:
     """A law of `LAWS`; raises `KeyError` for any other."""
     if name not in LAWS:
         raise KeyError(name)
-    return Law(name, TRAPEZIUM if name == "trapezoidal" else None)
+    return MotionLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
 
 
 # --- a turn ---------------------------------------------------------------------------------------
@@ -252,13 +261,13 @@ class Impact:
 
 
 @dataclass(frozen=True)
-class Motion:
+class FollowerMotion:
     """The follower's motion s(φ) over a turn: stroke (m or rad), phase angles (rad), laws of rise and return."""
 
     stroke: float
     phases: tuple[float, float, float, float]
-    rise: Law
-    back: Law
+    rise: MotionLaw
+    back: MotionLaw
 
     @cached_property
     def starts(self) -> dict[str, float]:

@@ -12,13 +12,14 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.cam.laws import NODE, Floats, Motion
+from reportgen.cam.laws import NODE, Floats, FollowerMotion
 
-Complexes = NDArray[np.complex128]
+Complexes = NDArray[np.complexfloating[Any, Any]]
 Numbers = NDArray[np.intp]
 
 
@@ -52,7 +53,7 @@ class Cam:
     lifts `opposite` to the cam's rotation (+1) or with it (−1).  `turn` is +1 anticlockwise.
     """
 
-    motion: Motion
+    motion: FollowerMotion
     translating: bool
     flat: bool
     r0: float
@@ -70,7 +71,7 @@ class Cam:
 
     @property
     def psi0(self) -> float:
-        """ψ₀ between arm and line of centres at the lowest position: cos ψ₀ = (a² + l² − r₀²)/2al; flat, sin ψ₀ = r₀/a."""
+        """ψ₀ of arm and line of centres at the start: cos ψ₀ = (a² + l² − r₀²)/2al; of a face sin ψ₀ = r₀/a."""
         if self.flat:
             return math.asin(min(self.r0 / self.a, 1.0))
         cosine = (self.a**2 + self.arm**2 - self.r0**2) / (2 * self.a * self.arm)
@@ -105,7 +106,7 @@ class Cam:
         """Along +y at x = e: tan α = (s′ − e)/(s₀ + s); a flat face is touched at s′ from the axis."""
         if self.flat:
             high = self.r0 + s
-            return ds + 1j * high, np.full(s.shape, 1j), np.zeros(s.shape), high + dds
+            return ds + 1j * high, np.full(s.shape, 1j, dtype=np.complex128), np.zeros(s.shape), high + dds
         high, aside = self.s0 + s, self.e - ds
         with np.errstate(divide="ignore", invalid="ignore"):
             rho = (high**2 + aside**2) ** 1.5 / (high * (high - dds) + aside * (aside - ds))
@@ -120,13 +121,13 @@ class Cam:
             along = a * cos / k
             rho = a * sin + (a * cos * dds - a * sin * ds**2 - σ * a * cos * ds * dds / k) / k**2
             return σ * a + along * (1j * sin - σ * cos), sin * σ + 1j * cos, np.zeros(s.shape), rho
-        l = self.arm
-        u, w = l * k * sin, a - l * k * cos
+        arm = self.arm
+        u, w = arm * k * sin, a - arm * k * cos
         with np.errstate(divide="ignore", invalid="ignore"):
-            bent = u * l * (k**2 * sin - dds * cos) + w * (a - l * (k**2 * cos + dds * sin))
+            bent = u * arm * (k**2 * sin - dds * cos) + w * (a - arm * (k**2 * cos + dds * sin))
             rho = (u**2 + w**2) ** 1.5 / bent
-        alpha = np.arctan2(l * k - a * cos, a * sin)
-        return σ * (a - l * cos) + 1j * l * sin, σ * w + 1j * u, alpha, rho
+        alpha = np.arctan2(arm * k - a * cos, a * sin)
+        return σ * (a - arm * cos) + 1j * arm * sin, σ * w + 1j * u, alpha, rho
 
     # --- curves
 
@@ -159,7 +160,9 @@ class Cam:
         last = 0
         following = np.roll(traced.normal, -1)
         turned = np.angle(following / traced.normal)
-        for number in np.flatnonzero((np.abs(np.roll(traced.pitch, -1) - traced.pitch) < NODE) & (abs(turned) > 1e-6)):
+        for number in map(
+            int, np.flatnonzero((np.abs(np.roll(traced.pitch, -1) - traced.pitch) < NODE) & (abs(turned) > 1e-6))
+        ):
             yield points[last : number + 1]
             between = np.exp(1j * np.linspace(0, turned[number], 12)[1:-1])
             yield traced.pitch[number] + side * self.roller * traced.normal[number] * between
@@ -172,7 +175,7 @@ class Cam:
         if not (self.flat or self.roller):
             return ()
         found = []
-        for number, one in enumerate(self.motion.stretches):
+        for number in range(len(self.motion.stretches)):
             φ, least = self.worst(number, lambda cam: -cam.effective)
             if -least <= 0:
                 found.append(φ)

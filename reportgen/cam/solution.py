@@ -14,9 +14,9 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
-from reportgen.cam.cam import Designed, Parameters, designed, extreme, positions_of
 from reportgen.cam.design import Touch
-from reportgen.cam.laws import Floats, Motion, Stretch
+from reportgen.cam.file import Designed, Parameters, designed, extreme, positions_of
+from reportgen.cam.laws import Floats, FollowerMotion, Stretch
 from reportgen.cam.profile import Cam, Traced
 from reportgen.formula import (
     PI,
@@ -67,7 +67,7 @@ class CamSolution:
         return self.designed.cam
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> FollowerMotion:
         return self.cam.motion
 
     @cached_property
@@ -109,7 +109,7 @@ class CamSolution:
     def _exchanged(self) -> Mapping[str, list[tuple[str, np.ndarray]]]:
         """The motion as it is with the angles and the laws of rise and return exchanged."""
         first, far, back, near = self.motion.phases
-        other = Motion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
+        other = FollowerMotion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
         names = ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
         return {id: [("cam-exchanged", values)] for id, values in zip(names, other(self.φ), strict=True)}
 
@@ -200,6 +200,9 @@ class CamSheet:
             "return": (φ - q["cam.start.return"]) / q[ids.cam_phase("return")],
         }
         x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in stretches)), scale=1.0)
+        if any(law.table is not None for law in laws.values()):
+            begun = [self._beyond(one, x) for one in stretches]
+            q.define("cam.z", branch(number, *begun), scale=1.0)
         written = [self._formulas(one, x) for one in stretches]
         names = ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
         for id, formulas in zip(names, zip(*written, strict=True), strict=True):
@@ -238,15 +241,23 @@ class CamSheet:
         arc = self.q[ids.cam_arc(one.phase)]
         piece = one.piece
         if piece.node >= 0:
+            z = self.q["cam.z"]
             table = {"rise": self.cam.motion.rise, "return": self.cam.motion.back}[one.phase].table
             assert table is not None
             named = {
-                cubic.node: cubic for cubic in table.pieces(lambda what, i: self._node(MOVING[one.phase], i, what))
+                cubic.node: cubic
+                for cubic in table.pieces(lambda what, i: self._node(MOVING[one.phase], i, what), lambda *_: z)
             }
             piece = named[piece.node]
         return Stretch(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
             x, arc, self.stroke, self.arc
         )
+
+    def _beyond(self, one: Stretch, x: Ref) -> Expression:
+        """How far x lies beyond the node that a stretch begins at."""
+        if one.piece is None or one.piece.node < 0:
+            return STILL
+        return x - self._node(MOVING[one.phase], one.piece.node, "x")
 
     def _node(self, phase: int, number: int, what: str) -> Ref:
         return self.q[ids.cam_node(phase, number, what)]
@@ -267,6 +278,12 @@ class CamSheet:
                 q.define(ids.cam_node(phase, i, "S"), S)
                 continue
             Δ = here - last
+            q.define(ids.cam_node(phase, i - 1, "J"), (now - before) / Δ, scale=1.0)
+            if i == len(x) - 1:
+                # The follower comes to rest at the end of its stroke.
+                q.give(ids.cam_node(phase, i, "V"), 0.0)
+                q.give(ids.cam_node(phase, i, "S"), 1.0)
+                continue
             q.define(ids.cam_node(phase, i, "V"), V + (before + now) * Δ / 2, scale=1.0)
             q.define(ids.cam_node(phase, i, "S"), S + V * Δ + (2 * before + now) * Δ**2 / 6, scale=1.0)
 
@@ -303,7 +320,8 @@ class CamSheet:
 
     def _translating(self) -> None:
         q, least = self.q, self.of.designed.least
-        assert least is not None and least.rise is not None
+        assert least is not None
+        assert least.rise is not None
         s, ds = self._touch("rise", least.rise)
         t1 = tan(q["cam.limit.rise"])
         c1 = q.define(ids.cam_intercept(1), ds - s * t1)
@@ -326,14 +344,15 @@ class CamSheet:
             return
         if c2 is not None and t2 is not None:
             high = q.define("cam.apex.s0", (c1 + c2) / (t1 + t2))
-            aside = q.define("cam.apex.e", c1 - high * t1)
+            across = q.define("cam.apex.e", c1 - high * t1)
         if least.rule == "apex":
-            s0, e = q.define("cam.least.s0", high), q.define("cam.least.e", aside)
+            s0, e = q.define("cam.least.s0", high), q.define("cam.least.e", across)
         elif least.rule == "rise":
             e = q.define("cam.least.e", c1 / (1 + t1**2))
             s0 = q.define("cam.least.s0", e * t1)
         else:
-            assert c2 is not None and t2 is not None
+            assert c2 is not None
+            assert t2 is not None
             e = q.define("cam.least.e", -(c2 / (1 + t2**2)))
             s0 = q.define("cam.least.s0", -(e * t2))
         q.define("cam.least.r0", sqrt(s0**2 + e**2))
@@ -342,18 +361,18 @@ class CamSheet:
         """The lowest ψ₀ that each limit allows; the larger one counts."""
         q, least = self.q, self.of.designed.least
         assert least is not None
-        a, l = q["cam.a"], q["cam.l"]
+        a, arm = q["cam.a"], q["cam.l"]
         found: dict[str, Expression] = {}
         if least.rise is not None:
             ψ, dψ = self._touch("rise", least.rise)
             limit = q["cam.limit.rise"]
-            found["rise"] = limit - acos(l * self.k(dψ) * cos(limit) / a) - ψ
+            found["rise"] = limit - acos(arm * self.k(dψ) * cos(limit) / a) - ψ
         if least.back is not None:
             ψ, dψ = self._touch("return", least.back)
             limit = q["cam.limit.return"]
-            found["return"] = acos(l * self.k(dψ) * cos(limit) / a) - limit - ψ
+            found["return"] = acos(arm * self.k(dψ) * cos(limit) / a) - limit - ψ
         ψ0 = q.define("cam.least.psi0", found[least.rule])
-        q.define("cam.least.r0", sqrt(a**2 + l**2 - 2 * a * l * cos(ψ0)))
+        q.define("cam.least.r0", sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0)))
 
     def k(self, dψ: Ref) -> Expression:
         return 1 + dψ if self.σ > 0 else 1 - dψ
@@ -370,26 +389,29 @@ class CamSheet:
         φ = q["cam.phi"]
         if self.cam.translating:
             s0, e, s, ds, dds = q["cam.s0"], q["cam.e"], self.s, self.ds, self.dds
+            aside: Expression = ds
+            x: Expression
+            y: Expression
             if self.cam.e:
-                aside: Expression = ds - e
+                aside = ds - e
                 x, y = (s0 + s) * sin(φ) + e * cos(φ), (s0 + s) * cos(φ) - e * sin(φ)
                 bent = (s0 + s) * (s0 + s - dds) + (ds - e) * (2 * ds - e)
             else:
-                aside = ds
                 x, y = (s0 + s) * sin(φ), (s0 + s) * cos(φ)
                 bent = (s0 + s) * (s0 + s - dds) + 2 * ds**2
             α = q.define("cam.alpha", atan(aside / (s0 + s)), scale=1.0)
             ρ = sqrt((s0 + s) ** 2 + aside**2) ** 3 / bent
             lean: Expression = φ - α
         else:
-            a, l, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds
-            ψ0 = q.define("cam.psi0", acos((a**2 + l**2 - q["cam.r0"] ** 2) / (2 * a * l)))
+            a, arm, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds
+            ψ0 = q.define("cam.psi0", acos((a**2 + arm**2 - q["cam.r0"] ** 2) / (2 * a * arm)))
             at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
-            α = q.define("cam.alpha", atan((l * k - a * cos(at)) / (a * sin(at))), scale=1.0)
-            x, y = self._inverted(a - l * cos(at), l * sin(at))
-            u, w = q.define("cam.u", l * k * sin(at)), q.define("cam.w", a - l * k * cos(at))
-            bent = u * l * (k**2 * sin(at) - ddψ * cos(at)) + w * (a - l * (k**2 * cos(at) + ddψ * sin(at)))
-            ρ = sqrt(u**2 + w**2) ** 3 / bent
+            α = q.define("cam.alpha", atan((arm * k - a * cos(at)) / (a * sin(at))), scale=1.0)
+            x, y = self._inverted(a - arm * cos(at), arm * sin(at))
+            u, w = q.define("cam.u", arm * k * sin(at)), q.define("cam.w", a - arm * k * cos(at))
+            bend = q.define("cam.m.1", arm * (k**2 * sin(at) - ddψ * cos(at)))
+            turn = q.define("cam.m.2", a - arm * (k**2 * cos(at) + ddψ * sin(at)))
+            ρ = sqrt(u**2 + w**2) ** 3 / (u * bend + w * turn)
             lean = φ + (at - α) if self.σ > 0 else φ - (at - α)
         x_B = q.define(ids.cam_pitch("x"), self.across(x), scale=r0)
         y_B = q.define(ids.cam_pitch("y"), y, scale=r0)
@@ -409,20 +431,23 @@ class CamSheet:
 
     def enter_flat(self) -> None:
         q, φ, r0 = self.q, self.q["cam.phi"], self.cam.r0
+        x: Expression
+        y: Expression
+        ρ: Expression
         if self.cam.translating:
             s, ds, dds = self.s, self.ds, self.dds
             high = q["cam.r0"] + s
             x, y = high * sin(φ) + ds * cos(φ), high * cos(φ) - ds * sin(φ)
-            ρ: Expression = q["cam.r0"] + s + dds
+            ρ = q["cam.r0"] + s + dds
         else:
             a, ψ, dψ, ddψ = q["cam.a"], self.s, self.ds, self.dds
             ψ0 = q.define("cam.psi0", asin(q["cam.r0"] / a))
             at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
             L = q.define("cam.contact", a * cos(at) / k)
             x, y = self._inverted(a - L * cos(at), L * sin(at))
-            turned = a * cos(at) * dψ * ddψ / k
-            inner = a * cos(at) * ddψ - a * sin(at) * dψ**2
-            ρ = a * sin(at) + (inner - turned if self.σ > 0 else inner + turned) / k**2
+            bend = q.define("cam.m.1", cos(at) * ddψ - sin(at) * dψ**2, kind="ratio")
+            turn = q.define("cam.m.2", cos(at) * dψ * ddψ / k, kind="ratio")
+            ρ = a * sin(at) + a * (bend - turn if self.σ > 0 else bend + turn) / k**2
         q.define(ids.cam_profile("x"), self.across(x), scale=r0)
         q.define(ids.cam_profile("y"), y, scale=r0)
         q.define("cam.rho", ρ)

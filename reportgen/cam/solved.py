@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.cam.cam import Parameters
+from reportgen.cam.file import Parameters
 from reportgen.cam.solution import CamSolution
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed

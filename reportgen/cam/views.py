@@ -11,7 +11,8 @@ from typing import Any
 from reportgen.base.units import MM
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, names_of, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
-from reportgen.cam.laws import Law, Piece
+from reportgen.cam.file import exceeded
+from reportgen.cam.laws import MotionLaw, Piece
 from reportgen.cam.solution import MOVING, Judged, judged
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
@@ -60,7 +61,7 @@ ROWS = 16.0
 """The width of the column of positions (mm)."""
 WIDEST = 27.0
 ANGLE = 2
-NODES = (20.0, 25.0, 30.0, 30.0, 30.0)
+NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
 
 
 def report(case: SolvedCam) -> Document:
@@ -248,7 +249,7 @@ class CamPage:
             for phase, law in (("rise", motion.rise), ("return", motion.back))
         )
 
-    def _formulas(self, phase: str, law: Law) -> Equation:
+    def _formulas(self, phase: str, law: MotionLaw) -> Equation:
         """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
         ledger, names = self.case.printed, names_of(self.case)
         rows: list[Expression] = []
@@ -272,21 +273,24 @@ class CamPage:
         low, high = (formula(Number(one), self.case.assignment.language) for one in (piece.start, piece.stop))
         return f"{low} ≤ x ≤ {high}"
 
-    def _nodes(self, phase: str, law: Law) -> tuple[Table, ...]:
+    def _nodes(self, phase: str, law: MotionLaw) -> tuple[Table, ...]:
         """The graph of an acceleration, integrated twice at its nodes."""
         if law.table is None:
             return ()
-        ledger, number = self.case.printed, MOVING[phase]
-        columns = ("x", "A", "V", "S")
+        number = MOVING[phase]
+        columns = ("x", "A", "V", "S", "J")
         head = (Cell((InlineMath(Symbol("i")),)), *(Cell((InlineMath(Symbol(one)),)) for one in columns))
         rows = [
-            (Cell((Text(str(i)),)), *(Cell((Value(ledger.number(ids.cam_node(number, i, one))),)) for one in columns))
+            (Cell((Text(str(i)),)), *(Cell(self._at_node(ids.cam_node(number, i, one))) for one in columns))
             for i in range(len(law.table.x))
         ]
         caption = Prose(self.case.places).inlines(
             self.words["captions"]["nodes"].format(phase=self.words["phases"][phase])
         )
         return (Table(tuple(map(Column, NODES)), (head,), tuple(rows), caption, f"tab.nodes.{phase}"),)
+
+    def _at_node(self, id: str) -> Inlines:
+        return (Value(self.case.printed.number(id)) if id in self.case.printed else Text("–"),)
 
     @property
     def impacts(self) -> tuple[tuple[str, Inlines], ...]:
@@ -303,25 +307,26 @@ class CamPage:
 
     @property
     def motion_ids(self) -> tuple[str, ...]:
-        found = ("cam.x", *names_of(self.case), "cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f")
+        found = ("cam.x", "cam.z", *names_of(self.case), "cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f")
         return tuple(id for id in found if id in self.case.printed)
 
     @property
     def profile_ids(self) -> tuple[str, ...]:
         found = (
             *("cam.q", "cam.k", "cam.contact", "cam.alpha", "cam.pitch.x", "cam.pitch.y"),
-            *("cam.profile.x", "cam.profile.y", "cam.u", "cam.w", "cam.rho", "cam.rho.working"),
+            *("cam.profile.x", "cam.profile.y", "cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
         )
         return tuple(id for id in found if id in self.case.printed)
 
     @property
     def motion_table(self) -> Table:
-        return self._positions("motion", ("cam.phi", *self.motion_ids))
+        return self._positions("motion", ("cam.phi", *(id for id in self.motion_ids if id != "cam.z")))
 
     @property
     def profile_table(self) -> Table:
-        hidden = {"cam.u", "cam.w", "cam.q", "cam.k"}
-        return self._positions("profile", ("cam.phi", *(id for id in self.profile_ids if id not in hidden)))
+        hidden = {"cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.q", "cam.k"}
+        name = "profile_flat" if self.case.solution.cam.flat else "profile"
+        return self._positions(name, ("cam.phi", *(id for id in self.profile_ids if id not in hidden)))
 
     def _positions(self, name: str, quantities: Sequence[str]) -> Table:
         """Quantities over the positions, a row each."""
@@ -350,8 +355,6 @@ class CamPage:
 
     @property
     def exceeded(self) -> tuple[str, ...]:
-        from reportgen.cam.cam import exceeded
-
         return tuple(phase for phase, _, _ in exceeded(self.case.solution.designed))
 
     @property
@@ -379,8 +382,8 @@ class CamPage:
                 row(phase, wanted, size, extreme[1] <= limit + 1e-9)
         if cam.flat or cam.roller:
             least = Number(float(f"{limits.rho * MM:.6g}"), None, "mm")
-            size = seen.least_working[1]
-            row("rho", (Text("≥ "), Value(least)), Number(size * MM, 3, "mm"), size >= limits.rho - 1e-12)
+            left = seen.least_working[1]
+            row("rho", (Text("≥ "), Value(least)), Number(left * MM, 3, "mm"), left >= limits.rho - 1e-12)
         if cam.roller:
             for key, most in (("roller_rho", 0.8 * seen.least_rho[1]), ("roller_r0", 0.4 * cam.r0)):
                 size_of = Number(float(f"{cam.roller * MM:.6g}"), None, "mm")

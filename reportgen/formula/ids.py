@@ -253,6 +253,7 @@ cam_intercept = Name("cam.c.{phase}")
 cam_node = Name("cam.node.{phase}.{number}.{quantity}")  # of an acceleration given as a graph
 cam_diagram = Name("cam.diagram.{quantity}")  # the length of the turn, the distances of poles
 cam_scale = Name("cam.mu.{quantity}")
+cam_bend = Name("cam.m.{number}")
 cam_pitch = Name("cam.pitch.{axis}")
 cam_profile = Name("cam.profile.{axis}")
 

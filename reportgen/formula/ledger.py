@@ -176,7 +176,7 @@ class Ledger:
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
     def _signs_out(self, node: Expression, position: int | None) -> Expression:
-        """The definition as it stands at one position: signs of arms before their terms, nothings left out, its branch."""
+        """The definition at one position: its branch, signs of arms before their terms, nothings left out."""
         match node:
             case Sum(terms):
                 kept = [self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)]

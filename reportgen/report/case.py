@@ -47,8 +47,8 @@ class Pitfalls:
 
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
     are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
-    mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids, and `changed` for
-    a quantity other definitions that are often used, with the mistake's name.
+    mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
+    for a quantity other definitions that are often used, with the mistake's name.
     """
 
     applied: frozenset[str] = frozenset()
