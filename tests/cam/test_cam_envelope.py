@@ -62,7 +62,7 @@ def random_cam(seed: int) -> Cam:
 
 
 def carried(cam: Cam) -> Carried:
-    """The follower put where its stroke puts it, and turned back with the frame: points and rotations, no derivatives."""
+    """The follower put where its stroke puts it, and turned back with the frame: no derivatives."""
     φ = np.linspace(0, 2 * math.pi, FINE, endpoint=False)
     s = cam.motion(φ)[0]
     back = np.exp(-1j * cam.turn * φ)
