@@ -69,20 +69,20 @@ class CamCase(SolvedCam):
         from reportgen.marking.results import pair, results
 
         cam, traced, found = self.solution.cam, self.solution.traced, self.solution.designed
-        names = ("s", "ds", "dds") if cam.translating else ("psi", "dpsi", "ddpsi")
+        names = ("s", "ds", "dds", "v", "a") if cam.translating else ("psi", "dpsi", "ddpsi", "omega", "epsilon")
         omega = self.speed
         positions = []
         for k, phase in enumerate(one.phase for one in self.solution.stretches):
-            motion = dict(zip(names, (float(part[k]) for part in (traced.s, traced.ds, traced.dds)), strict=True))
+            motion = dict(zip(names[:3], (float(part[k]) for part in (traced.s, traced.ds, traced.dds)), strict=True))
             if omega is not None:
-                motion |= {"v": omega * motion[names[1]], "a": omega**2 * motion[names[2]]}
+                motion |= {names[3]: omega * motion[names[1]], names[4]: omega**2 * motion[names[2]]}
             rho = float(traced.rho[k])
             positions.append(
                 {
                     "number": k + 1,
                     "crank_angle": float(traced.φ[k]),
                     "phase": phase,
-                    "follower": motion,
+                    "follower" if cam.translating else "swing": motion,
                     "pressure_angle": float(traced.alpha[k]),
                     "curvature_radius": rho if np.isfinite(rho) else None,
                     "pitch": pair(complex(traced.pitch[k])),

@@ -49,7 +49,7 @@ class SolvedCam(Opened):
         if report.worked_positions is None:
             return tuple(range(1, count + 1))
         if "worked_positions" in report.model_fields_set:
-            return tuple(int(one) for one in report.worked_positions)
+            return tuple(one for one in map(int, report.worked_positions) if one <= count)
         starts, φ = self.solution.motion.starts, self.solution.φ
         phases = self.solution.motion.phases
         # Beside the middle, where most laws have neither their largest velocity nor acceleration.
