@@ -78,9 +78,9 @@ def _plates(case: SolvedCam, larger: float, share: float) -> Iterator[tuple[str,
     yield (
         "inversion",
         "positions",
-        _titled(inversion(case, rooms[1], True, ENLARGED), str(captions["figure-inversion"])),
+        _titled(inversion(case, "profile by inversion", rooms[1], ENLARGED), str(captions["figure-inversion"])),
     )
-    yield "profile", "profile", _titled(inversion(case, rooms[1], False, ENLARGED), str(captions["figure-profile"]))
+    yield "profile", "profile", _titled(inversion(case, "cam", rooms[1], ENLARGED), str(captions["figure-profile"]))
     if not case.solution.cam.flat:
         chart = pressure_chart(case, half=larger <= 1.0)
         yield "pressure", "curves", _titled(chart.scene, str(captions["figure-pressure"]))

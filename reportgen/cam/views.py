@@ -408,10 +408,12 @@ class CamPage:
                 yield limit_diagram(self.case)
             case "pressure":
                 yield pressure_chart(self.case).scene
+            case "displacements":
+                yield inversion(self.case, "displacements")
             case "inversion":
                 yield inversion(self.case)
             case "profile":
-                yield inversion(self.case, construction=False)
+                yield inversion(self.case, "cam")
             case "curvature":
                 yield curvature_chart(self.case).scene
 
