@@ -296,3 +296,41 @@ def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Where in a phase ±α is greatest, and how great it is."""
     numbers = [number for number, one in enumerate(cam.motion.stretches) if one.phase == phase]
     return max((cam.worst(number, lambda one: sign * one.traced.alpha) for number in numbers), key=lambda one: one[1])
+
+
+@dataclass(frozen=True)
+class Judged:
+    """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""
+
+    rise: tuple[float, float]
+    back: tuple[float, float]
+    least_rho: tuple[float, float]
+    least_working: tuple[float, float]
+    largest: float
+    aside: tuple[float, float]
+    """The largest s′ (m) of a flat face, and the largest −s′."""
+
+
+def judged(cam: Cam) -> Judged:
+    every = range(len(cam.motion.stretches))
+
+    def least(of: str) -> tuple[float, float]:
+        found = []
+        for number in every:
+            if of == "working":
+                φ, value = cam.worst(number, lambda one: -one.effective)
+            else:
+                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
+            found.append((φ, -value))
+        return min(found, key=lambda one: one[1])
+
+    traced = cam.sampled()
+    aside = (float(traced.ds.max()), float(-traced.ds.min()))
+    return Judged(
+        extreme(cam, "rise", 1),
+        extreme(cam, "return", -1),
+        least("rho"),
+        least("working"),
+        float(np.abs(traced.pitch).max()),
+        aside,
+    )

@@ -15,7 +15,7 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.cam.design import Touch
-from reportgen.cam.file import Designed, Parameters, designed, extreme, positions_of
+from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.laws import Floats, FollowerMotion, Stretch
 from reportgen.cam.profile import Cam, Traced
 from reportgen.formula import (
@@ -42,6 +42,24 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.report.case import Pitfalls
 
+LINES: Mapping[str, tuple[str, ...]] = {
+    "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
+    "begin": ("cam.start.return",),
+    "speed": ("cam.omega",),
+    "motion": (
+        *("cam.x", "cam.z", "cam.s", "cam.ds", "cam.dds", "cam.psi", "cam.dpsi", "cam.ddpsi"),
+        *("cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f"),
+    ),
+    "scales": ("cam.mu.phi", "cam.mu.ds", "cam.mu.s", "cam.mu.dpsi", "cam.mu.psi"),
+    "intercepts": ("cam.c.1", "cam.c.2"),
+    "apex": ("cam.apex.s0", "cam.apex.e"),
+    "least": ("cam.least.e", "cam.least.s0", "cam.least.psi0", "cam.least.r0"),
+    "lowest": ("cam.s0", "cam.psi0"),
+    "pressure": ("cam.q", "cam.k", "cam.alpha"),
+    "points": ("cam.contact", "cam.pitch.x", "cam.pitch.y", "cam.profile.x", "cam.profile.y"),
+    "curvature": ("cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
+}
+"""What the report sets out together."""
 MOVING = {"rise": 1, "return": 2}
 """The numbers of what belongs to each of the two phases with motion."""
 STILL = Number(0.0)
@@ -99,6 +117,10 @@ class CamSolution:
             q.enter_flat()
         else:
             q.enter_profile()
+        if self.cam.flat:
+            q.q.set_out("points", "cam.q", "cam.k")
+        for name, lines in LINES.items():
+            q.q.set_out(name, *lines)
         return q.q
 
     @cached_property
@@ -451,44 +473,3 @@ class CamSheet:
         q.define(ids.cam_profile("x"), self.across(x), scale=r0)
         q.define(ids.cam_profile("y"), y, scale=r0)
         q.define("cam.rho", ρ)
-
-
-# --- what is judged at the end ---------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Judged:
-    """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""
-
-    rise: tuple[float, float]
-    back: tuple[float, float]
-    least_rho: tuple[float, float]
-    least_working: tuple[float, float]
-    largest: float
-    aside: tuple[float, float]
-    """The largest s′ (m) of a flat face, and the largest −s′."""
-
-
-def judged(cam: Cam) -> Judged:
-    every = range(len(cam.motion.stretches))
-
-    def least(of: str) -> tuple[float, float]:
-        found = []
-        for number in every:
-            if of == "working":
-                φ, value = cam.worst(number, lambda one: -one.effective)
-            else:
-                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
-            found.append((φ, -value))
-        return min(found, key=lambda one: one[1])
-
-    traced = cam.sampled()
-    aside = (float(traced.ds.max()), float(-traced.ds.min()))
-    return Judged(
-        extreme(cam, "rise", 1),
-        extreme(cam, "return", -1),
-        least("rho"),
-        least("working"),
-        float(np.abs(traced.pitch).max()),
-        aside,
-    )

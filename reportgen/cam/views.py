@@ -11,9 +11,9 @@ from typing import Any
 from reportgen.base.units import MM
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, names_of, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
-from reportgen.cam.file import exceeded
+from reportgen.cam.file import Judged, exceeded, judged
 from reportgen.cam.laws import MotionLaw, Piece
-from reportgen.cam.solution import MOVING, Judged, judged
+from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
 from reportgen.formula import Chain, Expression, Number, Symbol, ids, substitute, vocabulary
@@ -41,19 +41,19 @@ from reportgen.report.numbering import number
 from reportgen.report.prose import Prose
 
 SECTIONS = (
-    "given",
-    "law",
-    "diagrams",
-    "motion-table",
-    "limits",
-    "choice",
-    "pressure",
-    "profile",
-    "curvature",
-    "checks",
-    "conclusion",
+    "cam-given",
+    "cam-law",
+    "cam-diagrams",
+    "cam-motion-table",
+    "cam-limits",
+    "cam-choice",
+    "cam-pressure",
+    "cam-profile",
+    "cam-curvature",
+    "cam-checks",
+    "cam-conclusion",
 )
-SHORT = frozenset({"diagrams", "curvature"})
+SHORT = frozenset({"cam-diagrams", "cam-curvature"})
 """The sections, and what templates ask for by `full`, that a short report goes without."""
 DATA = (95.0, 25.0, 40.0)
 CHECKS = (74.0, 30.0, 30.0, 26.0)
@@ -72,7 +72,7 @@ def report(case: SolvedCam) -> Document:
     blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
     for section in SECTIONS:
         if page.has(section) and (full or section not in SHORT):
-            found = prose.render(f"cam-{section}", names)
+            found = prose.render(section, names)
             blocks += found
     return number(
         Document(
@@ -113,6 +113,14 @@ class LawView:
 
 
 @dataclass(frozen=True)
+class ImpactView:
+    """Impacts of one kind, and the angles at which they are."""
+
+    rigid: bool
+    angles: Inlines
+
+
+@dataclass(frozen=True)
 class CamPage:
     """A cam as templates name it."""
 
@@ -130,57 +138,77 @@ class CamPage:
     def has(self, section: str) -> bool:
         """Whether a cam like this has a section."""
         cam, least = self.case.solution.cam, self.case.solution.designed.least
-        return {"limits": least is not None or cam.flat, "pressure": not cam.flat}.get(section, True)
+        return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
 
     def names(self) -> dict[str, Any]:
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
         found = case.solution.designed
+        exceeded, undercut = self.exceeded, self.undercut
         return {
             "words": case.words,
-            "title": case.title,
-            "variant": case.assignment.variant,
             "full": case.assignment.report.extent == "full",
+            # what kind of cam it is
             "translating": cam.translating,
             "flat": cam.flat,
             "roller": bool(cam.roller),
             "offset": bool(cam.e),
+            "has_axis": cam.translating and not cam.flat,
+            "sliding_face": cam.translating and cam.flat,
+            "one_curve": not cam.roller,
             "opposite": cam.opposite > 0,
-            "with_speed": given.n is not None,
-            "clockwise": cam.turn < 0,
-            "by_form": given.closed_by == "form",
-            "seeks": given.seeks,
-            "finds": given.finds,
-            "found": listed(InlineMath(case.ledger.symbol(_id(key))) for key in given.finds),
-            "has_limits": found.limits.rise is not None,
-            "both_limits": found.limits.back is not None,
-            "least": found.least,
-            "apex": "cam.apex.s0" in case.ledger,
             "lifts": self.lifts,
+            "clockwise": cam.turn < 0,
+            "with_speed": given.n is not None,
+            # what is sought, within what limits
+            "finds": given.finds,
+            "several": len(given.finds) > 1,
+            "finds_e": given.seeks("e"),
+            "finds_roller": given.seeks("roller"),
+            "found": listed(InlineMath(case.ledger.symbol(_id(key))) for key in given.finds),
+            "chosen": tuple(map(_id, given.finds)),
+            "has_limits": found.limits.rise is not None,
+            "limited": found.limits.rise is not None and not cam.flat,
+            "both_limits": found.limits.back is not None,
+            "least": found.least is not None,
+            "apex": "cam.apex.s0" in case.ledger,
+            "apex_is_least": found.least is not None and found.least.rule == "apex",
+            "deciding": self.deciding,
+            # laws, positions, tables
             "laws": self.laws,
             "law_words": self.law_words,
             "impacts": self.impacts,
-            "motion_ids": self.motion_ids,
-            "profile_ids": self.profile_ids,
             "worked": case.worked,
             "count": case.count,
             "phase_of": lambda k: self.words["phases"][case.solution.stretches[k - 1].phase],
             "data": self.data,
             "motion_table": self.motion_table,
             "profile_table": self.profile_table,
+            # what is judged
             "checks": self.checks,
-            "exceeded": self.exceeded,
-            "undercut": self.undercut,
-            "known": lambda id: id in case.ledger,
-            "symbol": case.printed.symbol,
+            "extremes": self.judged,
+            "exceeded": exceeded,
+            "undercut": undercut,
+            "sound": not (exceeded or undercut),
+            # symbols, numbers, lines, figures
+            "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
             "value": lambda id, k=None: Value(case.printed.number(id, k)),
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
             "angle": lambda angle: Value(Number(math.degrees(angle), ANGLE, "°")),
             "length": lambda size: Value(Number(size * MM, 3, "mm")),
-            "extremes": self.judged,
             "figure": self.figure,
         }
+
+    @property
+    def deciding(self) -> Mapping[str, str]:
+        """The limit line that decides: its phase in words, and the ids of what is read where it touches."""
+        least = self.case.solution.designed.least
+        if least is None:
+            return {}
+        rule = "return" if least.rule == "return" else "rise"
+        read = {name: ids.cam_touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
+        return {"phase": str(self.words["phases"][rule]), **read}
 
     # --- symbols and lines
 
@@ -293,40 +321,29 @@ class CamPage:
         return (Value(self.case.printed.number(id)) if id in self.case.printed else Text("–"),)
 
     @property
-    def impacts(self) -> tuple[tuple[str, Inlines], ...]:
+    def impacts(self) -> tuple[ImpactView, ...]:
         """The kinds of impact with the angles at which they are."""
         found: dict[str, list[float]] = {}
         for one in self.case.solution.motion.impacts:
             found.setdefault(one.kind, []).append(math.degrees(one.angle))
         return tuple(
-            (kind, listed(Value(Number(float(f"{angle:.6g}"), None, "°")) for angle in angles))
+            ImpactView(kind == "rigid", listed(Value(Number(float(f"{angle:.6g}"), None, "°")) for angle in angles))
             for kind, angles in found.items()
         )
 
     # --- tables of the positions
 
     @property
-    def motion_ids(self) -> tuple[str, ...]:
-        found = ("cam.x", "cam.z", *names_of(self.case), "cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f")
-        return tuple(id for id in found if id in self.case.printed)
-
-    @property
-    def profile_ids(self) -> tuple[str, ...]:
-        found = (
-            *("cam.q", "cam.k", "cam.contact", "cam.alpha", "cam.pitch.x", "cam.pitch.y"),
-            *("cam.profile.x", "cam.profile.y", "cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
-        )
-        return tuple(id for id in found if id in self.case.printed)
-
-    @property
     def motion_table(self) -> Table:
-        return self._positions("motion", ("cam.phi", *(id for id in self.motion_ids if id != "cam.z")))
+        lines = self.case.printed.known(self.case.printed.lines["motion"])
+        return self._positions("motion", ("cam.phi", *(id for id in lines if id != "cam.z")))
 
     @property
     def profile_table(self) -> Table:
-        hidden = {"cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.q", "cam.k"}
+        lines = self.case.printed.lines
+        shown = ("cam.contact", "cam.alpha", *lines["points"], "cam.rho", "cam.rho.working")
         name = "profile_flat" if self.case.solution.cam.flat else "profile"
-        return self._positions(name, ("cam.phi", *(id for id in self.profile_ids if id not in hidden)))
+        return self._positions(name, ("cam.phi", *self.case.printed.known(shown)))
 
     def _positions(self, name: str, quantities: Sequence[str]) -> Table:
         """Quantities over the positions, a row each."""
