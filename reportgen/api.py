@@ -7,7 +7,7 @@ What comes before the document is in a `Case`.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from reportgen.marking.key import Ask
     from reportgen.report import Document, Letter
     from reportgen.report.case import Case, Key
+    from reportgen.writers.pdflatex import Ahead
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
@@ -118,16 +119,25 @@ def build_each(
         assignment = assignment.with_extent(extent)
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
-    with reported(), scratch(Path(out)):
+    with reported(), scratch(Path(out)), _ahead(assignment, engine, letter) as ahead:
         case = opened(assignment)
         tree = case.document()
         if "pdf" in formats:
-            source, pdf = typeset(tree, engine, letter)
+            source, pdf = typeset(tree, engine, letter, ahead)
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
     put_files(Path(out) / assignment.id, files, "report")
     return [Path(out) / assignment.id / f"report.{name}" for name in formats]
+
+
+def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> AbstractContextManager[Ahead | None]:
+    """The typesetter, if it has something to read while the report is worked out."""
+    if engine != "latex" or letter is None:
+        return nullcontext()
+    from reportgen.writers import latex, pdflatex
+
+    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short"))
 
 
 def _page(case: Case, tree: Document) -> bytes:
@@ -160,8 +170,13 @@ def _fonts(engine: Engine) -> list[str]:
     return typst.families()
 
 
-def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tuple[str, bytes]:
-    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`."""
+def typeset(
+    tree: Document, engine: Engine, letter: Letter | None = None, ahead: Ahead | None = None
+) -> tuple[str, bytes]:
+    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`.
+
+    LaTeX may have read `ahead` what the source begins with.
+    """
     from reportgen.report import Letter
 
     letter = letter or Letter()
@@ -169,7 +184,7 @@ def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tup
         from reportgen.writers import latex, pdflatex
 
         source = latex.write(tree, letter)
-        return source, pdflatex.compile(source).pdf
+        return source, pdflatex.compile(source, ahead=ahead).pdf
     from reportgen.writers import typst
 
     source = typst.write(tree, letter)

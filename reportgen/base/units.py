@@ -11,9 +11,12 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from decimal import ROUND_HALF_UP, Decimal
+from decimal import Decimal
 from functools import cache
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+if TYPE_CHECKING:
+    import numpy as np
 
 MM = 1e3
 """Millimetres of a metre."""
@@ -186,19 +189,16 @@ Language = Literal["vi", "en"]
 MINUS = "\N{MINUS SIGN}"
 
 
-def rounded(value: float, decimals: int) -> Decimal:
-    """`value` rounded half up (as by hand) to `decimals`; never a negative zero.
+Numbers = TypeVar("Numbers", float, "np.ndarray")
 
-    Rounding starts from the shortest decimal form of the float, so 2.675 becomes 2.68.
-    """
-    quantum = Decimal(1).scaleb(-decimals)
-    result = Decimal(repr(float(value))).quantize(quantum, rounding=ROUND_HALF_UP)
-    return abs(result) if result == 0 else result
+TIE = 1e-9
+"""Units of the last digit by which floats may miss a five that is rounded up."""
 
 
-def printed(value: float, decimals: int) -> float:
-    """The number a reader sees: `value` rounded to `decimals`."""
-    return float(rounded(value, decimals))
+def rounded(values: Numbers, decimals: int) -> Numbers:
+    """A number, or each of an array, rounded half up as by hand, 2.675 to 2.68; never a negative zero."""
+    step = 10.0**decimals
+    return (abs(values) * step + 0.5 + TIE) // 1 / step * (1 - 2 * (values < 0)) + 0.0
 
 
 def write(value: float, decimals: int | None, language: Language) -> str:
@@ -208,20 +208,20 @@ def write(value: float, decimals: int | None, language: Language) -> str:
     """
     if not math.isfinite(value):
         return "–"
-    if decimals is None:
-        number = Decimal(repr(float(value))).normalize()
-        number = abs(number) if number == 0 else number
-    else:
-        number = rounded(value, decimals)
-    text = f"{number:f}".replace("-", MINUS)
+    number = Decimal(repr(float(value if decimals is None else rounded(value, decimals)))) + 0
+    text = f"{number.normalize():f}" if decimals is None else f"{number:.{decimals}f}"
+    text = text.replace("-", MINUS)
     return text.replace(".", ",") if language == "vi" else text
 
 
 def significant_decimals(value: float, digits: int) -> int:
-    """Decimals that show `value` with `digits` significant figures; 0 for a value of zero."""
+    """Decimals that show `value` with `digits` significant figures; 0 for a value of zero.
+
+    A value that is a power of ten but for its last binary digits is that power.
+    """
     if value == 0 or not math.isfinite(value):
         return 0
-    return digits - 1 - math.floor(math.log10(abs(value)))
+    return digits - 1 - math.floor(math.log10(abs(value)) + 1e-12)
 
 
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)

@@ -200,16 +200,20 @@ def _dismiss(running: Iterable[Future[Outcome]]) -> None:
 
 LOADED = (
     "reportgen.classes.pool",
+    "reportgen.catalogue.driven",
+    "reportgen.catalogue.sliders",
     "reportgen.machine.analysis",
     "reportgen.plans",
     "reportgen.report.outline",
     "reportgen.drawing.charts",
+    "reportgen.writers.latex",
+    "reportgen.writers.pdflatex",
     "reportgen.writers.typst",
     "jinja2",
     "markdown_it",
-    "matplotlib.path",
-    "matplotlib.ticker",
+    "numpy.polynomial",
     "pint",
+    "pylatex",
     "typst",
 )
 """What the process that workers are forked from has loaded, so that each finds it loaded."""
@@ -225,10 +229,8 @@ def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext
     context.set_forkserver_preload(list(loaded))
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    # matplotlib looks for settings in a folder that is there: a home may be missing.
-    environment = ONE_THREAD | {"MPLCONFIGDIR": tempfile.gettempdir()}
-    before = {name: os.environ.get(name) for name in environment}
-    os.environ |= environment
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ |= ONE_THREAD
     try:
         with _uninterrupted():
             forkserver.ensure_running()
@@ -438,6 +440,6 @@ def _threads(client: Any) -> int:
 
 
 def _run(job: Job) -> Outcome:
-    """The outcome, on a worker; matplotlib is not made for threads, so a process does one job at a time."""
+    """The outcome, on a worker; a process has one folder for scratch files, so it does one job at a time."""
     with _one_at_a_time:
         return run_job(job)

@@ -24,6 +24,8 @@ Flags = NDArray[np.bool_]
 Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24
+CELL = 0.25
+"""Side of the cells of paper (mm) in which strokes are looked up."""
 
 
 def ends(item: Item) -> Complexes:
@@ -220,6 +222,36 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
     dy -= dx
     touching &= np.abs(dy, out=dy) < hw * ry + hh * rx
     return touching
+
+
+class Ink:
+    """The strokes of a figure in cells of paper, and how many inked cells lie to the lower left of each corner.
+
+    Whether a box touches a stroke is told by its four corners, however many strokes there are.
+    """
+
+    def __init__(self, strokes: Complexes) -> None:
+        self.strokes = strokes
+        self.low, high = corners_of(strokes.ravel()) if len(strokes) else (0j, 0j)
+        ways = strokes[:, 1] - strokes[:, 0]
+        steps = np.ceil(np.abs(ways) / CELL).astype(np.intp) + 1
+        stroke = np.repeat(np.arange(len(steps)), steps)
+        step = np.arange(len(stroke)) - np.repeat(np.cumsum(steps) - steps, steps)
+        dots = (strokes[stroke, 0] + ways[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
+        self.size = int((high - self.low).real / CELL) + 2, int((high - self.low).imag / CELL) + 2
+        # Counts modulo 2¹⁶ tell boxes apart from empty ones: a label has fewer cells.
+        inked = np.zeros((self.size[0] + 1, self.size[1] + 1), dtype=np.uint16)
+        inked[dots.real.astype(np.intp) + 1, dots.imag.astype(np.intp) + 1] = 1
+        np.cumsum(inked, axis=1, out=inked)
+        self.inked = np.cumsum(inked, axis=0, out=inked)
+
+    def touches(self, centres: Complexes, half: Complexes) -> Flags:
+        """Which boxes touch a stroke, to half a cell."""
+        low, high = (centres - half - self.low) / CELL, (centres + half - self.low) / CELL
+        x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
+        y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))
+        inked = self.inked
+        return np.asarray(inked[x1, y1] - inked[x0, y1] - inked[x1, y0] + inked[x0, y0] != 0)
 
 
 # --- how much paper a label takes, from a table of glyph sizes ------------------------------------

@@ -15,7 +15,7 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import Complexes, box, clusters, polar, unit
-from reportgen.drawing.labels import CLEAR, Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import CLEAR, LEFT_OUT, Canvas, Request, finish, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
@@ -352,7 +352,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     for group in clusters(read, 0.3, lambda one: one[0]):
         numbers = joined(number for _, number in group)
         outward = (cmath.phase(unit(frame.side)),)
-        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=()))
+        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=LEFT_OUT))
     if frame.axis:
         tip = frame.at(0.0, highest) + 12 * unit(frame.side)
         requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))

@@ -6,10 +6,11 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import pairwise
+from typing import TypeVar
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import POINT, SCRIPT, box, enlarged, moved
@@ -243,3 +244,63 @@ def stretched(scene: Scene, table: complex, stretch: complex) -> Scene:
             case _:
                 raise TypeError(one)
     return Scene(width, scene.height + higher.imag, tuple(items), scene.title)
+
+
+# --- scenes of one scale together -----------------------------------------------------------------
+
+Part = TypeVar("Part")
+
+TITLE_HEIGHT = 4.5
+NOTE_HEIGHT = 6.0
+TRIM = 3.5
+"""What of a drawing's white margin (mm, each side) its neighbours on a sheet may use."""
+
+
+def sheets(
+    scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
+) -> tuple[Scene, ...]:
+    """The scenes in true size on as many sheets of `width` × `height` mm as they need.
+
+    Rows are filled in order and spread over the width; each scene's title stands below it and `note` (the
+    common scale) below all.  Of each scene's margin `trim` mm are given up.  A scene larger than the sheet
+    gets one of its own size.
+    """
+    foot = NOTE_HEIGHT if note is not None else 0.0
+
+    def wide(scene: Scene) -> float:
+        return scene.width - 2 * trim
+
+    def high(row: Sequence[Scene]) -> float:
+        return max(scene.height for scene in row) - 2 * trim + TITLE_HEIGHT
+
+    def sheet(rows: Sequence[Sequence[Scene]]) -> Scene:
+        """As high as its rows; the scenes of a row stand on a common base line."""
+        across = max(width, *(sum(map(wide, row)) for row in rows))
+        top = full = foot + sum(map(high, rows))
+        items: list[Item] = []
+        for row in rows:
+            top -= high(row)
+            x = space = (across - sum(map(wide, row))) / (len(row) + 1)
+            for scene in row:
+                corner = complex(x - trim, top + TITLE_HEIGHT - trim)
+                items += [moved(item, corner) for item in scene.items]
+                if scene.title:
+                    items.append(Label(complex(x + wide(scene) / 2, top + TITLE_HEIGHT / 2), scene.title))
+                x += wide(scene) + space
+        if note is not None:
+            items.append(Label(complex(across / 2, NOTE_HEIGHT / 3), note))
+        return Scene(across, full, tuple(items))
+
+    rows = _filled(scenes, wide, width)
+    return tuple(map(sheet, _filled(rows, high, height - foot)))
+
+
+def _filled(parts: Iterable[Part], size: Callable[[Part], float], room: float) -> list[list[Part]]:
+    """The parts in groups, in order, each group as large as the room allows."""
+    groups: list[list[Part]] = []
+    for part in parts:
+        if groups and sum(map(size, groups[-1])) + size(part) <= room:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return groups

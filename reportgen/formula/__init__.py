@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal, cast
 
-from reportgen.base.units import printed
+from reportgen.base.units import rounded
 
 
 class _Algebra:
@@ -94,7 +94,7 @@ class Number(_Algebra):
     @property
     def shown(self) -> float:
         """The value a reader of the page sees."""
-        return self.value if self.decimals is None else printed(self.value, self.decimals)
+        return self.value if self.decimals is None else rounded(self.value, self.decimals)
 
     @property
     def half_unit(self) -> float:

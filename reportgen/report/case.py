@@ -22,8 +22,6 @@ from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
-from reportgen.drawing.film import Film
-from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Expression, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
@@ -34,6 +32,8 @@ from reportgen.report import Cover, Document
 if TYPE_CHECKING:
     import numpy as np
 
+    from reportgen.drawing.film import Film
+    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
     from reportgen.machine.flywheel import RegulatedCycle

@@ -19,9 +19,10 @@ from reportgen.drawing import scheme as scheme_figure
 from reportgen.drawing.forces import Sliding
 from reportgen.drawing.forces import coriolis as coriolis_figure
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.labels import Canvas, sheets
+from reportgen.drawing.labels import Canvas
 from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
 from reportgen.drawing.scheme import Looks
+from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.flywheel import SAME_ANGLE
@@ -30,7 +31,7 @@ from reportgen.machine.loads import FULL_TURN, Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
-from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH
+from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH, in_rows
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.report import DENSE, Report
 
@@ -52,6 +53,8 @@ CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 75.0)
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
+LEGIBLE = 0.4
+"""Of the scheme's size: groups drawn smaller yet would be hard to read."""
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 
@@ -155,13 +158,18 @@ def scheme_scene(report: Report, factor: float) -> Scene:
 
 
 def groups(report: Report) -> FigureScenes:
-    """The driver and each group by itself."""
-    factor = _reduction(report)
+    """The driver and each group by itself, as large as the scheme, or smaller if they then stand in one row."""
+    own = _reduction(report)
+    drawn = (_groups(report, factor) for factor in REDUCTIONS if own >= factor >= own * LEGIBLE)
+    first = next(drawn)
+    return FigureScenes(next((row for row in (first, *drawn) if len(in_rows(row)) == 1), first))
+
+
+def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
     scale, words = drawing_scale(report) * factor, report.words["figure"]
     titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
-    motion = report.analysis.motion
-    return FigureScenes(scheme_figure.groups(report.machine.linkage, motion, SHOWN_AT, scale, look, titles))
+    return scheme_figure.groups(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look, titles)
 
 
 def _reduction(report: Report) -> float:
@@ -195,17 +203,19 @@ def positions_scene(report: Report, beside: Canvas | None = None) -> Scene:
 
 
 def extremes(report: Report) -> FigureScenes:
-    """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
+    """The mechanism where its first slider turns back (I, II: its stroke begins and ends), as large as the scheme."""
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
     shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
-    return on_paper(_position_plan(report, motion, shows))
+    return on_paper(_position_plan(report, motion, shows, factor=_reduction(report)))
 
 
-def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None) -> Scene:
+def _position_plan(
+    report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None, factor: float = 1.0
+) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
-    scale = drawing_scale(report)
-    notes = looks(report, scale).notes
+    scale = drawing_scale(report) * factor
+    notes = looks(report, scale, factor).notes
     return position_plan(report.machine.linkage, motion, dense, scale, shows, notes, beside=beside)
 
 

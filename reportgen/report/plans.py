@@ -13,7 +13,6 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
-from reportgen.drawing.labels import sheets
 from reportgen.drawing.plan import (
     Construction,
     Plan,
@@ -27,6 +26,7 @@ from reportgen.drawing.plan import (
     stages,
 )
 from reportgen.drawing.scheme import thumbnail
+from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
@@ -259,23 +259,27 @@ def forces(report: Report, k: int, group: GroupView) -> FigureScenes:
 
 
 def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
-    """The force plan step by step: loads, components found by moments, closing edges, what is read."""
+    """The force plan step by step: loads, what moments have given, closing edges, what is read."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
-    edges = group.polygon.edges
+    edges, reads = group.polygon.edges, group.polygon.reads
     known = sum(not edge.unknown for edge in edges)
-    by_moments = [not edge.unknown and edge.part == "t" for edge in edges]
+    by_moments = {edge.start + edge.end for edge in edges if not edge.unknown and edge.part == "t"}
+    if group.across_by_moments:
+        by_moments |= {edge.start + edge.end for edge in reads if edge.name == ids.reaction_force(group.inner)}
 
-    def step(stage: int) -> int:
-        return 2 + stage - known if stage >= known else int(by_moments[stage])
+    def step(vector: PlanVector[complex]) -> int:
+        if vector.name in by_moments:
+            return 1
+        return 0 if vector.stage < known else 2 + vector.stage - known
 
     def reached(corner: complex) -> int:
         """The first step that draws an arrow to or from a corner."""
-        return min(step(v.stage) for v in drawing.vectors if corner in (v.start, v.end))
+        return min(step(v) for v in drawing.vectors if corner in (v.start, v.end))
 
     steps = replace(
         drawing,
-        vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
+        vectors=tuple(replace(v, stage=step(v)) for v in drawing.vectors),
         points=tuple(replace(p, stage=reached(p.at)) for p in drawing.points),
     )
     return _stages(report, steps, group.scale, k=k)

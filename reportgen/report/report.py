@@ -41,10 +41,10 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "short": frozenset(
         (
             # sections of the outline
-            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "checks"),
+            *("overview", "foreword", "symbols", "summary", "centres", "diagrams", "course", "checks"),
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
-            *("velocity-plates", "acceleration-plates", "force-plates"),
+            *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
             *("polar", "flywheel-work", "flywheel-speed"),
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),

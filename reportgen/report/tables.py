@@ -64,7 +64,7 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
     """A number without its unit, a dash for what does not exist; that of an arm, or `size`, without its sign."""
     family = report.ledger[id]
     number = report.ledger.number(id, position, size=size or family.arm)
-    if math.isnan(number.value) or (family.is_direction and report.is_zero(family.of, position)):
+    if math.isnan(number.value) or (family.is_of_vector and report.is_zero(family.of, position)):
         return (Text("–"),)
     return (Value(Number(number.value, number.decimals, "")),)
 

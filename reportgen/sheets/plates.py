@@ -330,10 +330,10 @@ def _unit(report: Report, id: str) -> str:
 
 def _bare(report: Report, id: str, k: int | None) -> Content:
     """A number without its unit, a dash for what does not exist."""
-    number = report.ledger.number(id, k)
-    if report.ledger[id].kind == "segment" and number.value:
+    family, number = report.ledger[id], report.ledger.number(id, k)
+    if family.kind == "segment" and number.value:
         return Number(number.value, SEGMENT)
-    if math.isnan(number.value) or (report.ledger[id].is_direction and report.is_zero(report.ledger[id].of, k)):
+    if math.isnan(number.value) or (family.is_of_vector and report.is_zero(family.of, k)):
         return "–"
     return Number(number.value, number.decimals)
 
