@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -14,7 +13,7 @@ from reportgen.base.units import MM, nice_up
 from reportgen.cam.profile import Cam, Traced
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import clipped, unit
+from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
 
@@ -53,37 +52,6 @@ def fitting(points: Sequence[complex], room: complex, enlarged: float = 1.0) -> 
     array = np.array(points)
     size = complex(np.ptp(array.real), np.ptp(array.imag)) * MM
     return nice_up(max(size.real / room.real, size.imag / room.imag) / enlarged, SCALES) * enlarged / MM
-
-
-# --- half-planes ----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class HalfPlane:
-    """What lies on the side of `inward` of a line through `at`."""
-
-    at: complex
-    inward: complex
-
-    def depth(self, point: complex) -> float:
-        return ((point - self.at) * self.inward.conjugate()).real
-
-
-def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """What of a convex polygon lies in all half-planes."""
-    corners = list(box)
-    for plane in planes:
-        kept: list[complex] = []
-        for one, other in zip(corners, [*corners[1:], *corners[:1]], strict=True):
-            here, there = plane.depth(one), plane.depth(other)
-            if here >= 0:
-                kept.append(one)
-            if here * there < 0:
-                kept.append(one + (other - one) * here / (here - there))
-        corners = kept
-        if not corners:
-            break
-    return corners
 
 
 # --- the S–S′ diagram -------------------------------------------------------------------------------

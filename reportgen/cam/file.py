@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from reportgen.assignment.common import FEWEST_POSITIONS, MOST_POSITIONS, Part
 from reportgen.assignment.fields import (
@@ -99,9 +99,15 @@ class AccelerationTable(Part):
 LawName = Literal["uniform", "parabolic", "cosine", "sine", "3-4-5", "4-5-6-7", "trapezoidal"]
 
 
+LawOrTable = Annotated[
+    Annotated[LawName, Tag("name")] | Annotated[AccelerationTable, Tag("table")],
+    Discriminator(lambda content: "table" if isinstance(content, dict | AccelerationTable) else "name"),
+]
+
+
 class Laws(Part):
-    rise: LawName | AccelerationTable
-    return_: LawName | AccelerationTable = Field(alias="return")
+    rise: LawOrTable
+    return_: LawOrTable = Field(alias="return")
 
 
 class PermissibleAngles(Part):

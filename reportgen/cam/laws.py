@@ -60,6 +60,11 @@ class AccelerationGraph:
         return self.a / S[-1], V / S[-1], S / S[-1]
 
     @property
+    def way(self) -> float:
+        """How far the graph moves as it stands; backwards if it is negative."""
+        return float(_integrated(self.x, self.a)[1][-1])
+
+    @property
     def areas(self) -> tuple[float, float]:
         """The areas above and below the axis, which must be equal: the follower comes to rest."""
         parts = _areas(self.x, self.a)
