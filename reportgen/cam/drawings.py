@@ -32,6 +32,8 @@ RAY = Pen(0.1, style.GRAY)
 NUMBER = 3.2
 """From a roller's centre to its number (mm)."""
 HALF_FACE = 8.0
+CLEAR = 0.6
+"""So much of the base circle is left clear of the normals of faces, for what stands at the cam's centre."""
 FACE_MARGIN = 3.0
 """What a flat face reaches beyond its farthest points of contact (mm)."""
 GUIDE = 1.6
@@ -296,7 +298,7 @@ def _laid_off(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
     if cam.flat and cam.translating:
         start, end = 1j * back * cam.r0 * at, 1j * back * (cam.r0 + traced.s[k]) * at
     if cam.translating:
-        foot = 0j if cam.flat else complex(cam.turn * cam.e) * back * at
+        foot = CLEAR * start if cam.flat else complex(cam.turn * cam.e) * back * at
         yield Line(foot, start, RAY)
         yield Line(start, end, style.NEW)
     else:
@@ -330,7 +332,7 @@ def _position(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
         yield Circle(pivot, 0.7, Pen(0.15), style.PAPER)
     if cam.flat:
         out = complex(traced.normal[k])
-        yield Line(0j, out * abs((centre * out.conjugate()).real), RAY)
+        yield Line(CLEAR * cam.r0 * at * out, out * abs((centre * out.conjugate()).real), RAY)
         yield Line(centre - 1j * out * HALF_FACE, centre + 1j * out * HALF_FACE, style.VISIBLE)
         yield from style_point(centre)
     elif cam.roller:
