@@ -47,9 +47,7 @@ def _keys(given: Parameters) -> Iterator[Finding]:
     """Every length that such a follower has is given, and no other."""
     told = given.model_fields_set
     needed, idle = list(NEEDED[given.follower]), list(IDLE[given.follower])
-    if given.end == "roller":
-        needed.append("roller")
-    else:
+    if given.end != "roller":
         idle.append("roller")
     if given.end == "flat":
         idle += ["e", "arm", "limits"]

@@ -155,8 +155,9 @@ class Parameters(Part):
         return first, far, back, round(rest, 9)
 
     def seeks(self, key: str) -> bool:
-        """Whether a length is to be found."""
-        return key in self.model_fields_set and getattr(self, key) is None
+        """Whether a length is to be found, as the radius of a roller is that is not given."""
+        told = key in self.model_fields_set or (key == "roller" and self.end == "roller")
+        return told and getattr(self, key) is None
 
     @property
     def finds(self) -> tuple[str, ...]:
@@ -314,7 +315,7 @@ class Judged:
     least_working: tuple[float, float]
     largest: float
     aside: tuple[float, float]
-    """The largest s′ (m) of a flat face, and the largest −s′."""
+    """Of a flat face the largest s′ (m) and the largest −s′; of one that swings the nearest and farthest contact."""
 
 
 def judged(cam: Cam) -> Judged:
@@ -332,6 +333,9 @@ def judged(cam: Cam) -> Judged:
 
     traced = cam.sampled()
     aside = (float(traced.ds.max()), float(-traced.ds.min()))
+    if not cam.translating:
+        contact = np.abs(traced.at - complex(cam.opposite * cam.turn * cam.a, 0))
+        aside = (float(contact.min()), float(contact.max()))
     return Judged(
         extreme(cam, "rise", 1),
         extreme(cam, "return", -1),

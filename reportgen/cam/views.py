@@ -154,6 +154,7 @@ class CamPage:
             "offset": bool(cam.e),
             "has_axis": cam.translating and not cam.flat,
             "sliding_face": cam.translating and cam.flat,
+            "turning_face": cam.flat and not cam.translating,
             "one_curve": not cam.roller,
             "opposite": cam.opposite > 0,
             "lifts": self.lifts,
