@@ -44,8 +44,8 @@ class CamCase(SolvedCam):
     def fault(self) -> str:
         found = self.solution.designed
         if found.cam.undercut:
-            return "cam-undercut"
-        return "cam-pressure" if any(exceeded(found)) else ""
+            return "not-to-be-cut"
+        return "pressure-angle" if any(exceeded(found)) else ""
 
     def document(self) -> Document:
         return self.bounded(views.report)
