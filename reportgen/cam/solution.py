@@ -411,18 +411,18 @@ class CamSheet:
         φ = q["cam.phi"]
         if self.cam.translating:
             s0, e, s, ds, dds = q["cam.s0"], q["cam.e"], self.s, self.ds, self.dds
-            aside: Expression = ds
             x: Expression
             y: Expression
+            u = q.define("cam.u", s0 + s)
             if self.cam.e:
-                aside = ds - e
+                w = q.define("cam.w", ds - e)
                 x, y = (s0 + s) * sin(φ) + e * cos(φ), (s0 + s) * cos(φ) - e * sin(φ)
-                bent = (s0 + s) * (s0 + s - dds) + (ds - e) * (2 * ds - e)
+                α = q.define("cam.alpha", atan((ds - e) / (s0 + s)), scale=1.0)
+                ρ = sqrt(u**2 + w**2) ** 3 / (u * (u - dds) + w * (w + ds))
             else:
                 x, y = (s0 + s) * sin(φ), (s0 + s) * cos(φ)
-                bent = (s0 + s) * (s0 + s - dds) + 2 * ds**2
-            α = q.define("cam.alpha", atan(aside / (s0 + s)), scale=1.0)
-            ρ = sqrt((s0 + s) ** 2 + aside**2) ** 3 / bent
+                α = q.define("cam.alpha", atan(ds / (s0 + s)), scale=1.0)
+                ρ = sqrt(u**2 + ds**2) ** 3 / (u * (u - dds) + 2 * ds**2)
             lean: Expression = φ - α
         else:
             a, arm, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds

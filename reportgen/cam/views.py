@@ -223,9 +223,10 @@ class CamPage:
     def quantity(self, id: str, k: int | None = None) -> Inlines:
         return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
 
-    def lines(self, quantities: Iterable[str], k: int | None = None) -> Equation:
-        """Worked lines of those of the quantities that the ledger has."""
-        return Equation(tuple(self.case.printed.chain(id, k) for id in quantities if id in self.case.printed))
+    def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Equation, ...]:
+        """Worked lines, in an equation if there are any."""
+        rows = tuple(self.case.printed.chain(id, k) for id in quantities)
+        return (Equation(rows),) if rows else ()
 
     # --- what is given
 
@@ -285,7 +286,7 @@ class CamPage:
         stretches = [one for one in self.case.solution.motion.stretches if one.phase == phase]
         numbers = [n for n, one in enumerate(self.case.solution.motion.stretches) if one.phase == phase]
         for n, one in zip(numbers, stretches, strict=True):
-            note = self._between(one.piece) if len(stretches) > 1 else ""
+            note = self._between(one.piece) if len(stretches) > 1 and law.table is None else ""
             for id in names:
                 definition = self.case.ledger[id].definition
                 assert definition is not None
