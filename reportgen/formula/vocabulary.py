@@ -61,7 +61,7 @@ KINDS: dict[str, QuantityKind] = {
     "phase share": QuantityKind("", decimals=5),
     "follower velocity": QuantityKind("mm/s", 1e-3),
     "follower acceleration": QuantityKind("mm/s²", 1e-3),
-    "graph value": QuantityKind("", decimals=6),
+    "graph value": QuantityKind("", decimals=5),
     "swing": QuantityKind("°", math.pi / 180, decimals=4),
     "arc": QuantityKind("rad", digits=6),
     "length scale": QuantityKind("m/mm", 1e3, digits=6),
