@@ -1,4 +1,4 @@
-"""Draw the pictures of the README: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
+"""Draw the pictures of README and docs: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
 
 `make pictures` runs this in the project's folder; the pictures go to `docs/`.  The machine in motion is drawn by
 chromium, and left as it is where there is none.

@@ -264,18 +264,19 @@ def sheet_files(
     sets: Collection[str] = (),
     formats: Sequence[str] = SHEET_FORMATS,
     block: Path | None = None,
+    every: bool = False,
 ) -> Mapping[str, bytes]:
     """The drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
 
-    Without a `size` they are A1, or A0 where a plate needs it; without `sets` they show all; the title `block` is that
-    of the language unless a file of one is given.  Raises `SheetError` where there is nothing
-    to draw or a plate has no place on the size.
+    Without a `size` they have the smallest that holds each set on one sheet; without `sets` they show all, with `every`
+    plate or those usually handed in; the title `block` is that of the language unless a file of one is given.  Raises
+    `SheetError` where there is nothing to draw, and `AssignmentError` where a plate has no place on the size.
     """
     from reportgen.sheets import dxf
     from reportgen.writers import typst
 
     case = open_case(path, language)
-    sheets = case.sheets(size, sets, block)
+    sheets = case.sheets(size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
         "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),

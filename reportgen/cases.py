@@ -108,10 +108,12 @@ class MachineCase(Calculation):
 
         return film(self)
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
         from reportgen.sheets import drawing_sheets
 
-        return drawing_sheets(self, size, sets, block)
+        return drawing_sheets(self, size, sets, block, every)
 
 
 def _turns(machine: Machine) -> bool:

@@ -71,13 +71,15 @@ class Job:
     file: str
     content: bytes
     making: Making
+    beside: Mapping[str, bytes] = field(default_factory=dict)
+    """A school's words that the file names, by their ways from it."""
     scratch: Path | None = None
     """Where its temporary files go; None: where the system has them, on other machines."""
 
     @property
     def assignment(self) -> str:
-        """SHA-256 of the assignment file."""
-        return sha256(self.content).hexdigest()
+        """SHA-256 of the assignment file, and of what lies beside it."""
+        return sha256(b"".join((self.content, *self.beside.values()))).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +121,9 @@ def run_job(job: Job) -> Outcome:
         with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
             tempfile.tempdir = scratch
             file = Path(scratch, job.file)
-            file.write_bytes(job.content)
+            for name, content in {**job.beside, job.file: job.content}.items():
+                Path(scratch, name).parent.mkdir(parents=True, exist_ok=True)
+                Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
         problems = tuple(problem.in_file(job.file) for problem in error.problems)

@@ -18,6 +18,8 @@ from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
 """The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
+SHEET_WIDTH, SHEET_HEIGHT = 90.0, 45.0
+"""Of that area on a drawing sheet at most, mm."""
 HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
 """Of a chart with its text and of the area inside its axes, where two charts stand side by side, mm."""
 CHART_MARGIN = 1.5
@@ -97,18 +99,18 @@ class Inclination:
 class Area:
     """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
 
-    They are round once the chart is `enlarged` so many times.  `scales` across and upwards, in the units of the axes
-    per mm, are kept whatever room they take.
+    Room and scales are those of the chart once it is `enlarged` so many times.  `scales` across and upwards, in the
+    units of the axes per mm, are kept whatever room they take.
     """
 
-    width: float = WIDTH
-    height: float = HEIGHT
+    width: float = SHEET_WIDTH
+    height: float = SHEET_HEIGHT
     enlarged: float = 1.0
     scales: tuple[float, float] | None = None
 
     def per_mm(self, length: float, room: float) -> float:
         """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
-        return nice_up(length / (room * self.enlarged))
+        return nice_up(length / room)
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,8 +194,10 @@ def plotted(
         items += drawn
         requests.append(request)
     items += _titles(window, x_label, y_label, items, area is not None)
-    scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
-    notes = scales if area is not None else ()
+    notes: Sequence[Content] = ()
+    if area is not None:
+        across, up = window.width * area.enlarged, window.height * area.enlarged
+        notes = _scale(x_label, window.x, across, turn), _scale(y_label, window.y, up)
     scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
@@ -228,7 +232,7 @@ def polar(
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, x_label, y_label, items, area is not None)
-    notes = () if area is None else (_scale(x_label, window.x, window.width),)
+    notes = () if area is None else (_scale(x_label, window.x, window.width * area.enlarged),)
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
 
 

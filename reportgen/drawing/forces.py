@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal
 
@@ -28,8 +28,10 @@ ON_EACH_OTHER = math.radians(9)
 COUPLE_RADIUS = 6.0
 LEAST_ARM = 0.5
 """An arm shorter than this (mm) is not drawn: the force goes through the point."""
-TOGETHER = 0.3
-"""Arms whose ends are nearer than this (mm) share one dimension."""
+TOGETHER, EQUAL = 0.3, 0.002
+"""Arms whose ends are nearer than this (mm) share one label, and one dimension."""
+ROUNDING = 0.05
+"""An arm that is printed differs by less (mm) from the one that is drawn."""
 BEYOND, BESIDE = 22.0, -34.0
 """Ends of a guide's line (mm from the point); the sense of ω is drawn at the second, clear of the vectors."""
 QUARTER = 8.0
@@ -58,11 +60,15 @@ class Couple:
 
 @dataclass(frozen=True, slots=True)
 class ArmOf:
-    """The distance from the moment point `about` to the line of the force with the id `force`."""
+    """The distance from the moment point `about` to the line of the force with the id `force`.
+
+    `length` is what is printed for it (mm on the drawing).
+    """
 
     label: Content
     about: complex
     force: str
+    length: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +159,8 @@ def draw_forces(
     A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
     would lie on another force beside it, a thin line from its point.
     """
-    shown = [force for force in forces if force.direction != 0]
+    printed = {arm.force: arm for arm in arms if arm.length is not None}
+    shown = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
     items: list[Item] = []
     requests: list[Request] = []
     shafts: dict[str, tuple[complex, complex]] = {}
@@ -180,10 +187,21 @@ def draw_forces(
             if abs(other.about - arm.about) < TOGETHER and abs(feet[other.force] - end) < TOGETHER
         ]
         items += _extension(end, *shafts[arm.force])
+        equal = [other for other in same if abs(feet[other.force] - end) < EQUAL]
+        if equal[0] is arm:
+            items += _dimension(arm.about, end, *shafts[arm.force], name=" ".join(["h", *(one.force for one in equal)]))
         if same[0] is arm:
-            items += _dimension(arm.about, end, *shafts[arm.force])
             requests.append(_arm_name(arm.about, end, same))
     return Canvas(tuple(items), tuple(requests))
+
+
+def _as_printed(force: Force, arm: ArmOf | None) -> Force:
+    """A force at the printed distance from the moment point: rounding moves it by hundredths of a millimetre."""
+    if arm is None or arm.length is None:
+        return force
+    reach = foot(arm.about, force.at, force.at + force.direction) - arm.about
+    further = arm.length - abs(reach)
+    return replace(force, at=force.at + further * unit(reach)) if abs(further) < ROUNDING else force
 
 
 def draw_couples(couples: Sequence[Couple]) -> Canvas:
@@ -262,10 +280,10 @@ def _extension(base: complex, start: complex, end: complex) -> list[Item]:
     return []
 
 
-def _dimension(about: complex, base: complex, start: complex, end: complex) -> list[Item]:
+def _dimension(about: complex, base: complex, start: complex, end: complex, name: str) -> list[Item]:
     """The arm with a head at each end where there is room, and the right angle at its foot."""
     reach = base - about
-    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD)]
+    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD, name)]
     if abs(reach) > 4 * style.DIMENSION_HEAD:
         items.append(Arrow(about + reach / 2, about, style.DIMENSION, style.DIMENSION_HEAD))
     if abs(reach) > 3:

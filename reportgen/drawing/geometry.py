@@ -72,7 +72,7 @@ def segments(items: Iterable[Item]) -> Complexes:
 def frame(label: Label) -> tuple[complex, complex]:
     """Centre and half size (width + i height, mm) of a label's box on the sheet."""
     extent = box(label.content, label.size)
-    width, height = extent.width, extent.height + extent.depth
+    width, height = extent.width * label.narrow, extent.height + extent.depth
     if label.turn == 90:
         width, height = height, width
     right = ("left" in label.anchor) - ("right" in label.anchor)

@@ -85,11 +85,11 @@ def label(
 ) -> Request:
     """A label whose `parts` stand in a row on one baseline, near the point `at`.
 
-    Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer`
-    are directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the
-    radius of the circle drawn there).  A `ring` goes round a link's number.  A label that names its point, or `each`
-    of several, stands nearer to it than to any point that another label names.  Where there is no room for it, what is
-    `short` stands there: less, nothing, or the number of a `KEY`.
+    Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer` are
+    directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the radius of the
+    circle drawn there).  A `ring` goes round a link's number, which stands on a leader.  A label that names its point,
+    or `each` of several, stands nearer to it than to any point that another label names.  Where there is no room for
+    it, what is `short` stands there: less, nothing, or the number of a `KEY`.
     """
     points = tuple(at) if isinstance(at, Sequence) else (at,)
     named = points if each or len(points) == 1 else ()
@@ -315,7 +315,7 @@ def _place_in(
     for i in order:
         spot = spots[i]
         request = spot.request
-        centre, leader = spot.best(taken), None
+        centre, leader = (_away(spot, taken) if request.ring else None) or (spot.best(taken), None)
         if centre is None:
             found = _away(spot, taken)
             if found is None and request.short == LEFT_OUT:

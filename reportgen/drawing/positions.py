@@ -272,8 +272,6 @@ STROKES = (
 """Pens of the branches in their order, told apart by dashes and width as well as by colour."""
 WIDTH = 80.0
 """Of the diagram at most, mm."""
-NARROW, SHAPE = 46.0, 1.5
-"""On a sheet it is so wide at least (mm), and so many times as wide as high at most."""
 AWAY = 0.94
 """How far beside the cylinder it stands, in its widths."""
 AXIS_PEN = Pen(0.2)
@@ -321,20 +319,14 @@ class Frame:
 
 
 def beside(
-    top: complex, bottom: complex, side: complex, highest: float, enlarged: float | None = None
+    top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """The ends of the diagram's axis beside the cylinder, and the μ_p that makes it fit.
+    """The ends of the diagram's axis beside the cylinder, and the round μ_p that makes it fit.
 
-    μ_p is round once the drawing is `enlarged` so many times, as on a drawing sheet; there the diagram is no wider than
-    goes with its stroke.
+    μ_p is that of the drawing once it is `enlarged` so many times.
     """
-    width = WIDTH
-    if enlarged is not None:
-        width = min(WIDTH, max(NARROW, SHAPE * abs(top - bottom)))
-    else:
-        enlarged = 1.0
-    away = unit(side) * AWAY * width
-    return top + away, bottom + away, nice_up(highest / width / enlarged) * enlarged
+    away = unit(side) * AWAY * WIDTH / enlarged
+    return top + away, bottom + away, nice_up(highest / WIDTH)
 
 
 def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Canvas:

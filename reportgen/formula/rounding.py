@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.base.units import rounded, significant_decimals
+from reportgen.base.units import figure_decimals, rounded
 from reportgen.formula import Call, Expression, Negative, Ref, ids
 from reportgen.formula.ledger import Ledger, follow
 from reportgen.formula.sheet import ZERO, Family, is_short, is_typed
@@ -86,7 +86,7 @@ def _of_quantity(members: Collection[Family]) -> int:
     how = next(iter(members)).how
     if how.decimals is not None:
         return how.decimals
-    return max(significant_decimals(max(map(_largest, members)), how.digits), 0)
+    return figure_decimals(max(map(_largest, members)), how.digits)
 
 
 def _largest(family: Family) -> float:

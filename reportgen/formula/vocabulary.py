@@ -461,17 +461,6 @@ def plan(id: str) -> str:
     return found.plan.format(**parts)
 
 
-def scale_on_paper(id: str) -> str:
-    """The id of the scale of a length or a point on paper; "" for anything else."""
-    if is_laid(id):
-        return "mu.l"
-    if found := ids.plan_point.read(id):
-        return ids.scale(found["what"])
-    if found := ids.force_corner.read(id):
-        return ids.force_scale(found["group"])
-    return plan(id)
-
-
 def is_laid(id: str) -> bool:
     """Whether it is a length or vector as it is laid off on paper."""
     return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))

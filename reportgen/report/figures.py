@@ -113,7 +113,7 @@ def beside_one_another(*scenes: Scene) -> FigureScenes:
 
 def drawing_scale(report: Report) -> float:
     """mm of paper for a metre, of drawings to μ_l."""
-    return MM / float(report.ledger["mu.l"].values[0])
+    return MM / float(report.ledger["mu.l"].values[0]) / report.enlarged
 
 
 def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
@@ -175,7 +175,7 @@ def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
     points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
-    size = np.array(points)[np.isfinite(points)] * drawing_scale(report)
+    size = np.array(points)[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
@@ -248,10 +248,9 @@ def indicator(report: Report) -> FigureScenes:
     # What lies below zero stands between diagram and cylinder, where there is half the room.
     highest = max(highest, -2 * lowest)
     side = _free_side(machine)
-    enlarged = report.area.enlarged if report.area else None
-    start, end, mu = indicator_figure.beside(top, bottom, side, highest, enlarged)
+    start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
-    frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
+    frame = indicator_figure.Frame(start, end, side, mu * report.enlarged, Chain((Symbol("p"),), "N/cm²"), note)
     branches = [
         indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
         for name, x, pressures in _branches(first, machine, report.words["strokes"])

@@ -14,11 +14,11 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
+from reportgen.base.units import MM
 from reportgen.drawing.charts import Area
-from reportgen.drawing.sheet import USUAL_FORM, Form
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
-from reportgen.machine import GROUND, Mobility, mobility
+from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.loads import FULL_TURN, Applied, Piston, Torque
@@ -68,13 +68,12 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
 class Report:
     """A case with its prose.
 
-    On a drawing sheet curves have an `area` and round scales, and long tables a `form`.  Curves are drawn from
-    `samples` of the cycle if they are given.
+    Its figures are drawn so much smaller than their scales say as they are `enlarged` afterwards, with their letters,
+    on a drawing sheet.  Curves are drawn from `samples` of the cycle if they are given.
     """
 
     case: Calculation
-    area: Area | None = None
-    form: Form = USUAL_FORM
+    enlarged: float = 1.0
     samples: Analysis | None = None
 
     # --- what it is made of
@@ -118,6 +117,11 @@ class Report:
     @cached_property
     def driver(self) -> DriverView:
         return DriverView(self.machine.linkage, self.ledger)
+
+    @property
+    def area(self) -> Area | None:
+        """The room that curves have on a drawing sheet, where their scales are round and printed."""
+        return None if self.enlarged == 1.0 else Area(enlarged=self.enlarged)
 
     @cached_property
     def dense_cycle(self) -> Analysis:
@@ -288,6 +292,12 @@ class Report:
     def drawn_lines(self) -> list[str]:
         """What those lengths are lengths of, by its ends."""
         return [found["line"] for id in self.lengths if (found := ids.length.read(id))]
+
+    @property
+    def drawn_crank(self) -> float | None:
+        """The length of the crank on paper (mm); None where the driver slides."""
+        driver = self.machine.linkage.driver
+        return driver.length / float(self.ledger["mu.l"].values[0]) * MM if isinstance(driver, Crank) else None
 
     @property
     def pistons(self) -> tuple[Piston, ...]:

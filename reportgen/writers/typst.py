@@ -21,7 +21,7 @@ from typing import ClassVar
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
-from reportgen.base.units import Language
+from reportgen.base.units import Language, by_power_of_ten
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
@@ -250,6 +250,8 @@ class _Blocks:
                 return f"#strong{self.content(of)}"
             case tree.InlineMath(expression, slashed):
                 return self.formula(expression, slashed)
+            case tree.Value(number) if by_power_of_ten(number.value, number.decimals):
+                return self.formula(number)
             case tree.Value(number):
                 shown = literal(written(number, self.language).text(NARROW))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"

@@ -668,6 +668,7 @@ WHOLE: list[tuple[str, bytes, str]] = [
     ("a word", b"engine\n", "1:1 wrong-type"),
     ("NUL", b"kind: a\nvariant: \0\n", "2:10 binary"),
     ("a picture", b"\x89PNG\r\n\x1a\n\xff\xfe\xfd", "1:1 encoding"),
+    ("UTF-16 that breaks off", "kind: a\nvariant: phương".encode("utf-16") + b"x", "2:16 encoding"),
     ("another encoding", "kind: a\nvariant: phương".encode("utf-16-le"), "1:2 binary"),
     ("broken UTF-8", "variant: ph\xe9".encode("latin-1"), "1:12 encoding"),
     ("control character", b"kind: a\nvariant: \x07\n", "2:10 control-character"),

@@ -64,7 +64,7 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
 
 def _read(longest: dict[str, float], id: str) -> float:
     """What a length on paper (m) may be off."""
-    return ON_PAPER * 1e-3 + OF_LONGEST * longest[vocabulary.scale_on_paper(id)]
+    return ON_PAPER * 1e-3 + OF_LONGEST * longest[scale_on_paper(id)]
 
 
 def _measured(ledger: Ledger, family: Family) -> np.ndarray:
@@ -86,7 +86,7 @@ def _longest(ledger: Ledger) -> dict[str, float]:
     found: dict[str, float] = defaultdict(float)
     for id, family in ledger.families.items():
         if family.kind == "segment" and not family.hidden:
-            scale = vocabulary.scale_on_paper(id)
+            scale = scale_on_paper(id)
             found[scale] = max(found[scale], float(np.nanmax(np.abs(family.values), initial=0.0)))
     return found
 
@@ -104,3 +104,14 @@ def _side(ledger: Ledger, direction: str) -> str:
     angle = ids.rod_angle.read(direction)
     of = ids.velocity(angle["point"]) if angle else vocabulary.vector_of(direction)
     return next((id for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of), "")
+
+
+def scale_on_paper(id: str) -> str:
+    """The id of the scale of a length or a point on paper; "" for anything else."""
+    if vocabulary.is_laid(id):
+        return "mu.l"
+    if found := ids.plan_point.read(id):
+        return ids.scale(found["what"])
+    if found := ids.force_corner.read(id):
+        return ids.force_scale(found["group"])
+    return vocabulary.plan(id)

@@ -17,7 +17,7 @@ from reportgen.cli import app
 from reportgen.report import Contents, Document, Figure, Plate, Section, Table, plain
 from reportgen.report.numbering import unreferenced
 from reportgen.report.report import LEFT_OUT, Report
-from reportgen.sheets.plates import all_series
+from reportgen.sheets import plates_by_set
 from tests.lanes import matrix
 from tests.report.built import FILES, MARKS, ROOT, SAMPLE, assignment
 
@@ -209,11 +209,10 @@ def test_a_spec_gives_the_extent_of_a_class(tmp_path: Path) -> None:
 
 
 def test_sheets_show_what_the_report_has() -> None:
-    """Plans of the worked position alone, no centres, no polar diagram; the curve of the balancing torque."""
-    full, short = (Report(case("engine-twin-05", extent)) for extent in ("full", "short"))
-    names = [[one.name for one in all_series(report)] for report in (full, short)]
-    assert set(names[0]) - set(names[1]) == {"centres", "motion", "polar"}
-    assert "torque" in names[1]
-    (velocity,) = (one for one in all_series(short) if one.name == "velocity")
-    assert len(list(velocity.draw(short))) == 1
+    """Plans of the worked position alone, no curves of the motion; the curve of the balancing torque."""
+    full, short = (plates_by_set(case("engine-twin-05", extent)) for extent in ("full", "short"))
+    titles = [{plate.title for some in plates.values() for plate in some} for plates in (full, short)]
+    names = case("engine-twin-05", "short").words["plates"]
+    assert titles[0] - titles[1] == {names[one] for one in ("velocity-plates", "acceleration-plates", "motion")}
+    assert names["torque"] in titles[1]
     assert case("engine-twin-05", "short").sheets("A1")
