@@ -57,22 +57,27 @@ def scale_of(case: SolvedCam, id: str) -> float:
     return float(case.printed[id].values[0])
 
 
-def law_diagrams(case: SolvedCam, enlarged: float = 1.0) -> Scene:
-    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
+def law_diagrams(case: SolvedCam, larger: float = 1.0, enlarged: float = 1.0) -> Scene:
+    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below.
+
+    They are so many times `larger` than in a report, with the scales that they have once they are `enlarged`, too.
+    """
     traced = case.solution.cam.sampled(1440)
     names = names_of(case)
     graphs: list[Graph] = []
     zero = 0.0
     for id, values in zip(names, (traced.s, traced.ds, traced.dds), strict=True):
         short = id.removeprefix("cam.")
-        up = values / scale_of(case, ids.cam_scale(short)) * MM * enlarged
+        up = values / scale_of(case, ids.cam_scale(short)) * MM * larger
         if graphs:
             # Below the lowest of the one before.
             zero -= up.max() + GAP - min(float(graphs[-1].up.min()), 0.0)
-        chain = Chain((case.printed.symbol(ids.cam_scale(short)), shrunk(case, ids.cam_scale(short), enlarged)))
+        chain = Chain(
+            (case.printed.symbol(ids.cam_scale(short)), shrunk(case, ids.cam_scale(short), larger * enlarged))
+        )
         graphs.append(Graph(case.ledger.symbol(id), up, zero, chain))
-    poles = [float(case.printed[ids.cam_diagram(number)].values[0]) * MM * enlarged for number in (1, 2)]
-    width = float(case.printed[ids.cam_diagram("L")].values[0]) * MM * enlarged
+    poles = [float(case.printed[ids.cam_diagram(number)].values[0]) * MM * larger for number in (1, 2)]
+    width = float(case.printed[ids.cam_diagram("L")].values[0]) * MM * larger
     items: list[Item] = []
     requests: list[Request] = []
     across = traced.φ / (2 * math.pi) * width
@@ -96,15 +101,15 @@ def law_diagrams(case: SolvedCam, enlarged: float = 1.0) -> Scene:
                 complex((start + stop) / 2, y), case.ledger.symbol(ids.cam_phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
-    μ_φ = Chain((case.printed.symbol(ids.cam_scale("phi")), shrunk(case, ids.cam_scale("phi"), enlarged)))
+    μ_φ = Chain((case.printed.symbol(ids.cam_scale("phi")), shrunk(case, ids.cam_scale("phi"), larger * enlarged)))
     notes: list[Content] = [μ_φ, *(graph.scale for graph in graphs)]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
-def shrunk(case: SolvedCam, id: str, enlarged: float) -> Number:
+def shrunk(case: SolvedCam, id: str, larger: float) -> Number:
     """A scale as a diagram has it that is so many times as large."""
     number = case.printed.number(id)
-    return number if enlarged == 1 else Number(float(f"{number.shown / enlarged:.6g}"), None, number.unit)
+    return number if larger == 1 else Number(float(f"{number.shown / larger:.6g}"), None, number.unit)
 
 
 def _phase_ends(case: SolvedCam) -> Iterator[tuple[str, tuple[float, float]]]:

@@ -144,7 +144,7 @@ def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     items.append(Line(0j, centre * at, style.VISIBLE))
     requests.append(label(centre * at, Symbol("O"), gap=1.6))
     requests.append(label([centre * at * share for share in (0.5, 0.4, 0.6, 0.7)], case.ledger.symbol("cam.r0")))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 
 
 def _within(end: complex, start: complex, left: float, right: float) -> complex:
@@ -221,7 +221,7 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
         label(start * at / 2, case.ledger.symbol("cam.r0")),
         label(pivot * at / 2, case.ledger.symbol("cam.a"), prefer=(-math.pi / 2,)),
     ]
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 
 
 def _arm(cam: Cam, ψ: float) -> complex:
@@ -271,7 +271,7 @@ def inversion(
     begin = math.pi / 2 + 0.5
     items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, style.VISIBLE, style.DIMENSION_HEAD))
     requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 
 
 def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:

@@ -41,7 +41,7 @@ def drawing_sheets(case: SolvedCam, size: str = "", block: Path | None = None) -
 def _plates(case: SolvedCam) -> Iterator[DrawingPlate]:
     """Diagrams of the motion, of the limits and of the pressure angle, the construction of the profile, the cam."""
     found = case.solution.designed
-    yield _plate(case, "law", "curves", law_diagrams(case, TURN / ENLARGED))
+    yield _plate(case, "law", "curves", law_diagrams(case, TURN / ENLARGED, ENLARGED))
     if found.least is not None and not found.cam.flat:
         yield _plate(case, "limits", "scheme", limit_diagram(case, LIMITS_ROOM, ENLARGED))
     yield _plate(case, "inversion", "positions", inversion(case, "profile by inversion", PROFILE_ROOM, ENLARGED))

@@ -17,7 +17,8 @@ from reportgen.cam.laws import FollowerMotion, law
 from reportgen.cam.profile import Cam
 from reportgen.cam.sheets import CHORD, contour
 from reportgen.cases import open_case
-from reportgen.drawing import Circle
+from reportgen.drawing import Circle, Label
+from reportgen.formula import Chain, Symbol
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
@@ -118,3 +119,22 @@ def test_the_least_cam_is_that_of_a_search() -> None:
             one, other = low + (high - low) / 3, high - (high - low) / 3
             low, high = (low, other) if r0(one) < r0(other) else (one, high)
         assert least.r0 == pytest.approx(r0((low + high) / 2), rel=1e-9)
+
+
+@pytest.mark.parametrize("name", ["roller-01", "shaper-feed", "flat-01"])
+def test_sheets_print_their_own_scales(name: str) -> None:
+    """On the drawing sheet the base circle times the scale below it is r₀, in each plate that shows it."""
+    (sheet, profile) = open_case(FOLDER / f"{name}.yaml", "en").sheets()
+    met = 0
+    for part in sheet.parts:
+        scales = [
+            item.content.parts[1].value
+            for item in part.scene.items
+            if isinstance(item, Label) and isinstance(item.content, Chain) and item.content.parts[0] == Symbol("μ", "l")
+        ]
+        radii = [item.radius for item in part.scene.items if isinstance(item, Circle)]
+        if scales and part.layer in ("positions", "profile"):
+            met += 1
+            assert min(abs(radius * scales[0] - cam_of(name).r0 * MM) for radius in radii) < 1e-3
+    assert met >= 2
+    assert profile.name == "1:1"
