@@ -264,7 +264,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     circles: 0,
     modules: 169,
     longest_module: 500,
-    lines_of_code: 33840,
+    lines_of_code: 33820,
     template_files: 57,
     words_of_architecture: 1500,
     ids_by_f_string: 0,

@@ -29,7 +29,6 @@ BEYOND = 6.0
 RAY, CHORD = Pen(0.1, style.GRAY), Pen(0.2, style.RED)
 CURVE = Pen(0.4, style.BLUE)
 DIVISION = Pen(0.08, style.PALE)
-POLE = 0.7
 FARTHEST = 4.0
 """A radius of curvature of more than so many base circles is left out of its diagram."""
 
@@ -47,11 +46,6 @@ class Graph:
         return self.zero + y
 
 
-def names_of(case: SolvedCam) -> tuple[str, str, str]:
-    """s, s′ and s″ as the ledger calls them."""
-    return ("cam.s", "cam.ds", "cam.dds") if case.solution.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
-
-
 def scale_of(case: SolvedCam, id: str) -> float:
     """A scale of the diagrams (SI per m of paper)."""
     return float(case.printed[id].values[0])
@@ -63,7 +57,7 @@ def law_diagrams(case: SolvedCam, larger: float = 1.0, enlarged: float = 1.0) ->
     They are so many times `larger` than in a report, with the scales that they have once they are `enlarged`, too.
     """
     traced = case.solution.cam.sampled(1440)
-    names = names_of(case)
+    names = case.solution.moved
     graphs: list[Graph] = []
     zero = 0.0
     for id, values in zip(names, (traced.s, traced.ds, traced.dds), strict=True):
@@ -132,7 +126,7 @@ def _axes(graph: Graph, width: float, pole: float, order: int, items: list[Item]
     if pole:
         number = 1 if order == 1 else 2
         at = complex(-pole, graph.zero)
-        items.append(Circle(at, POLE, Pen(0.2), style.PAPER))
+        items.append(Circle(at, style.POINT, Pen(0.2), style.PAPER))
         yield label(at, Symbol("P", str(number)), gap=1.0, prefer=(-math.pi / 2, math.pi))
         below = at - 5.5j
         items += [Arrow(below + pole / 2, below + end, style.DIMENSION, 1.6) for end in (0.0, pole)]
@@ -145,7 +139,7 @@ def _integrated(case: SolvedCam, graphs: Sequence[Graph], width: float, poles: S
 
     The mean ordinate of a step, at which the eye makes two areas equal, is what the diagram above rises by in it.
     """
-    motion, scales = case.solution.motion, [ids.cam_scale(id.removeprefix("cam.")) for id in names_of(case)]
+    motion, scales = case.solution.motion, [ids.cam_scale(id.removeprefix("cam.")) for id in case.solution.moved]
     for number, K in zip((2, 1), poles, strict=True):
         lower, upper = graphs[number], graphs[number - 1]
         for phase in ("rise", "return"):
@@ -209,6 +203,6 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
     """s, s′ and s″ (or those of the swing) with their printed units, over `Cam.sampled`."""
     traced = case.solution.cam.sampled()
-    for id, values in zip(names_of(case), (traced.s, traced.ds, traced.dds), strict=True):
+    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
         how = KINDS[case.ledger[id].kind]
         yield case.ledger.symbol(id), how.unit, values / how.scale

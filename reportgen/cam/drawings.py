@@ -260,7 +260,7 @@ def inversion(
         items += _positions(case, stage, at, requests)
     if stage != "displacements":
         if cam.roller and case.solution.given.closed_by == "form":
-            items.append(Polyline(tuple(cam.groove() * at), style.VISIBLE, closed=True))
+            items.append(Polyline(tuple(cam.outline(side=1) * at), style.VISIBLE, closed=True))
         if cam.roller:
             items.append(Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True))
         if stage != "cam":

@@ -23,7 +23,7 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
-from reportgen.base.units import Given
+from reportgen.base.units import MM, Given
 from reportgen.cam import design
 from reportgen.cam.design import CamLimits, Least, NoCamError
 from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerMotion, MotionLaw, law
@@ -247,7 +247,7 @@ def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | Non
     motion = cam.motion
     if cam.translating:
         least = design.least_translating(motion, limits, None if given.seeks("e") else cam.e)
-        e = design.to_millimetre(least.e) if given.seeks("e") else cam.e
+        e = round(least.e * MM) / MM if given.seeks("e") else cam.e
         if not given.seeks("r0"):
             return least, replace(cam, e=e)
         needed = design.least_translating(motion, limits, e).r0

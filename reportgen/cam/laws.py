@@ -197,11 +197,8 @@ class MotionLaw:
 
 def evaluated(of: Formula, x: Floats) -> Floats:
     """The values of a formula over x."""
-    formula = of(_X)
+    formula = of(Ref("x"))
     return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)
-
-
-_X = Ref("x")
 
 
 def law(name: str) -> MotionLaw:

@@ -16,7 +16,7 @@ from reportgen.cam.diagrams import law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.profile import Cam
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene
+from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.sheet import ENLARGED, DrawingSheet, PlacedScene, lettered
 from reportgen.sheets import on_sheets
 from reportgen.sheets.packing import DrawingPlate
@@ -30,7 +30,6 @@ TURN = 1.2
 LIMITS_ROOM, PROFILE_ROOM = 58 + 50j, 86 + 92j
 """and diagrams of limits and profiles fill no more than this (mm) before they are enlarged as all figures of sheets."""
 AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
-CONTOUR = Pen(0.5)
 
 
 def drawing_sheets(case: SolvedCam, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
@@ -89,7 +88,7 @@ def _true_size(cam: Cam) -> DrawingSheet:
         Line(complex(shift.real, 0), complex(shift.real, size.imag), AXES),
         Circle(shift, 1.0, Pen(0.25)),
     )
-    profile = Polyline(tuple(complex(p) for p in points + shift), CONTOUR, closed=True, smooth=True)
+    profile = Polyline(tuple(complex(p) for p in points + shift), style.HEAVY, closed=True, smooth=True)
     parts = (
         PlacedScene("axes", "axes", Scene(size.real, size.imag, axes)),
         PlacedScene("profile", "profile", Scene(size.real, size.imag, (profile,))),

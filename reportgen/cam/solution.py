@@ -132,8 +132,7 @@ class CamSolution:
         """The motion as it is with the angles and the laws of rise and return exchanged."""
         first, far, back, near = self.motion.phases
         other = FollowerMotion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
-        names = ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
-        return {id: [("cam-exchanged", values)] for id, values in zip(names, other(self.φ), strict=True)}
+        return {id: [("cam-exchanged", values)] for id, values in zip(self.moved, other(self.φ), strict=True)}
 
     @property
     def _changed(self) -> Mapping[str, list[tuple[str, Expression]]]:
@@ -153,7 +152,7 @@ class CamSolution:
         also("cam-phase-sum", "cam.start.return", {ids.cam_phase("far"): 0.0})
         for id in ("cam.alpha", "cam.pitch.x", "cam.pitch.y", "cam.rho"):
             also("cam-offset-side", id, {"cam.e": -Ref("cam.e")})
-        also("cam-wrong-sense", "cam.k", {self.rate: -Ref(self.rate)})
+        also("cam-wrong-sense", "cam.k", {self.moved[1]: -Ref(self.moved[1])})
         limits = {"cam.limit.rise": Ref("cam.limit.return"), "cam.limit.return": Ref("cam.limit.rise")}
         if "cam.limit.return" in families:
             for id in families:
@@ -164,8 +163,9 @@ class CamSolution:
         return found
 
     @property
-    def rate(self) -> str:
-        return "cam.ds" if self.cam.translating else "cam.dpsi"
+    def moved(self) -> tuple[str, str, str]:
+        """s, s′ and s″ as the ledger calls them."""
+        return ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
 
 
 class CamSheet:
@@ -226,10 +226,9 @@ class CamSheet:
             begun = [self._beyond(one, x) for one in stretches]
             q.define("cam.z", branch(number, *begun), scale=1.0)
         written = [self._formulas(one, x) for one in stretches]
-        names = ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
-        for id, formulas in zip(names, zip(*written, strict=True), strict=True):
+        for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
             q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
-        self.s, self.ds, self.dds = (q[id] for id in names)
+        self.s, self.ds, self.dds = (q[id] for id in self.of.moved)
         if omega := q.find("cam.omega"):
             rate, acceleration = (
                 ("cam.v", "cam.acceleration") if self.cam.translating else ("cam.omega.f", "cam.epsilon.f")

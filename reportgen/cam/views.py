@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any
 
 from reportgen.base.units import MM
-from reportgen.cam.diagrams import curvature_chart, law_diagrams, names_of, pressure_chart
+from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.file import Judged, exceeded, judged
 from reportgen.cam.laws import MotionLaw, Piece
@@ -107,7 +107,6 @@ class LawView:
     """The law of a phase: its words' key, and its formulas piece by piece with the angles between which they hold."""
 
     phase: str
-    name: str
     equation: Equation
     table: tuple[Table, ...]
 
@@ -275,13 +274,13 @@ class CamPage:
     def laws(self) -> tuple[LawView, ...]:
         motion = self.case.solution.motion
         return tuple(
-            LawView(phase, law.name, self._formulas(phase, law), self._nodes(phase, law))
+            LawView(phase, self._formulas(phase, law), self._nodes(phase, law))
             for phase, law in (("rise", motion.rise), ("return", motion.back))
         )
 
     def _formulas(self, phase: str, law: MotionLaw) -> Equation:
         """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
-        ledger, names = self.case.printed, names_of(self.case)
+        ledger, names = self.case.printed, self.case.solution.moved
         rows: list[Expression] = []
         stretches = [one for one in self.case.solution.motion.stretches if one.phase == phase]
         numbers = [n for n, one in enumerate(self.case.solution.motion.stretches) if one.phase == phase]
