@@ -94,14 +94,16 @@ def build(
     keep_source: bool = False,
     formats: Sequence[str] = ("pdf",),
     extent: Extent | None = None,
+    listing: bool = False,
 ) -> Path:
     """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
 
-    It has the language and the extent of the file unless others are given.
+    It has the language and the extent of the file unless others are given.  A `listing` adds a program of the closed
+    formulas, which also stands beside it as report.py; raises `NotOfferedError` where there are none.
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
-    return build_each(path, out, engine, language, keep_source, formats, extent=extent)[0]
+    return build_each(path, out, engine, language, keep_source, formats, extent=extent, listing=listing)[0]
 
 
 def build_each(
@@ -112,11 +114,16 @@ def build_each(
     keep_source: bool,
     formats: Sequence[str],
     extent: Extent | None = None,
+    listing: bool = False,
 ) -> list[Path]:
     """Write the complete report in some of `FORMATS`; gives their paths in that order."""
+    from reportgen.report import Listing
+
     assignment = load(path, language)
     if extent is not None:
         assignment = assignment.with_extent(extent)
+    if listing:
+        assignment = assignment.with_listing()
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)), _ahead(assignment, engine, letter) as ahead:
@@ -127,6 +134,11 @@ def build_each(
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
+        program = next((block for block in tree.blocks if isinstance(block, Listing)), None)
+        if program is not None:
+            files["report.py"] = "\n".join((*program.lines, "")).encode()
+        elif listing:
+            raise NotOfferedError(word("no_listing", assignment.language, kind=assignment.kind))
     put_files(Path(out) / assignment.id, files, "report")
     return [Path(out) / assignment.id / f"report.{name}" for name in formats]
 

@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
-from reportgen.assignment.fields import Angle, Date, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
+from reportgen.assignment.fields import Angle, Date, Flag, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.files import leads_out
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
@@ -58,8 +58,8 @@ class ReportSection(Part):
 
     `extent` says how much the report of a machine contains; an exercise has one extent, whatever is given.
     `school` names a folder of templates whose words stand before the common ones, `templates` one that lies beside the
-    file; `sheets` the size of the drawing
-    sheets that are handed in with the report.  The text is set in letters of a `font` in a `size`.
+    file; `sheets` the size of the drawing sheets that are handed in with the report, `listing` adds a program of the
+    closed formulas.  The text is set in letters of a `font` in a `size`.
     """
 
     language: Language = "vi"
@@ -78,6 +78,7 @@ class ReportSection(Part):
     date: Date | None = None
     worked_positions: Annotated[tuple[int | str, ...] | None, WorkedPositions()] = (2,)
     sheets: Literal["A0", "A1", "A2", "A3"] | None = None
+    listing: Annotated[bool, Flag()] = False
 
 
 class Positions(Part):
@@ -233,6 +234,10 @@ class Assignment:
     def with_extent(self, extent: Extent) -> Assignment:
         """The same, reported to another extent."""
         return replace(self, report=self.report.model_copy(update={"extent": extent}))
+
+    def with_listing(self) -> Assignment:
+        """The same, with the program of its closed formulas in the report."""
+        return replace(self, report=self.report.model_copy(update={"listing": True}))
 
 
 def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:

@@ -26,7 +26,7 @@ from reportgen.assignment.fields import (
 from reportgen.base.units import MM, Given
 from reportgen.cam import design
 from reportgen.cam.design import CamLimits, Least, NoCamError
-from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerMotion, MotionLaw, law
+from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerMotion, FollowerLaw, law
 from reportgen.cam.profile import Cam
 
 FIND = "find"
@@ -186,8 +186,8 @@ def table_of(given: AccelerationTable) -> AccelerationGraph:
     return AccelerationGraph(x, np.where(a < 0, a * above / below, a)) if below > 0 else AccelerationGraph(x, a)
 
 
-def law_of(given: str | AccelerationTable) -> MotionLaw:
-    return law(given) if isinstance(given, str) else MotionLaw("table", table_of(given))
+def law_of(given: str | AccelerationTable) -> FollowerLaw:
+    return law(given) if isinstance(given, str) else FollowerLaw("table", table_of(given))
 
 
 @lru_cache(maxsize=64)

@@ -174,7 +174,7 @@ LAWS = (*SMOOTH, "trapezoidal")
 
 
 @dataclass(frozen=True)
-class MotionLaw:
+class FollowerLaw:
     """A law by its name, or the table that it is; `pieces` follow one another from 0 to 1."""
 
     name: str
@@ -201,11 +201,11 @@ def evaluated(of: Formula, x: Floats) -> Floats:
     return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)
 
 
-def law(name: str) -> MotionLaw:
+def law(name: str) -> FollowerLaw:
     """A law of `LAWS`; raises `KeyError` for any other."""
     if name not in LAWS:
         raise KeyError(name)
-    return MotionLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
+    return FollowerLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
 
 
 # --- a turn ---------------------------------------------------------------------------------------
@@ -268,8 +268,8 @@ class FollowerMotion:
 
     stroke: float
     phases: tuple[float, float, float, float]
-    rise: MotionLaw
-    back: MotionLaw
+    rise: FollowerLaw
+    back: FollowerLaw
 
     @cached_property
     def starts(self) -> dict[str, float]:

@@ -12,7 +12,7 @@ from reportgen.base.units import MM
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.file import Judged, exceeded, judged
-from reportgen.cam.laws import MotionLaw, Piece
+from reportgen.cam.laws import FollowerLaw, Piece
 from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
@@ -278,7 +278,7 @@ class CamPage:
             for phase, law in (("rise", motion.rise), ("return", motion.back))
         )
 
-    def _formulas(self, phase: str, law: MotionLaw) -> Equation:
+    def _formulas(self, phase: str, law: FollowerLaw) -> Equation:
         """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
         ledger, names = self.case.printed, self.case.solution.moved
         rows: list[Expression] = []
@@ -302,7 +302,7 @@ class CamPage:
         low, high = (formula(Number(one), self.case.assignment.language) for one in (piece.start, piece.stop))
         return f"{low} ≤ x ≤ {high}"
 
-    def _nodes(self, phase: str, law: MotionLaw) -> tuple[Table, ...]:
+    def _nodes(self, phase: str, law: FollowerLaw) -> tuple[Table, ...]:
         """The graph of an acceleration, integrated twice at its nodes."""
         if law.table is None:
             return ()

@@ -45,6 +45,9 @@ def build(
     extent: Annotated[
         Literal["full", "short"] | None, typer.Option("--extent", help="Instead of the file's own.", show_default=False)
     ] = None,
+    listing: Annotated[
+        bool, typer.Option("--listing", help="Add a Python program of the closed formulas, also as report.py.")
+    ] = False,
     templates: TemplatesOption = None,
 ) -> None:
     """Write the complete report of each FILE. It goes to DIR/<id>/report.pdf, or as a page to report.html."""
@@ -55,7 +58,8 @@ def build(
     def work(file: Path) -> None:
         folder = out / file.stem
         refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
-        print(*api.build_each(file, out, engine, lang, keep_source, formats, extent=extent), sep="\n", flush=True)
+        made = api.build_each(file, out, engine, lang, keep_source, formats, extent=extent, listing=listing)
+        print(*made, sep="\n", flush=True)
 
     for_each(files, lang, work)
 

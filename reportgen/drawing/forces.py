@@ -148,6 +148,57 @@ def coriolis(sliding: Sliding) -> Scene:
     return finish(guide + ends + vectors + turning)
 
 
+# --- what the plans stand on ------------------------------------------------------------------------
+# Links of no machine, with motions that are easily seen.
+
+ARM = 44 * polar(math.radians(25))
+"""A point A of a link that turns about O (mm)."""
+NORMAL_SHARE, TANGENT_SHARE = 0.5, 0.3
+"""aⁿ and aᵗ of A as shares of OA: ε/ω² = 0.6."""
+TRIANGLE = {"B": 0j, "C": 42 + 6j, "E": 15 + 27j}
+"""Points of a link (mm)."""
+RATE = {"v": 0.9j, "a": 0.9 * (-1 + 0.6j)}
+"""What makes of a line on the link (mm) that on its plan: iω, and −ω² + iε with the same ε/ω²."""
+OF_B = {"v": 34 + 10j, "a": -20 - 12j}
+"""The velocity and the acceleration of B on paper (mm)."""
+
+
+def inclination() -> Scene:
+    """The normal and the tangential acceleration of a point A about O, and the angle α of their sum with AO."""
+    normal, tangent = -NORMAL_SHARE * ARM, 1j * TANGENT_SHARE * ARM
+    whole, inward = normal + tangent, cmath.phase(-ARM)
+    angle = cmath.phase(whole / normal)
+    arrows = (("n", normal, style.KNOWN), ("τ", tangent, style.KNOWN), ("", whole, style.ACTIVE))
+    items: list[Item] = [Line(0j, ARM, style.HEAVY), *style.pivot(0j), style.point(ARM)]
+    items += [Arrow(ARM, ARM + vector, pen, style.HEAD) for _, vector, pen in arrows]
+    items += [Line(ARM + part, ARM + whole, style.CONSTRUCTION) for part in (normal, tangent)]
+    items.append(Arc(ARM, QUARTER / 2, inward, inward + angle, style.DIMENSION, style.DIMENSION_HEAD))
+    names = [label(ARM + vector, Symbol("a", "A", part, "vector")) for part, vector, _ in arrows]
+    names.append(label(ARM + QUARTER / 2 * polar(inward + angle / 2), Symbol("α"), size=style.SMALL))
+    names += [label(0j, Symbol("O"), gap=style.JOINT + 0.4), label(ARM, Symbol("A"), gap=1.0)]
+    turning = draw_couples((Couple(Symbol("ω, ε"), 0j, 1.0),))
+    return finish(Canvas(tuple(items), tuple(names)) + turning)
+
+
+def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
+    """A link with its points B, C, E, and its plan: of velocities, with the lines that meet in e, or accelerations."""
+    places = {name: OF_B[what] + RATE[what] * place for name, place in TRIANGLE.items()}
+    link = (*style.body(tuple(TRIANGLE.values())), *(style.point(place) for place in TRIANGLE.values()))
+    named = tuple(label(place, Symbol(name), gap=1.0) for name, place in TRIANGLE.items())
+    prime, pole = ("", Symbol("p")) if what == "v" else ("′", Symbol("π"))
+    shown = ("B", "C") if what == "v" else tuple(TRIANGLE)
+    plan: list[Item] = [Arrow(0j, places[name], style.KNOWN, style.HEAD) for name in shown]
+    sides = tuple(combinations(places, 2))
+    plan += [Line(places[one], places[other], style.RELATIVE) for one, other in sides]
+    if what == "v":
+        plan.append(Arrow(0j, places["E"], style.FOUND, style.HEAD))
+        plan += [
+            Line(places[one], places["E"] + 6 * unit(places["E"] - places[one]), style.CONSTRUCTION) for one in "BC"
+        ]
+    letters = [label(place, Symbol(name.lower(), "", prime), gap=0.8) for name, place in places.items()]
+    return finish(Canvas(link, named)), finish(Canvas(tuple(plan), (*letters, label(0j, pole, gap=0.8))))
+
+
 # --- arrows and arcs ------------------------------------------------------------------------------
 
 

@@ -30,6 +30,10 @@ VELOCITY, ANGLE = 20.0, 11.0
 """Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
 LEAST_ANGLE = 0.03
 """A smaller angle (radians) has no arc that can be seen."""
+ARC_OVER = 9.0
+"""How far (mm) an arc through a point goes on to either side."""
+BEYOND_BOTH = 0.7
+"""Where on the way to the nearer end the arc of a small angle is drawn."""
 BEYOND = 3.0
 """How far (mm) a normal goes on beyond the centre."""
 
@@ -182,6 +186,47 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
                 items.append(Arc(at, ANGLE, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
             middle = at + ANGLE * polar(start + turn / 2)
             requests.append(label(middle, angle, prefer=(start + turn / 2,), size=style.SMALL))
+    return Canvas(tuple(items), tuple(requests))
+
+
+@dataclass(frozen=True, slots=True)
+class SwingMarks:
+    """How both ends of a pin's way are found: the crank's `centre`, the rocker's `pivot`, the pin's `ends` (m).
+
+    Angles with their names are those between the lines to the ends; `seen_from` is the centre of a circle through
+    the ends and the crank's centre, with its name, where it is constructed.
+    """
+
+    centre: complex
+    pivot: complex
+    ends: tuple[complex, complex]
+    angles: tuple[Content, Content]
+    circle: tuple[complex, Content] | None = None
+
+
+def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
+    """Arcs of the radii to both ends about the crank's centre, the lines to them and the angles between these."""
+    centre, pivot = marks.centre * scale, marks.pivot * scale
+    ends = [end * scale for end in marks.ends]
+    items: list[Item] = []
+    requests: list[Request] = []
+    for end in ends:
+        middle, radius = cmath.phase(end - centre), abs(end - centre)
+        half = ARC_OVER / radius
+        items += [Line(centre, end, style.CONSTRUCTION), Arc(centre, radius, middle - half, middle + half, style.THIN)]
+    for at, radius, name in zip(
+        (centre, pivot), (abs(ends[1] - centre) * BEYOND_BOTH, ANGLE), marks.angles, strict=True
+    ):
+        start, turn = cmath.phase(ends[0] - at), cmath.phase((ends[1] - at) / (ends[0] - at))
+        items.append(Arc(at, radius, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
+        middle = start + turn / 2
+        requests.append(label(at + radius * polar(middle), name, prefer=(middle,), size=style.SMALL))
+    if marks.circle is not None:
+        at, radius = marks.circle[0] * scale, abs(ends[0] - marks.circle[0] * scale)
+        turns = sorted(cmath.phase((one - at) / (ends[0] - at)) for one in (*ends, centre))
+        start, over = cmath.phase(ends[0] - at), ARC_OVER / radius
+        items.append(Arc(at, radius, start + turns[0] - over, start + turns[-1] + over, style.NORMAL))
+        requests.append(label(at + radius * polar(start + turns[0] - over), marks.circle[1], size=style.SMALL))
     return Canvas(tuple(items), tuple(requests))
 
 

@@ -16,14 +16,25 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
-from reportgen.drawing.forces import Sliding
+from reportgen.drawing.forces import Sliding, link_and_plan
 from reportgen.drawing.forces import coriolis as coriolis_figure
+from reportgen.drawing.forces import inclination as inclination_figure
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.labels import Canvas
-from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
+from reportgen.drawing.positions import (
+    DrawnCentre,
+    PlaneMotion,
+    PositionPlan,
+    SwingMarks,
+    centre_plan,
+    position_plan,
+    swing_marks,
+)
 from reportgen.drawing.scheme import Looks
 from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
+from reportgen.formula.constructions import circle_circle
+from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.flywheel import SAME_ANGLE
 from reportgen.machine.gas import StrokeIndicator
@@ -210,6 +221,36 @@ def extremes(report: Report) -> FigureScenes:
     return on_paper(_position_plan(report, motion, shows, factor=_reduction(report)))
 
 
+def swing(report: Report) -> FigureScenes:
+    """Both extreme positions of the rocker of the first group, with the arcs by which they are found."""
+    machine, ledger = report.machine, report.ledger
+    linkage, first = machine.linkage, machine.linkage.dyads[0]
+    assert isinstance(linkage.driver, Crank)
+    assert isinstance(first.end, str)
+    centre, pivot = (linkage.ground[name] for name in (linkage.driver.centre, first.end))
+    crank, (coupler, rocker) = linkage.driver.length, first.lengths
+    ends = (
+        complex(circle_circle(centre, coupler + crank, pivot, rocker, first.sign)),
+        complex(circle_circle(centre, coupler - crank, pivot, rocker, first.sign)),
+    )
+    # Folded over the coupler the crank points away from the end.
+    angles = np.angle([ends[0] - centre, centre - ends[1]])
+    circle = None
+    if "rho" in ledger:
+        bisector = sum((end - pivot) / abs(end - pivot) for end in ends)
+        at = pivot + float(ledger["l.DO"].values[0]) * bisector / abs(bisector)
+        circle = at, Symbol("ρ")
+    marks = SwingMarks(centre, pivot, ends, (ledger.symbol("theta"), ledger.symbol("swing")), circle)
+    scale = drawing_scale(report)
+    points = tuple(point for point in linkage.points if point.link in (DRIVER, *first.links))
+    four_bar = replace(linkage, dyads=(first,), points=points)
+    motion = solve_motion(four_bar, angles, machine.turn * machine.speed)
+    dense = _motion(machine, np.linspace(0.0, FULL_TURN, DENSE))
+    shows = PositionPlan((linkage.driver.pin, first.middle), (first.middle,), labels=("1", "2"))
+    notes = looks(report, scale).notes
+    return on_paper(position_plan(four_bar, motion, dense, scale, shows, notes, beside=swing_marks(marks, scale)))
+
+
 def _position_plan(
     report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None, factor: float = 1.0
 ) -> Scene:
@@ -312,6 +353,21 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> FigureScen
         (ledger.symbol(side.omega), float(np.sign(omega))),
     )
     return FigureScenes((coriolis_figure(sliding),))
+
+
+def inclination(report: Report) -> FigureScenes:
+    """The angle of an acceleration with the line to the centre."""
+    return FigureScenes((inclination_figure(),))
+
+
+def two_equations(report: Report) -> FigureScenes:
+    """A link and the velocities of its points."""
+    return FigureScenes(link_and_plan("v"))
+
+
+def similarity(report: Report) -> FigureScenes:
+    """A link and the accelerations of its points."""
+    return FigureScenes(link_and_plan("a"))
 
 
 # --- instant centres of velocity ------------------------------------------------------------------

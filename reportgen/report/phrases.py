@@ -19,8 +19,8 @@ from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.prose import NamedPoint
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import NamedPoint, lower_digits
+from reportgen.report.report import Report
 
 if TYPE_CHECKING:
     from reportgen.catalogue.linkage import GroupRow

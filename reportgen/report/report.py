@@ -27,7 +27,7 @@ from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
 from reportgen.report.case import Calculation
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
-from reportgen.report.prose import Prose
+from reportgen.report.prose import Prose, lower_digits
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
@@ -41,7 +41,11 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "short": frozenset(
         (
             # sections of the outline
-            *("overview", "foreword", "symbols", "summary", "centres", "diagrams", "course", "checks"),
+            *("overview", "foreword", "symbols", "summary", "centres", "diagrams", "course", "functions", "checks"),
+            # extreme positions that nothing else stands on
+            *("rocker-extremes", "slider-extremes"),
+            # what the plans stand on
+            *("theory-two-equations", "theory-inclination", "theory-similarity"),
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
@@ -150,12 +154,12 @@ class Report:
 
     def _outline(self) -> Iterator[str]:
         """The machine's outline, the section on instant centres behind the velocities if any link has one."""
-        outline = self.machine.outline
-        last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
-        for index, section in enumerate(outline):
+        for section in self.machine.outline:
             yield section
-            if self.plane_links and index == last:
+            if self.plane_links and section == "velocity":
                 yield "centres"
+        if self.assignment.report.listing:
+            yield "listing"
 
     @property
     def extent_words(self) -> str:
@@ -482,8 +486,3 @@ class Report:
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)
-
-
-def lower_digits(text: str) -> str:
-    """Digits of point names as lowered digits: O1A → O₁A."""
-    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

@@ -120,7 +120,7 @@ def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
     ledger = report.ledger
     for row in report.own["summary"]:
-        yield [Chain((ledger.symbol(id), ledger.number(id, k))) for id in row]
+        yield [Chain((ledger.symbol(id), ledger.number(id, k))) if id else "" for id in row]
 
 
 def velocity_segments(report: Report) -> list[str]:

@@ -27,7 +27,8 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import lower_digits
+from reportgen.report.report import Report
 
 WIDEST_COLUMN = 26.0
 MOST_COLUMNS = 9

@@ -183,6 +183,8 @@ class _Writer:
                 return self.contents(title, brief)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
+            case tree.Listing(lines):
+                return "\n".join((r"\begingroup\scriptsize\begin{verbatim}", *lines, r"\end{verbatim}\endgroup"))
             case tree.PageBreak():
                 return r"\clearpage"
 

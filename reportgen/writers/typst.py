@@ -229,6 +229,8 @@ class _Blocks:
                 return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
+            case tree.Listing(lines):
+                return f"#listing({literal(chr(10).join(lines))})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
 

@@ -228,6 +228,12 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
     ],
     "lever-six-bar": [
         ("no fixed point", {"  D: {x: -10 mm, y: -106 mm}\n": ""}, "3:1 missing-key"),
+        ("a coupler and a swing", {"AB: 34 mm": "swing: {angle: 60 deg, K: 1.05}"}, "5:3 both-given"),
+        (
+            "a swing that no links give",
+            {"AB: 34 mm": "swing: {angle: 100 deg, K: 2.5}", "  AC: 90 mm\n": ""},
+            "4:10 no-such-swing",
+        ),
         ("E beyond A", {"CE: 30 mm": "CE: 95 mm"}, "7:7 out-of-range"),
         ("side of no name", {"CE: 30 mm": "…\n  F: above"}, "8:6 choice"),
         ("flywheel, no loads", {"CE: 30 mm": "…\n  flywheel: {delta: 0.1}"}, "8:3 flywheel-without-loads"),
@@ -447,6 +453,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("method of no name", {"find: [v.A": "methods: [guessing]\n  …"}, "17:13 choice"),
         ("method named twice", {"find: [v.A": "methods: [projection, projection]\n  …"}, "17:25 method-repeated"),
         ("no moving frame", {"find: [v.A": "methods: [moving frame]\n  …"}, "17:13 no-moving-frame"),
+        ("no equations", {"find: [v.A": "methods: [equations]\n  …"}, "17:13 no-equations"),
         (
             "circles apart",
             {

@@ -20,6 +20,10 @@ DIRECTION, TOLD = 0.5, 3.0
 """A direction (°) of a vector that is so long on paper (mm) at least."""
 ANGLE = 0.01
 """An angle (°): half a unit of the last digit of each of the two that it is the difference of, whatever its size."""
+FORMULAS = "f."
+"""What ids of closed formulas begin with."""
+LAST_DIGIT = 0.005
+"""Half a unit of the last digit of an angle (°), which a closed formula takes as it is printed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +38,7 @@ class Off:
 
 def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
     """Every printed quantity that is no given data; a residue and the arm of a load that is nothing are left out."""
-    longest = _longest(unrounded)
+    longest, by_angles = _longest(unrounded), _by_angles(unrounded)
     for id, family in unrounded.families.items():
         if family.hidden or family.is_plane or family.definition is None or family.residue:
             continue
@@ -53,6 +57,8 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
             # The mean of positions is that of torques as they are printed.
             whole = unrounded["M.eq"] if id == "M.mean.positions" else family
             allowed = np.maximum(SHARE * largest(whole), _measured(unrounded, family))
+            if id.startswith(FORMULAS):
+                allowed = allowed + by_angles[id]
             if family.kind == "angle":
                 allowed = np.maximum(allowed, np.radians(ANGLE))
             what, told = "computed", np.isfinite(family.values)
@@ -73,6 +79,19 @@ def _measured(ledger: Ledger, family: Family) -> np.ndarray:
         case Product((Ref(scale), Ref(length))) if ledger[length].kind == "segment":
             return ledger[scale].values * ON_PAPER * 1e-3
     return np.zeros(1)
+
+
+def _by_angles(ledger: Ledger) -> dict[str, np.ndarray]:
+    """What closed formulas may be off besides for the angles that they stand on, each half a unit of its last digit off."""
+    half = np.radians(LAST_DIGIT)
+    off: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(1))
+    for angle, family in ledger.families.items():
+        if angle.startswith(FORMULAS) and family.kind == "angle" and family.how.unit == "°":
+            moved = ledger.evaluate({angle: family.values + half})
+            for id, values in moved.items():
+                if id.startswith(FORMULAS):
+                    off[id] = off[id] + np.nan_to_num(np.abs(values - ledger[id].values))
+    return off
 
 
 def largest(family: Family) -> float:

@@ -75,7 +75,7 @@ def test_a_short_report_of_other_kinds() -> None:
     end = ["conclusion", "references"]
     forces = ["working", "loads", "groups", "crank"]
     assert Report(case("shaper-02", "short")).sections == [
-        *beginning, "synthesis", *kinematics, "diagrams", *forces, *end,
+        *beginning, "synthesis", *kinematics, "diagrams", "functions", *forces, *end,
     ]  # fmt: skip
     assert Report(case("toggle-press-01", "short")).sections == [
         *beginning, "dimensions", *kinematics, *forces, "flywheel", *end,

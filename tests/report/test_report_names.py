@@ -61,6 +61,7 @@ def test_every_field_that_takes_a_text_is_tried() -> None:
         "date",
         "worked_positions",
         "sheets",
+        "listing",
     }
     assert set(ReportSection.model_fields) - others == set(FIELDS)
 
