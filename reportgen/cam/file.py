@@ -26,7 +26,7 @@ from reportgen.assignment.fields import (
 from reportgen.base.units import MM, Given
 from reportgen.cam import design
 from reportgen.cam.design import CamLimits, Least, NoCamError
-from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerMotion, FollowerLaw, law
+from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerLaw, FollowerMotion, law
 from reportgen.cam.profile import Cam
 
 FIND = "find"

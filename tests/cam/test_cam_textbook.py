@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen.cam.design import CamLimits, least_oscillating, least_translating
-from reportgen.cam.laws import LAWS, AccelerationGraph, FollowerMotion, FollowerLaw, evaluated, law
+from reportgen.cam.laws import LAWS, AccelerationGraph, FollowerLaw, FollowerMotion, evaluated, law
 from reportgen.cam.profile import Cam
 
 MM = 1e-3
