@@ -28,8 +28,10 @@ CAPTION = ". Velocity plan at"
 SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
 """A part of the text of the page of the Word file."""
 
-SHOWN = ROOT / "assignments" / "plane-motion" / "17.yaml"
-"""The exercise that the README shows."""
+SHOWN = {
+    name: ROOT / "assignments" / name / file for name, file in (("plane-motion", "17.yaml"), ("cam", "roller-01.yaml"))
+}
+"""What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
 MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
@@ -44,6 +46,8 @@ MARGIN = 72.0
 
 AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
+BELOW = {"cam": 8.0}
+"""More room below what has labels there (pt)."""
 
 
 def document(file: Path) -> Document:
@@ -61,8 +65,8 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity")
-"""The figure that shows a machine, or the system of an exercise."""
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion")
+"""The figure that shows a machine, the system of an exercise, or a cam."""
 
 
 def scheme_alone(report: Document) -> Document:
@@ -148,9 +152,9 @@ def main() -> None:
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
     for kind in kinds():
-        file = next(iter(sorted(SAMPLE.parent.glob(f"{kind}-*.yaml"))), SHOWN)
+        file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]
-        save(page, kind, SCHEME_DPI, drawn(page))
+        save(page, kind, SCHEME_DPI, drawn(page) + pymupdf.Rect(0, 0, 0, BELOW.get(kind, 0.0)))
 
 
 if __name__ == "__main__":

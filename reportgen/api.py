@@ -54,7 +54,7 @@ def solve(assignment: Assignment, positions: int | None = None, printed: bool = 
     """
     from reportgen.marking.results import printed_values
 
-    if positions is not None and not catalogue.kind(assignment.kind).has_positions:
+    if positions is not None and not catalogue.kind(assignment.kind).counts_positions:
         raise NotOfferedError(word("no_positions", assignment.language, kind=assignment.kind))
     chosen = assignment if positions is None else assignment.with_positions(positions)
     case = opened(chosen)
@@ -77,7 +77,7 @@ def result_files(
     from reportgen.marking.results import result_file
 
     assignment = load(path, language)
-    wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).has_positions else None)
+    wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).counts_positions else None)
     found = solve(assignment, wanted)
     return {f"results.{name}": result_file(found, name) for name in formats}
 

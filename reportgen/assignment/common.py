@@ -21,6 +21,8 @@ from reportgen.base.files import leads_out
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
 from reportgen.base.words import is_school, named_school, school_files
 
+POSITIONS = "positions"
+"""The section, or the parameter, that says how many positions a turn has."""
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
 Extent = Literal["full", "short"]
@@ -151,6 +153,11 @@ class Kind:
     indicator_optional: bool = False
     has_positions: bool = True
 
+    @property
+    def counts_positions(self) -> bool:
+        """Whether a turn may have another number of positions, told in a section or among the parameters."""
+        return self.has_positions or POSITIONS in self.parameters.model_fields
+
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
@@ -212,6 +219,8 @@ class Assignment:
         """
         if not FEWEST_POSITIONS <= count <= MOST_POSITIONS:
             raise ValueError(f"{count} positions")
+        if POSITIONS in type(self.parameters).model_fields:
+            return replace(self, parameters=self.parameters.model_copy(update={POSITIONS: count}))
         counted = replace(self, positions=self.positions.model_copy(update={"count": count}))
         worked = self.report.worked_positions
         labels = counted.labels

@@ -71,10 +71,13 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Polyline:
+    """Straight lines through points; of a `smooth` curve they are so fine that CAD programs get its spline as well."""
+
     points: tuple[complex, ...]
     stroke: Pen | None = Pen()
     closed: bool = False
     fill: str | None = None
+    smooth: bool = False
 
 
 @dataclass(frozen=True, slots=True)

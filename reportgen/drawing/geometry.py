@@ -163,6 +163,34 @@ def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[
     return (start + enter * d, start + leave * d) if enter < leave else None
 
 
+@dataclass(frozen=True, slots=True)
+class HalfPlane:
+    """What lies on the side of `inward` of a line through `at`."""
+
+    at: complex
+    inward: complex
+
+    def depth(self, point: complex) -> float:
+        return ((point - self.at) * self.inward.conjugate()).real
+
+
+def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
+    """What of a convex polygon lies in all half-planes."""
+    corners = list(box)
+    for plane in planes:
+        kept: list[complex] = []
+        for one, other in zip(corners, [*corners[1:], *corners[:1]], strict=True):
+            here, there = plane.depth(one), plane.depth(other)
+            if here >= 0:
+                kept.append(one)
+            if here * there < 0:
+                kept.append(one + (other - one) * here / (here - there))
+        corners = kept
+        if not corners:
+            break
+    return corners
+
+
 def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
     """Parts of a figure grouped, in order, so that those with places `at` within `reach` mm share a group."""
     parts = list(parts)

@@ -262,6 +262,11 @@ def atan2(across: Operand, along: Operand) -> Call:
     return call("arctan2", across, along)
 
 
+def branch(number: Operand, *branches: Operand) -> Call:
+    """What is worked out otherwise at each position: the branch of its number, from 0; its line prints that one."""
+    return call("branch", number, *branches)
+
+
 # --- sums and products without what is nothing ------------------------------------------------------
 
 NOTHING, ONE, MINUS_ONE = map(Number, (0.0, 1.0, -1.0))

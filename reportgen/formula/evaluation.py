@@ -47,6 +47,12 @@ def within(value: Value, least: Value, most: Value) -> Value:
     return np.where((value >= least) & (value <= most), value, np.nan)
 
 
+def branch(number: Value, *branches: Value) -> Value:
+    """At each position the branch of its number, from 0; numbers [N], branches with any axes in front of theirs."""
+    number, *shaped = np.broadcast_arrays(number, *branches)
+    return np.select([number == index for index in range(len(shaped))], shaped, np.nan)
+
+
 EDGE = 1e-9
 """An angle (rad) or a share this little below an edge belongs to what begins there."""
 
@@ -117,6 +123,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "quotient": quotient,
     "if_zero": if_zero,
     "within": within,
+    "branch": branch,
     "around": around,
     "amid": amid,
 }

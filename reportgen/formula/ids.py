@@ -247,6 +247,20 @@ lone_moment = Name("M.{force}.lone.p")
 balance = Name("M.{method}")
 figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torque
 
+# --- cams
+
+cam_phase = Name("cam.phase.{phase}")
+cam_arc = Name("cam.arc.{phase}")
+cam_limit = Name("cam.limit.{phase}")
+cam_touch = Name("cam.touch.{phase}.{quantity}")  # where a limit line touches
+cam_intercept = Name("cam.c.{phase}")
+cam_node = Name("cam.node.{phase}.{number}.{quantity}")  # of an acceleration given as a graph
+cam_diagram = Name("cam.diagram.{quantity}")  # the length of the turn, the distances of poles
+cam_scale = Name("cam.mu.{quantity}")
+cam_bend = Name("cam.m.{number}")
+cam_pitch = Name("cam.pitch.{axis}")
+cam_profile = Name("cam.profile.{axis}")
+
 # --- a word before the id of another quantity
 
 formula = Name("f.{id}")  # the same by a closed formula

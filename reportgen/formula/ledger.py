@@ -176,7 +176,7 @@ class Ledger:
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
     def _signs_out(self, node: Expression, position: int | None) -> Expression:
-        """The definition as it stands at one position: signs of arms before their terms, nothings left out."""
+        """The definition at one position: its branch, signs of arms before their terms, nothings left out."""
         match node:
             case Sum(terms):
                 kept = [self._signs_out(term, position) for term in terms if not self._is_nothing(term, position)]
@@ -197,6 +197,8 @@ class Ledger:
                 )
                 product = Product(tuple(self._signs_out(factor, position) for factor in factors))
                 return Negative(product) if minus % 2 else product
+            case Call("branch", (Ref(id), *branches)):
+                return self._signs_out(branches[int(self.families[id].at(position))], position)
             case _:
                 return rebuild(node, lambda child: self._signs_out(child, position))
 

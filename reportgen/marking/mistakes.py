@@ -83,6 +83,8 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
+    for name, other in scheme.pitfalls.changed.get(id, ()):
+        yield name, _with(other, {})
     if family.definition is not None:
         yield from _in_a_definition(scheme, family, family.definition, scales)
     for name, reading in scheme.pitfalls.readings.get(id, ()):

@@ -193,7 +193,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
         if position is None:
             continue
         lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
-        points, links = position["points"], position["links"]
+        points, links = position.get("points", {}), position.get("links", {})
         rows: dict[str, Row] = {
             "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
             "accelerations": {f"a {name}": _size(point["a"]) for name, point in points.items()},
@@ -206,11 +206,23 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
             "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
             "torque": dict(position.get("balancing_torque", {})),
             "force": dict(position.get("balancing_force", {})),
+            "follower": {name: value * MM for name, value in position.get("follower", {}).items()},
+            "swing": dict(position.get("swing", {})),
+            "profile": _profile(position),
         }
         for name, row in rows.items():
             if row:
                 found[name].append(lead | row)
     return {name: _without_zeros(rows) for name, rows in found.items()}
+
+
+def _profile(position: Mapping[str, Any]) -> Row:
+    """The profile of a cam at a position: its pressure angle in degrees, its curvature and its points in mm."""
+    if "profile" not in position:
+        return {}
+    radius, (x, y) = position["curvature_radius"], position["profile"]
+    lengths = {"ρ": None if radius is None else radius * MM, "x": x * MM, "y": y * MM}
+    return {"α": math.degrees(position["pressure_angle"]), **lengths}
 
 
 def _driver(position: Mapping[str, Any]) -> Row:

@@ -22,12 +22,12 @@ from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
-from reportgen.formula import Symbol
+from reportgen.formula import Expression, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report import Document
+from reportgen.report import Cover, Document
 
 if TYPE_CHECKING:
     import numpy as np
@@ -47,13 +47,15 @@ class Pitfalls:
 
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
     are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
-    mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.
+    mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
+    for a quantity other definitions that are often used, with the mistake's name.
     """
 
     applied: frozenset[str] = frozenset()
     loads: tuple[str, ...] = ()
     readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
     whole: Mapping[str, str] = field(default_factory=dict)
+    changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
 
 
 class Case(Protocol):
@@ -180,6 +182,43 @@ class Opened:
         names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
         given = self.assignment.report.course
         return given if given and given not in names else standard
+
+    @property
+    def place_and_date(self) -> str:
+        """As they stand on the cover; what is not given is dotted."""
+        labels, report = self.words["cover"], self.assignment.report
+        place, day = report.place or "……………………", report.date
+        if day is None:
+            return str(labels["no_date"]).format(place=place)
+        months = labels.get("months")
+        return str(labels["date"]).format(
+            place=place,
+            day=day.day,
+            month=day.month,
+            year=day.year,
+            month_name=months[day.month - 1] if months else day.month,
+        )
+
+    @property
+    def cover(self) -> Cover:
+        """The title page; a field without a value is a dotted line to fill in."""
+        given, labels = self.assignment.report, self.words["cover"]
+        student, variant = given.student, self.assignment.variant
+        fields: tuple[tuple[Any, str | None], ...] = (
+            (labels["student"], student.name),
+            (labels["id"], student.id),
+            (labels["class"], student.class_),
+            (labels["section"], student.section),
+            (labels["email"], student.email),
+            (labels["supervisor"], given.supervisor),
+        )
+        return Cover(
+            tuple(part for part in (given.university, given.faculty, given.department) if part),
+            (labels["title"], self.course),
+            (*((f"{labels['variant']}: {variant}",) if variant else ()), f"{labels['machine']}: {self.title}"),
+            tuple((label, value or "") for label, value in fields),
+            self.place_and_date,
+        )
 
     @property
     def title(self) -> str:

@@ -16,7 +16,6 @@ from reportgen.machine.analysis import Position
 from reportgen.report import (
     Block,
     Contents,
-    Cover,
     Document,
     Figure,
     InlineMath,
@@ -432,7 +431,7 @@ def compose(case: Calculation) -> Document:
     """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
     report = Report(case)
     words, named = report.words, names(report)
-    blocks: list[Block] = [_cover(report)]
+    blocks: list[Block] = [case.cover]
     for section in report.sections:
         if section == "contents":
             blocks += [PageBreak(), Contents(words["document"]["contents"], not report.parts("contents-page"))]
@@ -457,27 +456,3 @@ def _plate_is_last(report: Report, plate: Plate) -> Paragraph:
     """Says where a plate stands."""
     paper = PAPERS.get(min(plate.paper), "")
     return Paragraph(phrases.say(report, report.words["plate"], figure=(Reference(plate.key),), paper=paper))
-
-
-def _cover(report: Report) -> Cover:
-    """The title page; a field without a value is a dotted line to fill in."""
-    given, labels = report.assignment.report, report.words["cover"]
-    student = given.student
-    fields: tuple[tuple[Any, str | None], ...] = (
-        (labels["student"], student.name),
-        (labels["id"], student.id),
-        (labels["class"], student.class_),
-        (labels["section"], student.section),
-        (labels["email"], student.email),
-        (labels["supervisor"], given.supervisor),
-    )
-    return Cover(
-        tuple(part for part in (given.university, given.faculty, given.department) if part),
-        (labels["title"], report.case.course),
-        (
-            *((f"{labels['variant']}: {report.variant}",) if report.variant else ()),
-            f"{labels['machine']}: {report.case.title}",
-        ),
-        tuple((label, value or "") for label, value in fields),
-        report.place_and_date,
-    )

@@ -189,18 +189,7 @@ class Report:
 
     @property
     def place_and_date(self) -> str:
-        labels, report = self.words["cover"], self.assignment.report
-        place, day = report.place or "……………………", report.date
-        if day is None:
-            return str(labels["no_date"]).format(place=place)
-        months = labels.get("months")
-        return str(labels["date"]).format(
-            place=place,
-            day=day.day,
-            month=day.month,
-            year=day.year,
-            month_name=months[day.month - 1] if months else day.month,
-        )
+        return self.case.place_and_date
 
     # --- positions
 

@@ -12,6 +12,7 @@ import math
 import re
 from collections import OrderedDict
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.units import Language
@@ -35,6 +36,8 @@ LAYERS: dict[str, int] = {
     "indicator": 6,
     "curves": 4,
     "tables": 7,
+    "profile": 1,
+    "spline": 5,
     "axes": 8,
     "hidden": 9,
     "text": 7,
@@ -69,6 +72,10 @@ ORDERS = frozenset("%^\\")
 """Signs that begin an order in a line of text."""
 SHADE = 254
 """The colour index of a link's inside, a light gray."""
+CORNER = 0.1
+"""A curve that turns by more (rad) from one of its fine chords to the next has a corner."""
+FITTED = 360
+"""A spline has about so many points of its curve."""
 STACK = 0.7
 """Size of indices beside the letters they belong to."""
 _PAIR = re.compile("%(?=%)")
@@ -160,7 +167,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
                 tip = centre + cmath.rect(radius, stop)
                 tangent = 1j * cmath.rect(math.copysign(1.0, stop - start), stop)
                 yield from head(tip - 4 * length * tangent, tip, length)
-        case Polyline(points, outline, closed, fill):
+        case Polyline(points, outline, closed, fill, smooth):
             if fill is not None and fill != PAPER and len(points) > 2:
                 hatch = model.add_hatch(color=SHADE, dxfattribs={"layer": part.layer})
                 hatch.paths.add_polyline_path(list(map(at, points)), is_closed=True)
@@ -168,6 +175,8 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
             if outline is not None and points:
                 corners = list(map(at, points))
                 yield model.add_lwpolyline(corners, close=closed, dxfattribs=_pen(part.layer, outline))
+            if smooth:
+                yield from (_spline(model, list(map(at, piece))) for piece in _smooth(points, closed))
         case Hatch(points, spacing, stroke, turn):
             for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
@@ -181,6 +190,25 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
             else:
                 attributes = {**letters, "char_height": height, "attachment_point": ATTACHMENT[anchor]}
                 yield model.add_mtext(texts.content(content), dxfattribs=attributes)
+
+
+def _smooth(points: tuple[complex, ...], closed: bool) -> list[list[complex]]:
+    """The pieces of a curve between its corners, each by no more points than a spline needs."""
+    found = [*points, points[0]] if closed else list(points)
+    sides = [cmath.phase(after - before) for before, after in pairwise(found)]
+    turned = [abs(math.remainder(other - one, 2 * math.pi)) for one, other in pairwise(sides)]
+    corners = [0, *(place for place, angle in enumerate(turned, start=1) if angle > CORNER), len(found) - 1]
+    pieces = [found[first : last + 1] for first, last in pairwise(corners)]
+    return [[*piece[: -1 : max(len(piece) // FITTED, 1)], piece[-1]] for piece in pieces]
+
+
+def _spline(model: Any, points: list[tuple[float, float]]) -> Any:
+    """The cubic B-spline through points, on a layer of its own."""
+    from ezdxf.math import global_bspline_interpolation
+
+    degree = min(3, len(points) - 1)
+    curve = global_bspline_interpolation([(x, y, 0.0) for x, y in points], degree=degree)
+    return model.add_spline(dxfattribs={"layer": "spline"}).apply_construction_tool(curve)
 
 
 def _arrowhead(document: Drawing) -> str:

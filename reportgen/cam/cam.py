@@ -1,0 +1,186 @@
+"""The kind `cam`: which cams cannot be, and what of one is hardly meant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reportgen.assignment.common import Draft, of_parameters
+from reportgen.base.errors import Finding
+from reportgen.base.units import MM
+from reportgen.cam import file
+from reportgen.cam.design import NoCamError
+from reportgen.cam.file import PerPhase, designed, exceeded, positions_of
+from reportgen.cam.laws import PHASES, AccelerationGraph
+
+if TYPE_CHECKING:
+    from reportgen.assignment import Assignment
+    from reportgen.cam.case import CamCase
+
+Parameters = file.Parameters
+TURNS = 1
+HAS_POSITIONS = False
+TOP = ("parameters",)
+SAME_AREA = 0.01
+"""The areas of an acceleration table above and below its axis may differ by this share."""
+SUM = 1e-6
+"""What phases may miss a whole turn by (degrees)."""
+
+
+def case(assignment: Assignment) -> CamCase:
+    """The case of an assignment."""
+    from reportgen.cam.case import CamCase
+
+    return CamCase(assignment)
+
+
+# --- what cannot be -------------------------------------------------------------------------------
+
+NEEDED = {"translating": ("h",), "oscillating": ("psi_max", "a")}
+IDLE = {"translating": ("psi_max", "arm", "a", "lifts"), "oscillating": ("h", "e")}
+
+
+def _keys(given: Parameters) -> Iterator[Finding]:
+    """Every length that such a follower has is given, and no other."""
+    told = given.model_fields_set
+    needed, idle = list(NEEDED[given.follower]), list(IDLE[given.follower])
+    if given.end != "roller":
+        idle.append("roller")
+    if given.end == "flat":
+        idle += ["e", "arm", "limits"]
+    elif not given.translating:
+        needed.append("arm")
+    for key in needed:
+        if key not in told:
+            yield Finding("missing-key", (*TOP, key), {"key": key})
+    for key in idle:
+        if key in told:
+            yield Finding("cam-idle-key", (*TOP, key), {"key": key, "of": f"{given.follower}, {given.end}"}, at="key")
+    sought = [key for key in ("r0", "e", "a") if given.seeks(key)]
+    if sought and given.end != "flat" and given.limits is None:
+        yield Finding("missing-key", (*TOP, "limits"), {"key": "limits"})
+    if sought and sought != ["r0"] and "r0" not in sought:
+        yield Finding("cam-find-r0", (*TOP, sought[0]), {"key": sought[0]})
+
+
+def _phases(given: Parameters) -> Iterator[Finding]:
+    first, far, back, near = given.phase_degrees
+    total = first + far + back + near
+    if near < -SUM or (given.phases.near is not None and abs(total - 360) > SUM):
+        told = first + far + back + max(near, 0.0)
+        yield Finding("cam-phases", (*TOP, "phases"), {"sum": f"{told:g}", "off": f"{360 - told:+g}"})
+    parts = dict(zip(PHASES, (first, far, back, near), strict=True))
+    if isinstance(given.positions, PerPhase):
+        for key, _ in given.positions.counts:
+            if parts[key] <= 0:
+                yield Finding("cam-no-phase", (*TOP, "positions", key), {"key": key})
+
+
+def _tables(given: Parameters) -> Iterator[Finding]:
+    """An acceleration given as a graph begins at 0, ends at 1, and brings the follower to rest."""
+    for key, one in (("rise", given.laws.rise), ("return", given.laws.return_)):
+        if isinstance(one, str):
+            continue
+        where = (*TOP, "laws", key)
+        if len(one.x) != len(one.a):
+            counts = {"key": "a", "given": str(len(one.a)), "other": "x", "wanted": str(len(one.x))}
+            yield Finding("row-length", (*where, "a"), counts)
+        elif one.x[0] != 0 or one.x[-1] != 1:
+            at = 0 if one.x[0] != 0 else len(one.x) - 1
+            yield Finding("table-end", (*where, "x", at), {"key": "x", "end": "0" if at == 0 else "1"})
+        elif falls := [i + 1 for i in range(len(one.x) - 1) if one.x[i + 1] < one.x[i]]:
+            yield Finding("not-increasing", (*where, "x", falls[0]), {"key": "x"})
+        else:
+            above, below = AccelerationGraph(np.array(one.x), np.array(one.a)).areas
+            if abs(above - below) > SAME_AREA * max(above, below) or above == 0:
+                yield Finding("cam-areas", (*where, "a"), {"above": f"{above:.4g}", "below": f"{below:.4g}"})
+            elif AccelerationGraph(np.array(one.x), np.array(one.a)).way <= 0:
+                yield Finding("cam-backwards", (*where, "a"))
+
+
+def _shape(given: Parameters) -> Iterator[Finding]:
+    """Lengths that make no cam by themselves, then lengths that are sought and cannot be found."""
+    r0, e, a, arm, roller = (getattr(given, key) for key in ("r0", "e", "a", "arm", "roller"))
+    if r0 and e and abs(e.si) >= r0.si:
+        yield Finding("cam-offset", (*TOP, "e"), {"e": e.text, "r0": r0.text})
+        return
+    if r0 and roller and roller.si >= r0.si:
+        yield Finding("cam-roller", (*TOP, "roller"), {"roller": roller.text, "r0": r0.text})
+        return
+    if not given.translating and r0 and a:
+        if given.end == "flat":
+            if r0.si >= a.si:
+                yield Finding("cam-face", (*TOP, "r0"), {"r0": r0.text, "a": a.text})
+                return
+        elif not abs(a.si - arm.si) < r0.si < a.si + arm.si:
+            ends = {"low": f"{abs(a.si - arm.si) * MM:g}", "high": f"{(a.si + arm.si) * MM:g}"}
+            yield Finding("cam-triangle", (*TOP, "r0"), {"r0": r0.text, **ends})
+            return
+    try:
+        found = designed(given)
+    except NoCamError as error:
+        yield Finding(error.code, (*TOP, error.key))
+        return
+    cam = found.cam
+    if not cam.translating:
+        farthest = cam.psi0 + cam.motion.stroke
+        if farthest >= math.pi * (0.5 if cam.flat else 1):
+            yield Finding("cam-past", (*TOP, "psi_max"), {"angle": f"{math.degrees(farthest):.2f}"})
+        elif cam.opposite < 0 and any(
+            cam.worst(number, lambda one: one.traced.ds)[1] >= 1 for number in range(len(cam.motion.stretches))
+        ):
+            yield Finding("cam-overtakes", (*TOP, "phases"))
+
+
+def check(given: Parameters) -> Iterator[Finding]:
+    """Keys first, then phases and tables, then lengths: each only where what it stands on is in order."""
+    for look in (_keys, lambda one: (*_phases(one), *_tables(one)), _shape):
+        found = list(look(given))
+        if found:
+            yield from found
+            return
+
+
+def _worked(draft: Draft) -> Iterator[Finding]:
+    """Positions written out in full are numbers of positions, each once."""
+    report, given = draft.sections.get("report"), draft.sections.get("parameters")
+    if report is None or given is None or report.worked_positions is None or list(check(given)):
+        return
+    last = len(positions_of(given))
+    for index, one in enumerate(report.worked_positions):
+        where = ("report", "worked_positions", index)
+        if isinstance(one, str):
+            yield Finding("no-such-label", where, {"text": one, "known": f"1 … {last}"})
+        elif one > last:
+            yield Finding("no-such-position", where, {"text": str(one), "last": str(last)})
+
+
+CHECKS = (of_parameters(check), _worked)
+
+
+# --- what is hardly meant -------------------------------------------------------------------------
+
+
+def physics(assignment: Assignment) -> Iterator[Finding]:
+    """Rigid impacts, a pressure angle beyond its limit, a profile that is undercut: where, and what helps."""
+    given: Parameters = assignment.parameters
+    found = designed(given)
+    cam, motion = found.cam, found.cam.motion
+    for impact in motion.impacts:
+        if impact.kind == "rigid":
+            phase = motion.stretches[int(motion.of(np.array([impact.angle]))[0])].phase
+            key = phase if phase in ("rise", "return") else "rise" if phase == "far" else "return"
+            yield Finding("cam-impact", (*TOP, "laws", key), {"angle": f"{math.degrees(impact.angle):g}"})
+    for phase, angle, at in exceeded(found):
+        wanted = found.least
+        mend = f"{math.ceil(wanted.r0 * MM * 10) / 10:g}" if wanted is not None else ""
+        told = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
+        yield Finding("cam-pressure", (*TOP, "limits", phase), told | ({"r0": mend} if mend else {}))
+    for angle in cam.undercut[:1]:
+        yield Finding("cam-undercut", (*TOP, "roller" if cam.roller else "r0"), {"at": f"{math.degrees(angle):.1f}"})
+
+
+WARNINGS = (physics,)

@@ -1,0 +1,104 @@
+"""A cam as a case: what every output of it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen.cam import film, views
+from reportgen.cam import sheets as sheet_of_cam
+from reportgen.cam.file import exceeded
+from reportgen.cam.solved import SolvedCam
+from reportgen.drawing.film import Film
+from reportgen.drawing.sheet import DrawingSheet
+from reportgen.formula import vocabulary
+from reportgen.formula.sheet import Family
+from reportgen.report import Document
+from reportgen.report.case import Key, Pitfalls, Span
+
+
+@dataclass(frozen=True)
+class CamCase(SolvedCam):
+    """A cam, as a `Case`."""
+
+    @property
+    def families(self) -> Mapping[str, Family]:
+        return self.ledger.families
+
+    @property
+    def positions_of_a_turn(self) -> int:
+        return self.count
+
+    @property
+    def balance(self) -> None:
+        """It has no forces."""
+
+    @property
+    def pitfalls(self) -> Pitfalls:
+        return self.solution.pitfalls
+
+    def fault(self) -> str:
+        found = self.solution.designed
+        if found.cam.undercut:
+            return "not-to-be-cut"
+        return "pressure-angle" if any(exceeded(found)) else ""
+
+    def document(self) -> Document:
+        return self.bounded(views.report)
+
+    def key(self) -> Key:
+        from reportgen.marking.key import make_key
+
+        count = self.positions_of_a_turn
+        labels = tuple(map(str, range(1, count + 1)))
+        return make_key(self, self.ledger, self.printed, Span(labels, count, self.worked), self._sense)
+
+    def _sense(self, id: str) -> str:
+        family = self.ledger[id]
+        return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
+
+    def task(self, key: Key, by_section: bool = False) -> Document:
+        return self.bounded(partial(views.task, key=key, by_section=by_section))
+
+    def results(self) -> dict[str, Any]:
+        """The choice of the cam, then its motion and its profile position by position."""
+        from reportgen.marking.results import pair, results
+
+        cam, traced, found = self.solution.cam, self.solution.traced, self.solution.designed
+        names = ("s", "ds", "dds", "v", "a") if cam.translating else ("psi", "dpsi", "ddpsi", "omega", "epsilon")
+        omega = self.speed
+        positions = []
+        for k, phase in enumerate(one.phase for one in self.solution.stretches):
+            motion = dict(zip(names[:3], (float(part[k]) for part in (traced.s, traced.ds, traced.dds)), strict=True))
+            if omega is not None:
+                motion |= {names[3]: omega * motion[names[1]], names[4]: omega**2 * motion[names[2]]}
+            rho = float(traced.rho[k])
+            positions.append(
+                {
+                    "number": k + 1,
+                    "crank_angle": float(traced.φ[k]),
+                    "phase": phase,
+                    "follower" if cam.translating else "swing": motion,
+                    "pressure_angle": float(traced.alpha[k]),
+                    "curvature_radius": rho if np.isfinite(rho) else None,
+                    "pitch": pair(complex(traced.pitch[k])),
+                    "profile": pair(complex(traced.working[k])),
+                }
+            )
+        sizes = {key: getattr(cam, key) for key in ("r0", "e", "a", "arm", "roller")}
+        least = None if found.least is None else {"r0": found.least.r0, "e": found.least.e, "a": found.least.a}
+        return results(self, positions, cam=sizes, least=least, undercut=list(cam.undercut))
+
+    def film(self) -> Film:
+        return film.film(self)
+
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its plates on a sheet, and the profile alone; there are no sets of them to choose from."""
+        return sheet_of_cam.drawing_sheets(self, size, block)

@@ -1,0 +1,374 @@
+"""Drawings of a cam true to scale: the S–S′ diagram with the region of centres, and the profile by inversion."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Sequence
+from typing import Literal
+
+import numpy as np
+
+from reportgen.base.units import MM, nice_up
+from reportgen.cam.profile import Cam, Traced
+from reportgen.cam.solved import SolvedCam
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
+from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.formula import Chain, Number, Symbol, ids
+
+DIAGRAM_ROOM = 118 + 128j
+"""What the S–S′ diagram may fill on a page (mm)."""
+PROFILE_ROOM = 150 + 172j
+FOLLOWER = 26.0
+"""The length of a translating follower that is drawn (mm)."""
+LIMIT = Pen(0.3, style.RED)
+THIN_LIMIT = Pen(0.12, style.RED)
+REGION = Pen(0.1, style.GRAY)
+PROFILE = Pen(0.5)
+PITCH = Pen(0.25, style.BLUE, style.CHAIN)
+ROLLER = Pen(0.13, style.GRAY)
+RAY = Pen(0.1, style.GRAY)
+NUMBER = 3.2
+"""From a roller's centre to its number (mm)."""
+HALF_FACE = 8.0
+CLEAR = 0.6
+"""So much of the base circle is left clear of the normals of faces, for what stands at the cam's centre."""
+FACE_MARGIN = 3.0
+"""What a flat face reaches beyond its farthest points of contact (mm)."""
+GUIDE = 1.6
+"""From the axis of a translating follower to the walls of its guide (mm)."""
+LINES = 7
+"""So many limit lines of an oscillating follower are drawn for each phase."""
+Stage = Literal["displacements", "profile by inversion", "cam"]
+SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
+
+
+def scale_note(scale: float) -> Chain:
+    """The scale of a drawing: what a millimetre of paper stands for (mm)."""
+    return Chain((Symbol("μ", "l"), Number(float(f"{scale:.6g}"), None, "mm/mm")))
+
+
+def fitting(points: Sequence[complex], room: complex, enlarged: float = 1.0) -> float:
+    """The scale (m of the cam per mm of paper) at which points (m) fit a room (mm), round once it is enlarged."""
+    array = np.array(points)
+    size = complex(np.ptp(array.real), np.ptp(array.imag)) * MM
+    return nice_up(max(size.real / room.real, size.imag / room.imag) / enlarged, SCALES) * enlarged / MM
+
+
+# --- the S–S′ diagram -------------------------------------------------------------------------------
+
+
+def limit_diagram(case: SolvedCam, room: complex = DIAGRAM_ROOM, enlarged: float = 1.0) -> Scene:
+    """The region of the cam's centres that keeps both limits of the pressure angle."""
+    cam = case.solution.cam
+    return (_of_translating if cam.translating else _of_oscillating)(case, room, enlarged)
+
+
+def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
+    """s upwards over s′, both at one scale; the centre at e to the right and s₀ below."""
+    found, cam = case.solution.designed, case.solution.cam
+    traced = cam.sampled()
+    curve = traced.ds + 1j * traced.s
+    centre = complex(cam.e, -cam.s0)
+    places = [*curve, centre, 0j, complex(0, -1.25 * cam.s0)]
+    least = found.least
+    if least is not None:
+        places += [complex(least.e, -least.s0)] + ([least.apex.conjugate()] if least.apex is not None else [])
+    scale = fitting(places, room, enlarged)
+    at = 1 / scale
+    low = min(place.imag for place in places) * at - 10
+    high = float(traced.s.max()) * at
+    left, right = float(min(p.real for p in places)) * at - 14, float(max(p.real for p in places)) * at + 14
+    box = (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
+    items: list[Item] = []
+    requests: list[Request] = []
+    planes: list[HalfPlane] = []
+    limits = (
+        ("rise", found.limits.rise, 1, None if least is None else least.rise),
+        ("return", found.limits.back, -1, None if least is None else least.back),
+    )
+    for _, limit, side, touch in limits:
+        if limit is None or touch is None:
+            continue
+        # Down the line s grows less and s′ goes with the other sign: the angle to the axis of s is the limit.
+        down = complex(-side * math.sin(limit), -math.cos(limit))
+        planes.append(HalfPlane(complex(touch.ds, touch.s) * at, 1j * side * down))
+    allowed = region(planes, box)
+    if len(allowed) > 2 and planes:
+        items.append(Hatch(tuple(allowed), 2.0, REGION))
+    for (phase, limit, side, _), plane in zip([one for one in limits if one[1] and one[3]], planes, strict=True):
+        assert limit is not None
+        # The plane's edge from the upper edge of the drawing to the lower one.
+        along = plane.inward * -1j * side
+        ends = [plane.at + along * (level - plane.at.imag) / along.imag for level in (low, high)]
+        start, end = (_within(end, plane.at, left, right) for end in ends)
+        items.append(Line(start, end, LIMIT))
+        items += style_point(plane.at)
+        number = "1" if side > 0 else "2"
+        requests.append(label(plane.at, Symbol("T", number), gap=1.2, prefer=(0.0 if side > 0 else math.pi,)))
+        items.append(Line(plane.at, plane.at - 22j, style.CONSTRUCTION))
+        turn = -math.pi / 2
+        items.append(Arc(plane.at, 18.0, turn, turn - side * limit, style.DIMENSION))
+        requests.append(
+            label(
+                plane.at + 20 * np.exp(1j * (turn - side * limit / 2)),
+                case.ledger.symbol(ids.cam_limit(phase)),
+                gap=0.4,
+                prefer=(turn - side * limit / 2,),
+            )
+        )
+    items.append(Arrow(complex(left, 0), complex(right, 0), style.DIMENSION, 1.8))
+    items.append(Arrow(complex(0, low), complex(0, high + 6), style.DIMENSION, 1.8))
+    requests += [
+        label(complex(right, 0), Symbol("s′"), gap=0.8, prefer=(math.pi / 2,)),
+        label(complex(0, high + 6), Symbol("s"), gap=0.8, prefer=(0.0,)),
+        label(0j, Symbol("B", "0"), gap=1.0, prefer=(-2.4, -0.7)),
+    ]
+    items.append(Polyline(tuple(curve * at), Pen(0.4, style.BLUE), closed=True))
+    for k in range(case.count):
+        place = complex(case.solution.traced.ds[k], case.solution.traced.s[k]) * at
+        if case.solution.stretches[k].piece is not None and abs(place) > 1:
+            items.append(Circle(place, 0.5, Pen(0.2), style.PAPER))
+            requests.append(label(place, str(k + 1), gap=0.8, size=style.SMALL))
+    if least is not None and least.apex is not None:
+        apex = least.apex.conjugate() * at
+        items += style_point(apex)
+        requests.append(label(apex, Symbol("A"), gap=1.0))
+    if least is not None and case.solution.given.finds:
+        lowest = complex(least.e, -least.s0) * at
+        if least.apex is None or abs(lowest - least.apex.conjugate() * at) > 1:
+            items += style_point(lowest)
+            requests.append(label(lowest, Symbol("O", "min"), gap=1.0))
+    items += _centre(centre * at)
+    items.append(Line(0j, centre * at, style.VISIBLE))
+    requests.append(label(centre * at, Symbol("O"), gap=1.6))
+    requests.append(label([centre * at * share for share in (0.5, 0.4, 0.6, 0.7)], case.ledger.symbol("cam.r0")))
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+
+
+def _within(end: complex, start: complex, left: float, right: float) -> complex:
+    """The end of a line from a start, cut at two uprights."""
+    for edge in (left, right):
+        if (end.real - edge) * (start.real - edge) < 0:
+            end = start + (end - start) * (edge - start.real) / (end.real - start.real)
+    return end
+
+
+def style_point(at: complex) -> tuple[Item, ...]:
+    return (Circle(at, 0.6, None, style.BLACK),)
+
+
+def _centre(at: complex) -> tuple[Item, ...]:
+    """The cam's shaft."""
+    return Circle(at, 1.4, style.VISIBLE, style.PAPER), Circle(at, 0.4, None, style.BLACK)
+
+
+def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
+    """On each position of the arm l k is laid off along it; a line at 90° − [α] to the arm through its end bounds."""
+    found, cam = case.solution.designed, case.solution.cam
+    σ, pivot = cam.opposite, pivot_of(cam)
+    planes: list[HalfPlane] = []
+    shown: list[tuple[complex, complex, HalfPlane]] = []
+    for phase, limit, sign in (("rise", found.limits.rise, 1), ("return", found.limits.back, -1)):
+        if limit is None:
+            continue
+        for number, one in enumerate(cam.motion.stretches):
+            if one.phase != phase:
+                continue
+            φ = np.linspace(one.start, one.stop, 161)
+            s, ds, _ = cam.motion(φ, np.full(φ.shape, number))
+            for index, (ψ, rate) in enumerate(zip(s, ds, strict=True)):
+                arm = _arm(cam, float(ψ))
+                end = pivot + arm * cam.arm * (1 + σ * rate)
+                # Into the region: along the arm for the rise, back along it for the return, and to the cam's side.
+                aside = arm * 1j * σ * cam.turn
+                plane = HalfPlane(end, sign * arm * math.cos(limit) + aside * math.sin(limit))
+                planes.append(plane)
+                if index % (160 // (LINES - 1)) == 0:
+                    shown.append((pivot + arm * cam.arm, end, plane))
+    places = [pivot, 0j, *(one[0] for one in shown), *(one[1] for one in shown), 0.6 * -1j * cam.r0]
+    scale = fitting(places, room, enlarged)
+    at = 1 / scale
+    array = np.array(places) * at
+    left, right, low, high = array.real.min() - 12, array.real.max() + 12, array.imag.min() - 22, array.imag.max() + 8
+    box = [complex(left, low), complex(right, low), complex(right, high), complex(left, high)]
+    on_paper = [HalfPlane(plane.at * at, plane.inward) for plane in planes]
+    items: list[Item] = []
+    requests: list[Request] = []
+    allowed = region(on_paper, box)
+    if len(allowed) > 2:
+        items.append(Hatch(tuple(allowed), 2.0, REGION))
+        items.append(Polyline(tuple(allowed), REGION, closed=True))
+    for tip, end, plane in shown:
+        items.append(Line(pivot * at, tip * at, RAY))
+        along = 1j * unit(plane.inward) * abs(box[2] - box[0])
+        if piece := clipped(end * at - along, end * at + along, box[0], box[2]):
+            items.append(Line(*piece, THIN_LIMIT))
+        items += [Circle(tip * at, 0.5, Pen(0.2), style.PAPER), Circle(end * at, 0.4, None, style.RED)]
+    start = pivot + _arm(cam, 0.0) * cam.arm
+    items.append(Line(pivot * at, start * at, style.VISIBLE))
+    items += [
+        *style.pivot(pivot * at),
+        *_centre(0j),
+        Line(0j, start * at, style.THIN),
+        Line(0j, pivot * at, style.AXIS),
+    ]
+    requests += [
+        label(0j, Symbol("O"), gap=1.8, prefer=(-2.4, -0.7)),
+        label(pivot * at, Symbol("A"), gap=2.0, prefer=(0.5,)),
+        label(start * at, Symbol("B", "0"), gap=1.0),
+        label(start * at / 2, case.ledger.symbol("cam.r0")),
+        label(pivot * at / 2, case.ledger.symbol("cam.a"), prefer=(-math.pi / 2,)),
+    ]
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+
+
+def _arm(cam: Cam, ψ: float) -> complex:
+    """The direction of the arm from its pivot in the fixed frame."""
+    q = cam.psi0 + ψ
+    return complex(-cam.opposite * cam.turn * math.cos(q), math.sin(q))
+
+
+# --- the profile by inversion -------------------------------------------------------------------------
+
+
+def inversion(
+    case: SolvedCam, stage: Stage = "profile by inversion", room: complex = PROFILE_ROOM, enlarged: float = 1.0
+) -> Scene:
+    """The profile in the cam's frame, the follower carried round it against its rotation, with numbered positions.
+
+    First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` stands with its follower
+    in the first position.
+    """
+    cam = case.solution.cam
+    outline = cam.outline()
+    ring = np.exp(1j * np.linspace(0, 2 * math.pi, 24))
+    places = [*outline, *((float(np.abs(outline).max()) + cam.roller) * ring)]
+    if not cam.translating:
+        places += [pivot_of(cam)] if stage == "cam" else list(cam.a * ring)
+    scale = fitting(places, room - 6 * (1 + 1j), enlarged)
+    at = 1 / scale
+    items: list[Item] = []
+    requests: list[Request] = []
+    if stage == "cam":
+        items.append(Polyline(tuple(outline * at), PROFILE, closed=True, fill=style.TINT))
+    items += [Circle(0j, radius * at, style.THIN) for radius in (cam.r0, abs(cam.e)) if radius]
+    if stage == "cam":
+        items += follower_parts(cam, complex(cam.traced(np.zeros(1)).at[0]) * at, at, pivot_of(cam) * at)
+    else:
+        items += _positions(case, stage, at, requests)
+    if stage != "displacements":
+        if cam.roller and case.solution.given.closed_by == "form":
+            items.append(Polyline(tuple(cam.outline(side=1) * at), style.VISIBLE, closed=True))
+        if cam.roller:
+            items.append(Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True))
+        if stage != "cam":
+            items.append(Polyline(tuple(outline * at), PROFILE, closed=True))
+    items += _centre(0j)
+    requests.append(label(0j, Symbol("O"), gap=1.9, prefer=(-2.4, -0.7)))
+    radius = max(0.45 * cam.r0 * at, 5.0)
+    begin = math.pi / 2 + 0.5
+    items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, style.VISIBLE, style.DIMENSION_HEAD))
+    requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+
+
+def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:
+    """The follower at all positions, with their numbers."""
+    cam, traced = case.solution.cam, case.solution.traced
+    for k in range(traced.φ.size):
+        centre = complex(traced.pitch[k]) * at
+        out = complex(traced.normal[k]) if cam.flat else centre
+        if stage == "displacements":
+            yield from _laid_off(cam, traced, k, at)
+            place = centre
+        else:
+            yield from _position(cam, traced, k, at)
+            place = centre + unit(out) * (cam.roller * at)
+        prefer = (float(np.angle(out)),)
+        requests.append(label(place, str(k + 1), size=style.SMALL, gap=0.9, prefer=prefer))
+
+
+def _laid_off(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
+    """The displacement at a position, from the base circle on along the follower's axis or about its pivot."""
+    back = complex(np.exp(-1j * cam.turn * traced.φ[k]))
+    first = cam.traced(np.zeros(1))
+    start, end = complex(first.at[0]) * back * at, complex(traced.at[k]) * back * at
+    if cam.flat and cam.translating:
+        start, end = 1j * back * cam.r0 * at, 1j * back * (cam.r0 + traced.s[k]) * at
+    if cam.translating:
+        foot = CLEAR * start if cam.flat else complex(cam.turn * cam.e) * back * at
+        yield Line(foot, start, RAY)
+        yield Line(start, end, style.NEW)
+    else:
+        pivot = pivot_of(cam) * back * at
+        yield Line(pivot, start, RAY)
+        yield Line(pivot, end, style.VISIBLE)
+        yield Circle(pivot, 0.7, Pen(0.15), style.PAPER)
+        if not cam.flat:
+            begin = cmath.phase(start - pivot)
+            swing = math.remainder(cmath.phase(end - pivot) - begin, 2 * math.pi)
+            yield Arc(pivot, cam.arm * at, begin, begin + swing, style.NEW)
+    yield from style_point(end)
+
+
+def pivot_of(cam: Cam) -> complex:
+    """The pivot of an oscillating follower in the fixed frame."""
+    return complex(cam.mirrored(np.array([complex(cam.opposite * cam.a, 0)]))[0])
+
+
+def _position(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
+    """One position of the follower in the cam's frame: its axis or arm, and its roller, edge or face."""
+    back = complex(np.exp(-1j * cam.turn * traced.φ[k]))
+    centre = complex(traced.pitch[k]) * at
+    if cam.translating and not cam.flat:
+        along = 1j * back
+        foot = complex(cam.turn * cam.e) * back * at
+        yield Line(foot, centre + along * 6.0, RAY)
+    elif not cam.translating:
+        pivot = pivot_of(cam) * back * at
+        yield Line(pivot, centre, RAY)
+        yield Circle(pivot, 0.7, Pen(0.15), style.PAPER)
+    if cam.flat:
+        out = complex(traced.normal[k])
+        yield Line(CLEAR * cam.r0 * at * out, out * abs((centre * out.conjugate()).real), RAY)
+        yield Line(centre - 1j * out * HALF_FACE, centre + 1j * out * HALF_FACE, style.VISIBLE)
+        yield from style_point(centre)
+    elif cam.roller:
+        yield Circle(centre, cam.roller * at, ROLLER)
+        yield Circle(centre, 0.45, None, style.BLACK)
+    else:
+        yield Circle(centre, 0.6, Pen(0.2), style.PAPER)
+
+
+def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: bool = True) -> Iterator[Item]:
+    """The follower with its tip (centre of the roller, edge, point of contact) at a place of the paper.
+
+    With `walls` what holds it is drawn, too.
+    """
+    if cam.translating:
+        rise = 1j * cam.motion.stroke * at
+        foot = complex(0.0, tip.imag) if cam.flat else tip
+        if cam.flat:
+            half = float(np.abs(cam.sampled().ds).max()) * at + FACE_MARGIN
+            yield Line(foot - half, foot + half, style.HEAVY)
+        yield Line(foot, foot + rise + 1j * FOLLOWER, style.HEAVY)
+        if walls:
+            yield from guide_walls(foot + rise)
+    else:
+        yield Line(pivot, tip + (unit(tip - pivot) * 8 if cam.flat else 0), style.HEAVY)
+        if walls:
+            yield from style.pivot(pivot)
+    if cam.roller:
+        yield Circle(tip, cam.roller * at, style.VISIBLE, style.PAPER)
+        yield style.joint(tip)
+    elif not cam.flat and cam.translating:
+        yield Polyline((tip, tip + 2.5 + 5j, tip - 2.5 + 5j), style.VISIBLE, closed=True, fill=style.PAPER)
+
+
+def guide_walls(tip: complex) -> Iterator[Item]:
+    """The guide of a translating follower whose end is in its highest position."""
+    for side in (-1, 1):
+        wall = tip + complex(side * GUIDE, 0.6 * FOLLOWER)
+        yield from style.ground(wall - 4j, wall + 4j, 1 if side < 0 else -1)

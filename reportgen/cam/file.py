@@ -1,0 +1,346 @@
+"""The file of a cam: what it may say, and the cam that it stands for, its sought lengths found and rounded."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Discriminator, Field, Tag
+
+from reportgen.assignment.common import FEWEST_POSITIONS, MOST_POSITIONS, Part
+from reportgen.assignment.fields import (
+    Decimal,
+    Interval,
+    Length,
+    Quantity,
+    Reader,
+    RotationalSpeed,
+    Whole,
+    fault,
+    quantity,
+)
+from reportgen.base.units import MM, Given
+from reportgen.cam import design
+from reportgen.cam.design import CamLimits, Least, NoCamError
+from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerLaw, FollowerMotion, law
+from reportgen.cam.profile import Cam
+
+FIND = "find"
+
+
+@dataclass(frozen=True, slots=True)
+class Sought(Reader):
+    """A quantity, or `find` (None) for one that is to be found."""
+
+    given: Quantity
+
+    def read(self, value: object) -> Given | None:
+        return None if value == FIND else self.given.read(value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [{"const": FIND}, self.given.schema()]}
+
+
+@dataclass(frozen=True, slots=True)
+class PerPhase:
+    """How many steps each phase is divided into."""
+
+    counts: tuple[tuple[str, int], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Steps(Reader):
+    """How positions lie: so many a turn, every so many degrees, or so many in each phase."""
+
+    def read(self, value: object) -> int | Given | PerPhase:
+        if isinstance(value, dict):
+            for key in value:
+                if key not in PHASES:
+                    raise fault("unknown-key", key=str(key), known=", ".join(PHASES))
+            return PerPhase(tuple((key, Whole(1, 72).read(one)) for key, one in value.items()))
+        if isinstance(value, str) and value.strip().isdigit():
+            return Whole(FEWEST_POSITIONS, MOST_POSITIONS).read(value)
+        return quantity("deg", least=1, most=90).read(value)
+
+    def schema(self) -> dict[str, Any]:
+        whole = {"type": "integer", "minimum": FEWEST_POSITIONS, "maximum": MOST_POSITIONS}
+        parts = {"type": "object", "properties": {phase: Whole(1, 72).schema() for phase in PHASES}}
+        return {"anyOf": [whole, quantity("deg").schema(), {**parts, "additionalProperties": False}]}
+
+
+Moving = Annotated[Given, quantity("deg", least=1, below=360)]
+Resting = Annotated[Given, quantity("deg", least=0, below=360)]
+Permissible = Annotated[Given, quantity("deg", least=5, most=85)]
+Ordinate = Annotated[float, Decimal(Interval(least=-1e6, most=1e6))]
+Nodes = Field(min_length=2, max_length=60)
+Roller = quantity("mm", least=0.1, below=1e4)
+
+
+class Phases(Part):
+    """The angles of the cam of the four phases; the near dwell is what is left of the turn."""
+
+    rise: Moving
+    far: Resting = Given(0.0, 0.0, "deg", "0 deg")
+    return_: Moving = Field(alias="return")
+    near: Resting | None = None
+
+
+class AccelerationTable(Part):
+    """An acceleration as a graph: ordinates in any unit over x from 0 to 1; a repeated x is a jump."""
+
+    x: Annotated[tuple[Annotated[float, Decimal(Interval(least=0, most=1))], ...], Nodes]
+    a: Annotated[tuple[Ordinate, ...], Nodes]
+
+
+LawName = Literal["uniform", "parabolic", "cosine", "sine", "3-4-5", "4-5-6-7", "trapezoidal"]
+
+
+LawOrTable = Annotated[
+    Annotated[LawName, Tag("name")] | Annotated[AccelerationTable, Tag("table")],
+    Discriminator(lambda content: "table" if isinstance(content, dict | AccelerationTable) else "name"),
+]
+
+
+class Laws(Part):
+    rise: LawOrTable
+    return_: LawOrTable = Field(alias="return")
+
+
+class PermissibleAngles(Part):
+    rise: Permissible
+    return_: Permissible | None = Field(default=None, alias="return")
+
+
+class Parameters(Part):
+    """A cam with its follower; `find` stands where a length is sought."""
+
+    follower: Literal["translating", "oscillating"]
+    end: Literal["roller", "flat", "knife"]
+    h: Length | None = None
+    psi_max: Annotated[Given, quantity("deg", least=0.1, most=120)] | None = None
+    arm: Length | None = None
+    a: Annotated[Given | None, Sought(quantity("mm", least=0.1, below=1e5))] = None
+    lifts: Literal["against", "with"] = "against"
+    n: RotationalSpeed | None = None
+    direction: Literal["anticlockwise", "clockwise"] = "anticlockwise"
+    phases: Phases
+    laws: Laws
+    limits: PermissibleAngles | None = None
+    closed_by: Literal["spring", "form"] = "spring"
+    r0: Annotated[Given | None, Sought(quantity("mm", least=0.1, below=1e5))]
+    e: Annotated[Given | None, Sought(quantity("mm", above=-1e4, below=1e4))] = Given(0.0, 0.0, "mm", "0 mm")
+    roller: Annotated[Given | None, Sought(Roller)] = None
+    rho: Length = Given(0.003, 3.0, "mm", "3 mm")
+    positions: Annotated[int | Given | PerPhase, Steps()] = 12
+
+    @property
+    def translating(self) -> bool:
+        return self.follower == "translating"
+
+    @property
+    def stroke(self) -> Given | None:
+        return self.h if self.translating else self.psi_max
+
+    @property
+    def phase_degrees(self) -> tuple[float, float, float, float]:
+        """The four phases as they were typed (degrees)."""
+        given = (self.phases.rise, self.phases.far, self.phases.return_)
+        first, far, back = (round(math.degrees(one.si), 9) for one in given)
+        near = self.phases.near
+        rest = 360 - first - far - back if near is None else math.degrees(near.si)
+        return first, far, back, round(rest, 9)
+
+    def seeks(self, key: str) -> bool:
+        """Whether a length is to be found, as the radius of a roller is that is not given."""
+        told = key in self.model_fields_set or (key == "roller" and self.end == "roller")
+        return told and getattr(self, key) is None
+
+    @property
+    def finds(self) -> tuple[str, ...]:
+        """The lengths that are to be found."""
+        return tuple(key for key in ("r0", "e", "a", "roller") if self.seeks(key))
+
+
+# --- the cam of a file ----------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Designed:
+    """A cam with what it was chosen by: the limits, and the least cam within them if there are any."""
+
+    cam: Cam
+    limits: CamLimits
+    least: Least | None
+    least_r0: float = 0.0
+    """The least base circle under a flat face (m)."""
+
+
+def table_of(given: AccelerationTable) -> AccelerationGraph:
+    """The table as the law takes it: both areas made equal, as far as they differ at all."""
+    x, a = np.array(given.x), np.array(given.a)
+    above, below = AccelerationGraph(x, a).areas
+    return AccelerationGraph(x, np.where(a < 0, a * above / below, a)) if below > 0 else AccelerationGraph(x, a)
+
+
+def law_of(given: str | AccelerationTable) -> FollowerLaw:
+    return law(given) if isinstance(given, str) else FollowerLaw("table", table_of(given))
+
+
+@lru_cache(maxsize=64)
+def _motion(stroke: float, phases: tuple[float, ...], rise: Any, back: Any) -> FollowerMotion:
+    first, far, behind, near = (math.radians(one) for one in phases)
+    return FollowerMotion(stroke, (first, far, behind, near), law_of(rise), law_of(back))
+
+
+def motion_of(given: Parameters) -> FollowerMotion:
+    assert given.stroke is not None, "a check asks for it"
+    return _motion(given.stroke.si, given.phase_degrees, given.laws.rise, given.laws.return_)
+
+
+def limits_of(given: Parameters) -> CamLimits:
+    """A follower that is closed by form is driven in the return, too: by the limit of the rise without its own."""
+    rise = given.limits.rise.si if given.limits else None
+    back = given.limits.return_.si if given.limits and given.limits.return_ else None
+    return CamLimits(rise, rise if back is None and given.closed_by == "form" else back, given.rho.si)
+
+
+@lru_cache(maxsize=64)
+def designed(given: Parameters) -> Designed:
+    """The cam of a file, its sought lengths found and rounded; raises `NoCamError` where there is none."""
+    motion, limits = motion_of(given), limits_of(given)
+
+    def size(name: str) -> float:
+        found: Given | None = getattr(given, name)
+        return 0.0 if found is None else found.si
+
+    cam = Cam(
+        motion,
+        given.translating,
+        given.end == "flat",
+        r0=size("r0"),
+        e=size("e"),
+        a=size("a"),
+        arm=size("arm"),
+        opposite=1 if given.lifts == "against" else -1,
+        roller=size("roller") if given.end == "roller" else 0.0,
+        turn=1 if given.direction == "anticlockwise" else -1,
+    )
+    least, flat = None, 0.0
+    if cam.flat:
+        flat = design.least_flat(cam, limits.rho)
+        cam = replace(cam, r0=design.rounded_up(flat)) if given.seeks("r0") else cam
+    elif limits.rise is not None:
+        least, cam = _within(given, cam, limits)
+    if given.seeks("roller"):
+        cam = replace(cam, roller=design.largest_roller(cam, limits.rho))
+    elif given.seeks("r0") and not cam.flat and cam.roller:
+        cam = design.grown(cam, limits.rho)
+    return Designed(cam, limits, least, flat)
+
+
+def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | None, Cam]:
+    """The least cam within the limits, and one with the sought lengths as a person rounds them."""
+    motion = cam.motion
+    if cam.translating:
+        least = design.least_translating(motion, limits, None if given.seeks("e") else cam.e)
+        e = round(least.e * MM) / MM if given.seeks("e") else cam.e
+        if not given.seeks("r0"):
+            return least, replace(cam, e=e)
+        needed = design.least_translating(motion, limits, e).r0
+        return least, replace(cam, e=e, r0=design.rounded_up(needed))
+    if given.seeks("a"):
+        best = design.best_distance(motion, limits, cam.arm, cam.opposite)
+        cam = replace(cam, a=design.rounded_up(best.a))
+    found = design.least_oscillating(motion, limits, cam.arm, cam.opposite, cam.a)
+    if found is None:
+        if given.seeks("r0"):
+            raise NoCamError("cam-no-centre", "limits")
+        return None, cam
+    return found, replace(cam, r0=design.rounded_up(found.r0)) if given.seeks("r0") else cam
+
+
+def positions_of(given: Parameters) -> tuple[float, ...]:
+    """Angles of the cam (degrees, to hundredths) from the start of the rise: evenly, with the ends of every phase."""
+    phases = given.phase_degrees
+    ends = [sum(phases[:number]) for number in range(4)]
+    match given.positions:
+        case PerPhase(told):
+            counts = dict(told)
+            even = [
+                start + angle * step / counts.get(phase, 1)
+                for phase, start, angle in zip(PHASES, ends, phases, strict=True)
+                for step in range(counts.get(phase, 1))
+            ]
+        case Given() as step:
+            even = list(np.arange(0, 360 - 1e-9, math.degrees(step.si)))
+        case count:
+            even = [360 * step / count for step in range(count)]
+    return tuple(sorted({round(one, 2) % 360 for one in (*even, *ends)}))
+
+
+# --- what is judged of it -------------------------------------------------------------------------
+
+ALLOWED = 1e-9
+"""A pressure angle may pass its limit by what floats do (rad)."""
+
+
+def exceeded(found: Designed) -> Iterator[tuple[str, float, float]]:
+    """The phases in which the pressure angle passes its limit: its largest value, and at which angle of the cam."""
+    cam, limits = found.cam, found.limits
+    for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1)):
+        if limit is None or cam.flat:
+            continue
+        at, angle = extreme(cam, phase, sign)
+        if angle > limit + ALLOWED:
+            yield phase, angle, at
+
+
+def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
+    """Where in a phase ±α is greatest, and how great it is."""
+    numbers = [number for number, one in enumerate(cam.motion.stretches) if one.phase == phase]
+    return max((cam.worst(number, lambda one: sign * one.traced.alpha) for number in numbers), key=lambda one: one[1])
+
+
+@dataclass(frozen=True)
+class Judged:
+    """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""
+
+    rise: tuple[float, float]
+    back: tuple[float, float]
+    least_rho: tuple[float, float]
+    least_working: tuple[float, float]
+    largest: float
+    aside: tuple[float, float]
+    """Of a flat face the largest s′ (m) and the largest −s′; of one that swings the nearest and farthest contact."""
+
+
+def judged(cam: Cam) -> Judged:
+    every = range(len(cam.motion.stretches))
+
+    def least(of: str) -> tuple[float, float]:
+        found = []
+        for number in every:
+            if of == "working":
+                φ, value = cam.worst(number, lambda one: -one.effective)
+            else:
+                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
+            found.append((φ, -value))
+        return min(found, key=lambda one: one[1])
+
+    traced = cam.sampled()
+    aside = (float(traced.ds.max()), float(-traced.ds.min()))
+    if not cam.translating:
+        contact = np.abs(traced.at - complex(cam.opposite * cam.turn * cam.a, 0))
+        aside = (float(contact.min()), float(contact.max()))
+    return Judged(
+        extreme(cam, "rise", 1),
+        extreme(cam, "return", -1),
+        least("rho"),
+        least("working"),
+        float(np.abs(traced.pitch).max()),
+        aside,
+    )

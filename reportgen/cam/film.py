@@ -1,0 +1,197 @@
+"""The cam in motion for a page: the cam turns, the follower moves, contact and normal go with them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from reportgen.base.units import significant_decimals
+from reportgen.cam.diagrams import angle_axis, axis, motion_charts, pressure_chart
+from reportgen.cam.drawings import PITCH, fitting, follower_parts, guide_walls, pivot_of
+from reportgen.cam.laws import NODE, Floats
+from reportgen.cam.profile import Complexes, Traced
+from reportgen.cam.solved import SolvedCam
+from reportgen.drawing import Circle, Item, Line, Polyline, style
+from reportgen.drawing.charts import PlottedCurve, plotted
+from reportgen.drawing.film import (
+    BarScale,
+    Carried,
+    Chart,
+    Curve,
+    Errors,
+    Film,
+    MomentValue,
+    MovingItem,
+    MovingName,
+    MovingVector,
+    Spot,
+    Stage,
+    Still,
+    Track,
+    extent,
+)
+from reportgen.formula import Symbol
+from reportgen.formula.plain import formula
+from reportgen.formula.vocabulary import KINDS
+
+SAMPLES = 360
+ROOM = 120 + 110j
+"""What cam and follower may fill (mm)."""
+NORMAL = 30.0
+"""The length of the normal that is drawn (mm)."""
+CENTRE = Track(np.zeros(1, complex))
+"""The cam's axis."""
+DIGITS, MOST_DECIMALS = 5, 4
+BESIDE = 2e-5
+"""How far from a jump of the motion (rad) both its sides are sampled."""
+
+
+def film(case: SolvedCam) -> Film:
+    """All that moves on the page of a cam."""
+    knots = _knots(case)
+    traced = case.solution.cam.traced(knots)
+    stage = _stage(case, traced)
+    return Film(
+        knots=np.degrees(knots),
+        turns=1,
+        span=0.0,
+        positions=tuple((str(k), angle) for k, angle in enumerate(case.solution.degrees, start=1)),
+        shown=case.worked[0] - 1,
+        stages=(stage,),
+        charts=tuple(_charts(case, traced)),
+        values=tuple(_values(case, traced)),
+        errors=_errors(case, knots, 1 / _scale(case)),
+        layers=("paths",) if case.solution.cam.roller else (),
+    )
+
+
+def _knots(case: SolvedCam) -> Floats:
+    """Even samples of a turn, the positions, and both sides of each jump."""
+    grid = np.linspace(0, 2 * math.pi, SAMPLES + 1)
+    jumps = np.array([one.angle for one in case.solution.motion.impacts])
+    wanted = np.concatenate((case.solution.φ, *((np.mod(jumps + side * BESIDE, 2 * math.pi)) for side in (-1, 1))))
+    near = np.abs(grid[:, None] - wanted).min(axis=1) <= BESIDE / 10
+    near[[0, -1]] = False
+    found = np.sort(np.concatenate((grid[~near], wanted)))
+    return found[np.concatenate(([True], np.diff(found) > BESIDE / 10))]
+
+
+def _scale(case: SolvedCam) -> float:
+    """What a millimetre of the drawing stands for (m)."""
+    cam = case.solution.cam
+    reach = float(np.abs(cam.outline()).max())
+    ring = reach * np.exp(1j * np.linspace(0, 2 * math.pi, 24))
+    return fitting([*ring, *([] if cam.translating else [pivot_of(cam)])], ROOM)
+
+
+def _stage(case: SolvedCam, traced: Traced) -> Stage:
+    """The cam on its shaft with its follower, the point of contact and the common normal there."""
+    cam = case.solution.cam
+    at = 1 / _scale(case)
+    turn = Track(cam.turn * traced.φ)
+    profile: list[Item] = [Polyline(tuple(cam.outline() * at), style.VISIBLE, closed=True, fill=style.TINT)]
+    profile.append(Line(0j, 0.6 * cam.r0 * at * 1j, style.THIN))
+    items: list[MovingItem] = [
+        Still((Circle(0j, cam.r0 * at, style.THIN),)),
+        Carried(tuple(profile), CENTRE, turn),
+        *(
+            [Carried((Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True),), CENTRE, turn, "paths")]
+            * bool(cam.roller)
+        ),
+        Still(style.pivot(0j)),
+    ]
+    items += _follower(case, traced, at)
+    contact, normal = _contact(traced, cam.roller, cam.turn)
+    place = Track(contact * at)
+    items += [
+        MovingVector(
+            Track(contact * at - NORMAL / 2 * normal), Track(contact * at + NORMAL * normal), style.NORMAL, 0.0
+        ),
+        Carried((Circle(0j, 0.7, None, style.RED),), place),
+        MovingName(Symbol("K"), place, (Track(contact * at + normal),), 1.0),
+        MovingName(Symbol("O"), CENTRE, (Track(np.array([-3 - 5j])), Track(np.array([3 - 5j]))), 1.6),
+    ]
+    low, high = extent(items)
+    spots: tuple[Spot, ...] = ()
+    if cam.translating and not cam.flat and (ω := case.speed):
+        rates = Track(1j * ω * traced.ds), Track(1j * ω**2 * traced.dds)
+        spots = (Spot("B", Track(traced.at * at), Track(traced.at), *rates),)
+    return Stage(
+        "cam", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),), spots=spots
+    )
+
+
+def _contact(traced: Traced, roller: float, turn: int) -> tuple[Complexes, Complexes]:
+    """The point of contact and the outward normal in the fixed frame."""
+    turned = np.exp(1j * turn * traced.φ)
+    normal = traced.normal * turned
+    return traced.at - roller * normal, normal
+
+
+def _follower(case: SolvedCam, traced: Traced, at: float) -> Iterator[MovingItem]:
+    cam = case.solution.cam
+    if cam.translating:
+        start = complex(traced.at[0]) * at
+        tip = complex(0.0, start.imag) if cam.flat else start
+        parts = tuple(follower_parts(cam, tip, at, 0j, walls=False))
+        lifted = Track(1j * (traced.s - traced.s[0]) * at)
+        yield Carried(parts, lifted)
+        yield Still(tuple(guide_walls(tip + 1j * cam.motion.stroke * at)))
+        return
+    pivot = pivot_of(cam) * at
+    start = complex(traced.at[0]) * at
+    parts = tuple(follower_parts(cam, start - pivot, at, 0j, walls=False))
+    lifting = -cam.opposite * cam.turn
+    yield Carried(parts, Track(np.array([pivot])), Track(lifting * (traced.s - traced.s[0])))
+    yield Still(style.pivot(pivot))
+
+
+# --- curves and numbers ---------------------------------------------------------------------------
+
+
+def _charts(case: SolvedCam, traced: Traced) -> Iterator[Chart]:
+    language = case.assignment.language
+    sampled = case.solution.cam.sampled()
+    for (symbol, unit, values), now in zip(motion_charts(case), (traced.s, traced.ds, traced.dds), strict=True):
+        shown = plotted(
+            (PlottedCurve(symbol, np.degrees(sampled.φ), values),), angle_axis(case), axis(symbol, unit), half=True
+        )
+        scale = np.abs(values).max() / max(float(np.abs(now).max()), NODE)
+        yield Chart(formula(symbol, language), shown, (Curve(symbol, Track(now * scale)),))
+    if not case.solution.cam.flat:
+        yield Chart("α", pressure_chart(case, half=True), (Curve(Symbol("α"), Track(np.degrees(traced.alpha))),))
+
+
+def _values(case: SolvedCam, traced: Traced) -> Iterator[MomentValue]:
+    omega = case.speed
+    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
+        yield _value(case.ledger.symbol(id), case.ledger[id].kind, values)
+    if omega is not None:
+        rates = ("cam.v", "cam.acceleration") if case.solution.cam.translating else ("cam.omega.f", "cam.epsilon.f")
+        for id, values in zip(rates, (omega * traced.ds, omega**2 * traced.dds), strict=True):
+            yield _value(case.ledger.symbol(id), case.ledger[id].kind, values)
+    if not case.solution.cam.flat:
+        yield _value(Symbol("α"), "angle", traced.alpha)
+
+
+def _value(symbol: Symbol, kind: str, values: Floats) -> MomentValue:
+    how = KINDS[kind]
+    shown = values / how.scale
+    decimals = min(max(significant_decimals(float(np.abs(shown).max()), DIGITS), 0), MOST_DECIMALS)
+    return MomentValue(symbol, how.unit, Track(shown), decimals)
+
+
+def _errors(case: SolvedCam, knots: Floats, at: float) -> Errors:
+    """What straight lines between samples miss, as the middles between them show; jumps left out."""
+    cam = case.solution.cam
+    wide = np.diff(knots) > 4 * BESIDE
+    here, between = cam.traced(knots), cam.traced((knots[1:] + knots[:-1]) / 2)
+    off = np.abs((here.at[1:] + here.at[:-1]) / 2 - between.at)[wide]
+    share = 0.0
+    for samples, true in ((here.ds, between.ds), (here.dds, between.dds)):
+        most = float(np.abs(samples).max())
+        if most:
+            share = max(share, float(np.abs((samples[1:] + samples[:-1]) / 2 - true)[wide].max()) / most)
+    return Errors(float(off.max()) * at, cam.r0 * at, share)

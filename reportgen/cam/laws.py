@@ -1,0 +1,340 @@
+"""Laws of motion, S(x) over x = φ/Φ from 0 to 1, and the motion over a turn that two of them and two dwells make.
+
+A law is written once, as formulas of a book; they evaluate over arrays, and the ledger prints them with its own
+symbols.  With s = h S the reduced velocity is s′ = ds/dφ = h V/Φ and the reduced acceleration s″ = h A/Φ².
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.formula import PI, Expression, Negative, Operand, Ref, as_expression, cos, sin
+from reportgen.formula.evaluation import evaluate
+
+Floats = NDArray[np.float64]
+Formula = Callable[[Expression], Operand]
+NODE = 1e-12
+"""Places of a turn (rad), or of a law, that are no farther apart are one."""
+JUMP = 1e-9
+"""A smaller jump of V or A is none."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """S, V and A as formulas of x, from x = `start` to `stop`; `node` is its number among those of a table."""
+
+    start: float
+    stop: float
+    S: Formula
+    V: Formula
+    A: Formula
+    node: int = -1
+
+
+Pieces = tuple[Piece, ...]
+Named = Callable[[str, int], Operand]
+"""A value of a node: A, V, S or J."""
+
+
+@dataclass(frozen=True)
+class AccelerationGraph:
+    """An acceleration given as a graph: ordinates `a` over `x` from 0 to 1, straight between; a repeated x is a jump.
+
+    Integrated twice it is scaled to end at S = 1: A = c·a with V and S at each node [K].
+    """
+
+    x: Floats
+    a: Floats
+
+    @cached_property
+    def nodes(self) -> tuple[Floats, Floats, Floats]:
+        """A, V and S at the nodes."""
+        V, S = _integrated(self.x, self.a)
+        return self.a / S[-1], V / S[-1], S / S[-1]
+
+    @property
+    def way(self) -> float:
+        """How far the graph moves as it stands; backwards if it is negative."""
+        return float(_integrated(self.x, self.a)[1][-1])
+
+    @property
+    def areas(self) -> tuple[float, float]:
+        """The areas above and below the axis, which must be equal: the follower comes to rest."""
+        parts = _areas(self.x, self.a)
+        return float(parts[parts > 0].sum()), float(-parts[parts < 0].sum())
+
+    @property
+    def slopes(self) -> Floats:
+        """How steeply A goes from each node to the next; 0 where it jumps."""
+        Δ = np.diff(self.x)
+        return np.divide(np.diff(self.nodes[0]), Δ, out=np.zeros(Δ.size), where=Δ > NODE)
+
+    def pieces(
+        self, named: Named | None = None, beyond: Callable[[Expression, int], Expression] | None = None
+    ) -> Pieces:
+        """A cubic S between each two nodes; `named` are values at nodes as the ledger calls them, `beyond` x − xᵢ."""
+        A, V, S = self.nodes
+        values = {"A": A, "V": V, "S": S, "J": self.slopes}
+        at = named or (lambda what, i: float(values[what][i]))
+        way = beyond or (lambda x, i: x - float(self.x[i]))
+        return tuple(
+            _cubic(i, float(self.x[i]), float(self.x[i + 1]), at, way)
+            for i in range(len(self.x) - 1)
+            if self.x[i + 1] - self.x[i] > NODE
+        )
+
+
+def _crossing(one: tuple[float, float], other: tuple[float, float]) -> Floats:
+    """Where a straight piece of a graph crosses the axis."""
+    (x0, a0), (x1, a1) = one, other
+    return np.array([x0 + (x1 - x0) * a0 / (a0 - a1)] if a0 * a1 < 0 and x1 > x0 else [])
+
+
+def _areas(x: Floats, a: Floats) -> Floats:
+    """Areas below a graph with jumps, each straight piece split where it crosses the axis."""
+    parts: list[float] = []
+    for one, other in pairwise(zip(x, a, strict=True)):
+        corners = [one, *((float(at), 0.0) for at in _crossing(one, other)), other]
+        parts += [(q[0] - p[0]) * (p[1] + q[1]) / 2 for p, q in pairwise(corners)]
+    return np.array(parts)
+
+
+def _integrated(x: Floats, a: Floats) -> tuple[Floats, Floats]:
+    """V and S at the nodes of a graph of A: V grows by (A₁ + A₂)Δ/2 from each to the next, S by VΔ + (2A₁ + A₂)Δ²/6."""
+    Δ = np.diff(x)
+    V = np.concatenate(([0.0], np.cumsum((a[1:] + a[:-1]) * Δ / 2)))
+    return V, np.concatenate(([0.0], np.cumsum(V[:-1] * Δ + (2 * a[:-1] + a[1:]) * Δ**2 / 6)))
+
+
+def _cubic(i: int, start: float, stop: float, at: Named, beyond: Callable[[Expression, int], Expression]) -> Piece:
+    """The piece behind node i: with z = x − xᵢ it is A = Aᵢ + Jᵢz, and V and S are its integrals."""
+
+    def S(x: Expression) -> Operand:
+        z = beyond(x, i)
+        return as_expression(at("S", i)) + at("V", i) * z + at("A", i) * z**2 / 2 + at("J", i) * z**3 / 6
+
+    def V(x: Expression) -> Operand:
+        z = beyond(x, i)
+        return as_expression(at("V", i)) + at("A", i) * z + at("J", i) * z**2 / 2
+
+    def acceleration(x: Expression) -> Operand:
+        return as_expression(at("A", i)) + at("J", i) * beyond(x, i)
+
+    return Piece(start, stop, S, V, acceleration, i)
+
+
+TRAPEZIUM = AccelerationGraph(np.array([0, 1, 3, 5, 7, 8]) / 8, np.array([0.0, 1, 1, -1, -1, 0]))
+"""Trapezoidal acceleration: it rises and falls within an eighth of Φ each."""
+
+SMOOTH: dict[str, tuple[Piece, ...]] = {
+    "uniform": (Piece(0, 1, lambda x: x, lambda _: 1.0, lambda _: 0.0),),
+    "parabolic": (
+        Piece(0, 0.5, lambda x: 2 * x**2, lambda x: 4 * x, lambda _: 4.0),
+        Piece(0.5, 1, lambda x: 1 - 2 * (1 - x) ** 2, lambda x: 4 * (1 - x), lambda _: -4.0),
+    ),
+    "cosine": (
+        Piece(0, 1, lambda x: (1 - cos(PI * x)) / 2, lambda x: PI / 2 * sin(PI * x), lambda x: PI**2 / 2 * cos(PI * x)),
+    ),
+    "sine": (
+        Piece(
+            0,
+            1,
+            lambda x: x - sin(2 * PI * x) / (2 * PI),
+            lambda x: 1 - cos(2 * PI * x),
+            lambda x: 2 * PI * sin(2 * PI * x),
+        ),
+    ),
+    "3-4-5": (
+        Piece(
+            0,
+            1,
+            lambda x: 10 * x**3 - 15 * x**4 + 6 * x**5,
+            lambda x: 30 * x**2 - 60 * x**3 + 30 * x**4,
+            lambda x: 60 * x - 180 * x**2 + 120 * x**3,
+        ),
+    ),
+    "4-5-6-7": (
+        Piece(
+            0,
+            1,
+            lambda x: 35 * x**4 - 84 * x**5 + 70 * x**6 - 20 * x**7,
+            lambda x: 140 * x**3 - 420 * x**4 + 420 * x**5 - 140 * x**6,
+            lambda x: 420 * x**2 - 1680 * x**3 + 2100 * x**4 - 840 * x**5,
+        ),
+    ),
+}
+LAWS = (*SMOOTH, "trapezoidal")
+
+
+@dataclass(frozen=True)
+class FollowerLaw:
+    """A law by its name, or the table that it is; `pieces` follow one another from 0 to 1."""
+
+    name: str
+    table: AccelerationGraph | None = None
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        return self.table.pieces() if self.table is not None else SMOOTH[self.name]
+
+    def __call__(self, x: Floats) -> tuple[Floats, Floats, Floats]:
+        """S, V and A over x [N]; at a corner those behind it."""
+        found = np.empty((3, x.size))
+        stops = [piece.stop for piece in self.pieces[:-1]]
+        inside = np.searchsorted(stops, x, side="right")
+        for number, piece in enumerate(self.pieces):
+            here = inside == number
+            found[:, here] = [evaluated(of, x[here]) for of in (piece.S, piece.V, piece.A)]
+        return found[0], found[1], found[2]
+
+
+def evaluated(of: Formula, x: Floats) -> Floats:
+    """The values of a formula over x."""
+    formula = of(Ref("x"))
+    return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)
+
+
+def law(name: str) -> FollowerLaw:
+    """A law of `LAWS`; raises `KeyError` for any other."""
+    if name not in LAWS:
+        raise KeyError(name)
+    return FollowerLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
+
+
+# --- a turn ---------------------------------------------------------------------------------------
+
+PHASES = ("rise", "far", "return", "near")
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A piece of a turn (rad): of a phase, moving by a `piece` of its law, or none in a dwell."""
+
+    phase: str
+    start: float
+    stop: float
+    begin: float
+    angle: float
+    """Where its phase begins, and how long that is."""
+    piece: Piece | None
+
+    def x(self, φ: Floats) -> Floats:
+        return (φ - self.begin) / self.angle
+
+    def formulas(self, x: Expression, Φ: Operand, h: Expression, of_rates: Expression) -> tuple[Operand, ...]:
+        """s, s′ and s″ by a stroke, a phase angle (rad) and x as they are called; rates by the stroke as an arc."""
+        match self.phase, self.piece:
+            case "rise", Piece(S=S, V=V, A=A):
+                return _scaled(h, S(x)), _scaled(of_rates / Φ, V(x)), _scaled(of_rates / Φ**2, A(x))
+            case "return", Piece(S=S, V=V, A=A):
+                return h - _scaled(h, S(x)), _scaled(-(of_rates / Φ), V(x)), _scaled(-(of_rates / Φ**2), A(x))
+            case "far", _:
+                return h, 0.0, 0.0
+        return 0.0, 0.0, 0.0
+
+
+def _scaled(rate: Expression, by: Operand) -> Operand:
+    """A rate times a factor, as a person writes it where that is a plain number."""
+    if not isinstance(by, float):
+        return rate * by
+    if by < 0:
+        return _scaled(rate.of if isinstance(rate, Negative) else -rate, -by)
+    return 0.0 if by == 0 else rate if by == 1 else _numbered(by, rate)
+
+
+def _numbered(by: float, rate: Expression) -> Expression:
+    return -(by * rate.of) if isinstance(rate, Negative) else by * rate
+
+
+@dataclass(frozen=True)
+class Impact:
+    """A jump of velocity (rigid) or of acceleration (soft) at an angle of the cam, by its size in s′ or s″."""
+
+    kind: str
+    angle: float
+    jump: float
+
+
+@dataclass(frozen=True)
+class FollowerMotion:
+    """The follower's motion s(φ) over a turn: stroke (m or rad), phase angles (rad), laws of rise and return."""
+
+    stroke: float
+    phases: tuple[float, float, float, float]
+    rise: FollowerLaw
+    back: FollowerLaw
+
+    @cached_property
+    def starts(self) -> dict[str, float]:
+        """Where each phase begins."""
+        return dict(zip(PHASES, np.concatenate(([0.0], np.cumsum(self.phases[:3]))).tolist(), strict=True))
+
+    @cached_property
+    def stretches(self) -> tuple[Stretch, ...]:
+        return tuple(self._stretches())
+
+    def _stretches(self) -> Iterator[Stretch]:
+        for phase, angle in zip(PHASES, self.phases, strict=True):
+            begin = self.starts[phase]
+            law = {"rise": self.rise, "return": self.back}.get(phase)
+            pieces: Sequence[Piece | None] = law.pieces if law else (None,)
+            for piece in pieces if angle > NODE else ():
+                start, stop = (piece.start, piece.stop) if piece else (0.0, 1.0)
+                yield Stretch(phase, begin + start * angle, begin + stop * angle, begin, angle, piece)
+
+    def of(self, φ: Floats) -> NDArray[np.intp]:
+        """The number of the stretch that each angle [N] lies in; the ends of a moving phase belong to it."""
+        φ = np.mod(φ, 2 * math.pi)
+        starts = np.array([one.start for one in self.stretches])
+        found = np.searchsorted(starts - NODE, φ, side="right") - 1
+        still = np.array([one.piece is None for one in self.stretches])
+        at_start = np.abs(φ - starts[found]) <= NODE
+        before = found - 1
+        corner = at_start & (found > 0) & still[found] & ~still[before]
+        return np.where(corner, before, found)
+
+    def __call__(self, φ: Floats, of: NDArray[np.intp] | None = None) -> tuple[Floats, Floats, Floats]:
+        """s, s′ and s″ over angles [N] of the cam; `of` says in which stretch each is taken to be."""
+        numbers = self.of(φ) if of is None else of
+        turned = φ if of is not None else np.mod(φ, 2 * math.pi)
+        found = np.zeros((3, φ.size))
+        for number, one in enumerate(self.stretches):
+            here = numbers == number
+            if one.phase == "far":
+                found[0, here] = self.stroke
+            if one.piece is None or not here.any():
+                continue
+            x = one.x(turned[here])
+            S, V, A = (evaluated(of, x) for of in (one.piece.S, one.piece.V, one.piece.A))
+            rate = self.stroke / one.angle
+            up = one.phase == "rise"
+            found[0, here] = self.stroke * (S if up else 1 - S)
+            found[1, here] = rate * V if up else -rate * V
+            found[2, here] = rate / one.angle * (A if up else -A)
+        return found[0], found[1], found[2]
+
+    @cached_property
+    def impacts(self) -> tuple[Impact, ...]:
+        """Where the velocity or the acceleration jumps."""
+        found = []
+        numbers = np.arange(len(self.stretches))
+        stops = np.array([one.stop for one in self.stretches])
+        starts = np.array([one.start for one in self.stretches])
+        _, V_end, A_end = self(stops, numbers)
+        _, V_begin, A_begin = self(starts, numbers)
+        for number in numbers:
+            behind = (number + 1) % len(numbers)
+            angle = float(np.mod(stops[number], 2 * math.pi))
+            for kind, end, begin in (("rigid", V_end, V_begin), ("soft", A_end, A_begin)):
+                jump = float(begin[behind] - end[number])
+                if abs(jump) > JUMP * self.stroke:
+                    found.append(Impact(kind, 0.0 if 2 * math.pi - angle < NODE else angle, jump))
+                    break
+        return tuple(sorted(found, key=lambda one: one.angle))

@@ -1,0 +1,474 @@
+"""A cam as a ledger: every number by its id, worked out from those above it, as the report prints it.
+
+Positions are rows.  What follows other formulas in each phase is a `branch` of the number of its stretch, so that the
+line of a position prints the formula of its own phase.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.base.units import MM, nice_up
+from reportgen.cam.design import Touch
+from reportgen.cam.file import Designed, Parameters, designed, positions_of
+from reportgen.cam.laws import Floats, FollowerMotion, Stretch
+from reportgen.cam.profile import Cam, Traced
+from reportgen.formula import (
+    PI,
+    Expression,
+    Number,
+    Operand,
+    Ref,
+    Symbol,
+    acos,
+    as_expression,
+    asin,
+    atan,
+    branch,
+    cos,
+    ids,
+    signed,
+    sin,
+    sqrt,
+    substitute,
+    tan,
+)
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import Chapter
+from reportgen.report.case import Pitfalls
+
+LINES: Mapping[str, tuple[str, ...]] = {
+    "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
+    "begin": ("cam.start.return",),
+    "speed": ("cam.omega",),
+    "motion": (
+        *("cam.x", "cam.z", "cam.s", "cam.ds", "cam.dds", "cam.psi", "cam.dpsi", "cam.ddpsi"),
+        *("cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f"),
+    ),
+    "scales": ("cam.mu.phi", "cam.mu.ds", "cam.mu.s", "cam.mu.dpsi", "cam.mu.psi"),
+    "intercepts": ("cam.c.1", "cam.c.2"),
+    "apex": ("cam.apex.s0", "cam.apex.e"),
+    "least": ("cam.least.e", "cam.least.s0", "cam.least.psi0", "cam.least.r0"),
+    "lowest": ("cam.s0", "cam.psi0"),
+    "pressure": ("cam.q", "cam.k", "cam.alpha"),
+    "points": ("cam.contact", "cam.pitch.x", "cam.pitch.y", "cam.profile.x", "cam.profile.y"),
+    "curvature": ("cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
+}
+"""What the report sets out together."""
+MOVING = {"rise": 1, "return": 2}
+"""The numbers of what belongs to each of the two phases with motion."""
+STILL = Number(0.0)
+TURN_ON_PAPER, HEIGHT = 0.120, 0.042
+"""The length of a turn in the diagrams of the motion, and about how high each is (m on paper)."""
+LEAST_POLE, MOST_POLE = 5, 30
+"""Pole distances (mm)."""
+KINDS_ON_PAPER = ("length on paper", "reduced velocity on paper", "reduced acceleration on paper")
+
+
+@dataclass(frozen=True)
+class CamSolution:
+    """The cam of a file at its positions [N], and its ledger."""
+
+    given: Parameters
+
+    @cached_property
+    def designed(self) -> Designed:
+        return designed(self.given)
+
+    @property
+    def cam(self) -> Cam:
+        return self.designed.cam
+
+    @property
+    def motion(self) -> FollowerMotion:
+        return self.cam.motion
+
+    @cached_property
+    def degrees(self) -> tuple[float, ...]:
+        return positions_of(self.given)
+
+    @cached_property
+    def φ(self) -> Floats:
+        return np.radians(self.degrees)
+
+    @cached_property
+    def traced(self) -> Traced:
+        """The cam at its positions."""
+        return self.cam.traced(self.φ)
+
+    @cached_property
+    def stretches(self) -> tuple[Stretch, ...]:
+        """The stretch of each position."""
+        return tuple(self.motion.stretches[number] for number in self.motion.of(self.φ))
+
+    @cached_property
+    def sheet(self) -> Sheet:
+        q = CamSheet(self)
+        q.enter_given()
+        q.enter_motion()
+        q.enter_scales()
+        q.enter_least()
+        if self.cam.flat:
+            q.enter_flat()
+        else:
+            q.enter_profile()
+        if self.cam.flat:
+            q.q.set_out("points", "cam.q", "cam.k")
+        for name, lines in LINES.items():
+            q.q.set_out(name, *lines)
+        return q.q
+
+    @cached_property
+    def pitfalls(self) -> Pitfalls:
+        return Pitfalls(readings=self._exchanged, changed=self._changed)
+
+    @property
+    def _exchanged(self) -> Mapping[str, list[tuple[str, np.ndarray]]]:
+        """The motion as it is with the angles and the laws of rise and return exchanged."""
+        first, far, back, near = self.motion.phases
+        other = FollowerMotion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
+        return {id: [("cam-exchanged", values)] for id, values in zip(self.moved, other(self.φ), strict=True)}
+
+    @property
+    def _changed(self) -> Mapping[str, list[tuple[str, Expression]]]:
+        """Definitions that are often used in place of the right ones."""
+        found: dict[str, list[tuple[str, Expression]]] = {}
+        families = self.sheet.families
+
+        def also(name: str, id: str, change: Mapping[str, Operand], factor: float = 1.0) -> None:
+            if id in families and (definition := families[id].definition) is not None:
+                other = substitute(definition, lambda ref: as_expression(change.get(ref.id, ref)))
+                if other != definition or factor != 1:
+                    found.setdefault(id, []).append((name, other * factor if factor != 1 else other))
+
+        for id, power in (("cam.ds", 1), ("cam.dds", 2), ("cam.dpsi", 1), ("cam.ddpsi", 2)):
+            also("cam-degrees", id, {}, (math.pi / 180) ** power)
+        also("cam-phase-sum", "cam.x", {"cam.start.return": Ref(ids.cam_phase("rise"))})
+        also("cam-phase-sum", "cam.start.return", {ids.cam_phase("far"): 0.0})
+        for id in ("cam.alpha", "cam.pitch.x", "cam.pitch.y", "cam.rho"):
+            also("cam-offset-side", id, {"cam.e": -Ref("cam.e")})
+        also("cam-wrong-sense", "cam.k", {self.moved[1]: -Ref(self.moved[1])})
+        limits = {"cam.limit.rise": Ref("cam.limit.return"), "cam.limit.return": Ref("cam.limit.rise")}
+        if "cam.limit.return" in families:
+            for id in families:
+                if id.startswith(("cam.c.", "cam.apex.", "cam.least.")):
+                    also("cam-limits-exchanged", id, limits)
+        for id in ("cam.profile.x", "cam.profile.y"):
+            also("cam-roller-outward", id, {"cam.roller": -Ref("cam.roller")})
+        return found
+
+    @property
+    def moved(self) -> tuple[str, str, str]:
+        """s, s′ and s″ as the ledger calls them."""
+        return ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
+
+
+class CamSheet:
+    """The sheet of a cam while it is written."""
+
+    def __init__(self, of: CamSolution) -> None:
+        self.of, self.cam, self.given = of, of.cam, of.given
+        self.q = Sheet(len(of.degrees))
+        self.turn, self.σ = of.cam.turn, of.cam.opposite
+
+    # --- what is given and chosen
+
+    def enter_given(self) -> None:
+        q, given, cam = self.q, self.given, self.cam
+        with q.within(Chapter.data):
+            self.stroke = q.give("cam.h" if cam.translating else "cam.swing", cam.motion.stroke)
+            for phase, degrees in zip(("rise", "far", "return", "near"), given.phase_degrees, strict=True):
+                q.give(ids.cam_phase(phase), math.radians(degrees))
+            limits = self.of.designed.limits
+            for phase, limit in (("rise", limits.rise), ("return", limits.back)):
+                if limit is not None and not cam.flat:
+                    q.give(ids.cam_limit(phase), limit)
+            q.give("cam.limit.rho", limits.rho)
+            if given.n is not None:
+                n = q.give("cam.n", given.n.value)
+                q.define("cam.omega", 2 * PI * n / 60)
+            if not cam.translating:
+                q.give("cam.a", cam.a)
+                if not cam.flat:
+                    q.give("cam.l", cam.arm)
+            elif not cam.flat:
+                q.give("cam.e", cam.e)
+            q.give("cam.r0", cam.r0)
+            if cam.roller:
+                q.give("cam.roller", cam.roller)
+
+    # --- the law of motion
+
+    def enter_motion(self) -> None:
+        q, motion = self.q, self.cam.motion
+        for phase in MOVING:
+            q.define(ids.cam_arc(phase), q[ids.cam_phase(phase)])
+        self.arc = self.stroke if self.cam.translating else q.define(ids.cam_arc("swing"), self.stroke)
+        q.define("cam.start.return", q[ids.cam_phase("rise")] + q[ids.cam_phase("far")])
+        laws = {"rise": motion.rise, "return": motion.back}
+        for phase, law in laws.items():
+            if law.table is not None:
+                self._enter_nodes(MOVING[phase], law.table.nodes[0], law.table.x)
+        φ = q.give("cam.phi", self.of.φ)
+        stretches = motion.stretches
+        number = q.give("cam.stretch", motion.of(self.of.φ), "stretch", "count", hidden=True)
+        places = {
+            "rise": φ / q[ids.cam_phase("rise")],
+            "return": (φ - q["cam.start.return"]) / q[ids.cam_phase("return")],
+        }
+        x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in stretches)), scale=1.0)
+        if any(law.table is not None for law in laws.values()):
+            begun = [self._beyond(one, x) for one in stretches]
+            q.define("cam.z", branch(number, *begun), scale=1.0)
+        written = [self._formulas(one, x) for one in stretches]
+        for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
+            q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
+        self.s, self.ds, self.dds = (q[id] for id in self.of.moved)
+        if omega := q.find("cam.omega"):
+            rate, acceleration = (
+                ("cam.v", "cam.acceleration") if self.cam.translating else ("cam.omega.f", "cam.epsilon.f")
+            )
+            q.define(rate, omega * self.ds, scale=motion.stroke)
+            q.define(acceleration, omega**2 * self.dds, scale=motion.stroke)
+
+    def enter_scales(self) -> None:
+        """Scales of the diagrams of the motion: μ_s″ is round; with whole pole distances K the others follow."""
+        q, turned = self.q, not self.cam.translating
+        names = ("psi", "dpsi", "ddpsi") if turned else ("s", "ds", "dds")
+        symbols = ("ψ", "ψ′", "ψ″") if turned else ("s", "s′", "s″")
+        kinds = ("angle on paper", "rate on paper", "rate on paper") if turned else KINDS_ON_PAPER
+        traced = self.cam.sampled()
+        first, second, third = (float(np.ptp(part)) for part in (traced.s, traced.ds, traced.dds))
+        L = q.give(ids.cam_diagram("L"), TURN_ON_PAPER, optional=True)
+        μ_φ = q.define(ids.cam_scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
+        chosen = nice_up(third / HEIGHT) if third else nice_up(second / HEIGHT / q.si(μ_φ) / HEIGHT)
+        above = q.give(ids.cam_scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
+        for number, (name, shown, kind, range_) in enumerate(
+            ((names[1], symbols[1], kinds[1], second), (names[0], symbols[0], kinds[0], first)), start=1
+        ):
+            wanted = range_ / HEIGHT / (q.si(above) * q.si(μ_φ)) * MM
+            pole = min(max(round(wanted), LEAST_POLE), MOST_POLE) / MM
+            K = q.give(ids.cam_diagram(number), pole, Symbol("K", str(number)), optional=True)
+            above = q.define(ids.cam_scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
+
+    def _formulas(self, one: Stretch, x: Ref) -> tuple[Operand, ...]:
+        if one.piece is None:
+            return one.formulas(x, 1.0, self.stroke, self.stroke)
+        arc = self.q[ids.cam_arc(one.phase)]
+        piece = one.piece
+        if piece.node >= 0:
+            z = self.q["cam.z"]
+            table = {"rise": self.cam.motion.rise, "return": self.cam.motion.back}[one.phase].table
+            assert table is not None
+            named = {
+                cubic.node: cubic
+                for cubic in table.pieces(lambda what, i: self._node(MOVING[one.phase], i, what), lambda *_: z)
+            }
+            piece = named[piece.node]
+        return Stretch(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
+            x, arc, self.stroke, self.arc
+        )
+
+    def _beyond(self, one: Stretch, x: Ref) -> Expression:
+        """How far x lies beyond the node that a stretch begins at."""
+        if one.piece is None or one.piece.node < 0:
+            return STILL
+        return x - self._node(MOVING[one.phase], one.piece.node, "x")
+
+    def _node(self, phase: int, number: int, what: str) -> Ref:
+        return self.q[ids.cam_node(phase, number, what)]
+
+    def _enter_nodes(self, phase: int, A: Floats, x: Floats) -> None:
+        """The graph of the acceleration, integrated from node to node."""
+        q = self.q
+        for i, (at, value) in enumerate(zip(x, A, strict=True)):
+            here = q.give(ids.cam_node(phase, i, "x"), float(at))
+            now = q.give(ids.cam_node(phase, i, "A"), float(value), exact=False)
+            if not i:
+                q.give(ids.cam_node(phase, i, "V"), 0.0)
+                q.give(ids.cam_node(phase, i, "S"), 0.0)
+                continue
+            last, before, V, S = (self._node(phase, i - 1, what) for what in ("x", "A", "V", "S"))
+            if abs(at - x[i - 1]) == 0:
+                q.define(ids.cam_node(phase, i, "V"), V)
+                q.define(ids.cam_node(phase, i, "S"), S)
+                continue
+            Δ = here - last
+            q.define(ids.cam_node(phase, i - 1, "J"), (now - before) / Δ, scale=1.0)
+            if i == len(x) - 1:
+                # The follower comes to rest at the end of its stroke.
+                q.give(ids.cam_node(phase, i, "V"), 0.0)
+                q.give(ids.cam_node(phase, i, "S"), 1.0)
+                continue
+            q.define(ids.cam_node(phase, i, "V"), V + (before + now) * Δ / 2, scale=1.0)
+            q.define(ids.cam_node(phase, i, "S"), S + V * Δ + (2 * before + now) * Δ**2 / 6, scale=1.0)
+
+    # --- the least cam
+
+    def enter_least(self) -> None:
+        q, least = self.q, self.of.designed.least
+        if self.cam.flat:
+            if self.cam.translating:
+                valley = q.give("cam.valley", self.given_rho - self.of.designed.least_r0, exact=False)
+                q.define("cam.least.r0", q["cam.limit.rho"] - valley)
+            else:
+                q.give("cam.least.r0", self.of.designed.least_r0, exact=False)
+            return
+        if self.cam.translating:
+            if least is not None:
+                self._translating()
+            q.define("cam.s0", sqrt(q["cam.r0"] ** 2 - q["cam.e"] ** 2) if self.cam.e else q["cam.r0"])
+            return
+        if least is not None:
+            self._oscillating()
+
+    @property
+    def given_rho(self) -> float:
+        return self.of.designed.limits.rho
+
+    def _touch(self, phase: str, touch: Touch) -> tuple[Ref, Ref]:
+        """Where a limit line touches, as it is read off the diagram."""
+        q, number = self.q, MOVING[phase]
+        names = ("s", "ds") if self.cam.translating else ("psi", "dpsi")
+        q.give(ids.cam_touch(number, "phi"), touch.phi, exact=False)
+        s = q.give(ids.cam_touch(number, names[0]), touch.s, exact=False)
+        return s, q.give(ids.cam_touch(number, names[1]), touch.ds, exact=False)
+
+    def _translating(self) -> None:
+        q, least = self.q, self.of.designed.least
+        assert least is not None
+        assert least.rise is not None
+        s, ds = self._touch("rise", least.rise)
+        t1 = tan(q["cam.limit.rise"])
+        c1 = q.define(ids.cam_intercept(1), ds - s * t1)
+        c2, t2 = None, None
+        if least.back is not None:
+            s, ds = self._touch("return", least.back)
+            t2 = tan(q["cam.limit.return"])
+            c2 = q.define(ids.cam_intercept(2), -ds - s * t2)
+        if not self.given.seeks("e"):
+            top = c1 if least.rule == "rise" else c2
+            assert top is not None
+            limit = t1 if least.rule == "rise" else t2
+            assert limit is not None
+            if not self.cam.e:
+                q.define("cam.least.r0", top / limit)
+                return
+            aside = top - q["cam.e"] if least.rule == "rise" else top + q["cam.e"]
+            s0 = q.define("cam.least.s0", aside / limit)
+            q.define("cam.least.r0", sqrt(s0**2 + q["cam.e"] ** 2))
+            return
+        if c2 is not None and t2 is not None:
+            high = q.define("cam.apex.s0", (c1 + c2) / (t1 + t2))
+            across = q.define("cam.apex.e", c1 - high * t1)
+        if least.rule == "apex":
+            s0, e = q.define("cam.least.s0", high), q.define("cam.least.e", across)
+        elif least.rule == "rise":
+            e = q.define("cam.least.e", c1 / (1 + t1**2))
+            s0 = q.define("cam.least.s0", e * t1)
+        else:
+            assert c2 is not None
+            assert t2 is not None
+            e = q.define("cam.least.e", -(c2 / (1 + t2**2)))
+            s0 = q.define("cam.least.s0", -(e * t2))
+        q.define("cam.least.r0", sqrt(s0**2 + e**2))
+
+    def _oscillating(self) -> None:
+        """The lowest ψ₀ that each limit allows; the larger one counts."""
+        q, least = self.q, self.of.designed.least
+        assert least is not None
+        a, arm = q["cam.a"], q["cam.l"]
+        found: dict[str, Expression] = {}
+        if least.rise is not None:
+            ψ, dψ = self._touch("rise", least.rise)
+            limit = q["cam.limit.rise"]
+            found["rise"] = limit - acos(arm * self.k(dψ) * cos(limit) / a) - ψ
+        if least.back is not None:
+            ψ, dψ = self._touch("return", least.back)
+            limit = q["cam.limit.return"]
+            found["return"] = acos(arm * self.k(dψ) * cos(limit) / a) - limit - ψ
+        ψ0 = q.define("cam.least.psi0", found[least.rule])
+        q.define("cam.least.r0", sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0)))
+
+    def k(self, dψ: Ref) -> Expression:
+        return 1 + dψ if self.σ > 0 else 1 - dψ
+
+    # --- the profile
+
+    def across(self, of: Expression) -> Expression:
+        """An abscissa in the frame of a cam that turns as this one does."""
+        return signed(self.turn, of)
+
+    def enter_profile(self) -> None:
+        """Pitch curve by inversion, pressure angle, radius of curvature; then the working curve."""
+        q, r0 = self.q, self.cam.r0
+        φ = q["cam.phi"]
+        if self.cam.translating:
+            s0, e, s, ds, dds = q["cam.s0"], q["cam.e"], self.s, self.ds, self.dds
+            x: Expression
+            y: Expression
+            u = q.define("cam.u", s0 + s)
+            if self.cam.e:
+                w = q.define("cam.w", ds - e)
+                x, y = (s0 + s) * sin(φ) + e * cos(φ), (s0 + s) * cos(φ) - e * sin(φ)
+                α = q.define("cam.alpha", atan((ds - e) / (s0 + s)), scale=1.0)
+                ρ = sqrt(u**2 + w**2) ** 3 / (u * (u - dds) + w * (w + ds))
+            else:
+                x, y = (s0 + s) * sin(φ), (s0 + s) * cos(φ)
+                α = q.define("cam.alpha", atan(ds / (s0 + s)), scale=1.0)
+                ρ = sqrt(u**2 + ds**2) ** 3 / (u * (u - dds) + 2 * ds**2)
+            lean: Expression = φ - α
+        else:
+            a, arm, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds
+            ψ0 = q.define("cam.psi0", acos((a**2 + arm**2 - q["cam.r0"] ** 2) / (2 * a * arm)))
+            at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
+            α = q.define("cam.alpha", atan((arm * k - a * cos(at)) / (a * sin(at))), scale=1.0)
+            x, y = self._inverted(a - arm * cos(at), arm * sin(at))
+            u, w = q.define("cam.u", arm * k * sin(at)), q.define("cam.w", a - arm * k * cos(at))
+            bend = q.define("cam.m.1", arm * (k**2 * sin(at) - ddψ * cos(at)))
+            turn = q.define("cam.m.2", a - arm * (k**2 * cos(at) + ddψ * sin(at)))
+            ρ = sqrt(u**2 + w**2) ** 3 / (u * bend + w * turn)
+            lean = φ + (at - α) if self.σ > 0 else φ - (at - α)
+        x_B = q.define(ids.cam_pitch("x"), self.across(x), scale=r0)
+        y_B = q.define(ids.cam_pitch("y"), y, scale=r0)
+        ρ_B = q.define("cam.rho", ρ)
+        if self.cam.roller:
+            roller = q["cam.roller"]
+            q.define(ids.cam_profile("x"), x_B - signed(self.turn, roller * sin(lean)), scale=r0)
+            q.define(ids.cam_profile("y"), y_B - roller * cos(lean), scale=r0)
+            q.define("cam.rho.working", ρ_B - roller)
+
+    def _inverted(self, across: Expression, up: Expression) -> tuple[Expression, Expression]:
+        """A point of an oscillating follower, so far from the cam's centre towards the pivot and up, turned by −φ."""
+        φ = self.q["cam.phi"]
+        if self.σ > 0:
+            return up * sin(φ) + across * cos(φ), up * cos(φ) - across * sin(φ)
+        return up * sin(φ) - across * cos(φ), up * cos(φ) + across * sin(φ)
+
+    def enter_flat(self) -> None:
+        q, φ, r0 = self.q, self.q["cam.phi"], self.cam.r0
+        x: Expression
+        y: Expression
+        ρ: Expression
+        if self.cam.translating:
+            s, ds, dds = self.s, self.ds, self.dds
+            high = q["cam.r0"] + s
+            x, y = high * sin(φ) + ds * cos(φ), high * cos(φ) - ds * sin(φ)
+            ρ = q["cam.r0"] + s + dds
+        else:
+            a, ψ, dψ, ddψ = q["cam.a"], self.s, self.ds, self.dds
+            ψ0 = q.define("cam.psi0", asin(q["cam.r0"] / a))
+            at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
+            L = q.define("cam.contact", a * cos(at) / k)
+            x, y = self._inverted(a - L * cos(at), L * sin(at))
+            bend = q.define("cam.m.1", cos(at) * ddψ - sin(at) * dψ**2, kind="ratio")
+            turn = q.define("cam.m.2", cos(at) * dψ * ddψ / k, kind="ratio")
+            ρ = a * sin(at) + a * (bend - turn if self.σ > 0 else bend + turn) / k**2
+        q.define(ids.cam_profile("x"), self.across(x), scale=r0)
+        q.define(ids.cam_profile("y"), y, scale=r0)
+        q.define("cam.rho", ρ)

@@ -1,0 +1,57 @@
+"""A cam with its words and its numbers: what everything that is drawn or said of it is made of."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.cam.file import Parameters
+from reportgen.cam.solution import CamSolution
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.rounding import printed
+from reportgen.report.case import Opened
+
+
+@dataclass(frozen=True)
+class SolvedCam(Opened):
+    """An assignment of a cam with its ledger; each part is computed when it is first asked for."""
+
+    @cached_property
+    def solution(self) -> CamSolution:
+        given: Parameters = self.assignment.parameters
+        return CamSolution(given)
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        sheet = self.solution.sheet
+        made = Ledger(sheet.families, sheet.positions, units=self.words["units"], lines=sheet.lines)
+        return made.in_language(self.words["symbols"])
+
+    @cached_property
+    def printed(self) -> Ledger:
+        return printed(self.ledger)
+
+    @property
+    def count(self) -> int:
+        """Its positions."""
+        return len(self.solution.degrees)
+
+    @property
+    def speed(self) -> float | None:
+        return self.ledger["cam.omega"].at(1) if "cam.omega" in self.ledger else None
+
+    @property
+    def worked(self) -> tuple[int, ...]:
+        """The positions written out in full: one amid the rise and one amid the return, unless others are named."""
+        report, count = self.assignment.report, self.count
+        if report.worked_positions is None:
+            return tuple(range(1, count + 1))
+        if "worked_positions" in report.model_fields_set:
+            return tuple(one for one in map(int, report.worked_positions) if one <= count)
+        starts, φ = self.solution.motion.starts, self.solution.φ
+        phases = self.solution.motion.phases
+        # Well beside the middle, where most laws have no acceleration.
+        wanted = (0.3 * phases[0], starts["return"] + 0.3 * phases[2])
+        return tuple(dict.fromkeys(int(np.abs(φ - at).argmin()) + 1 for at in wanted))

@@ -1,0 +1,441 @@
+"""A cam as its report and its task show it: what the templates name, tables, worked lines, figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from reportgen.base.units import MM
+from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
+from reportgen.cam.drawings import inversion, limit_diagram
+from reportgen.cam.file import Judged, exceeded, judged
+from reportgen.cam.laws import FollowerLaw, Piece
+from reportgen.cam.solution import MOVING
+from reportgen.cam.solved import SolvedCam
+from reportgen.drawing import Scene
+from reportgen.formula import Chain, Expression, Number, Symbol, ids, substitute, vocabulary
+from reportgen.formula.plain import formula
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Contents,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    PageBreak,
+    Section,
+    Table,
+    Text,
+    Value,
+    Words,
+    listed,
+)
+from reportgen.report.case import Key
+from reportgen.report.numbering import number
+from reportgen.report.prose import Prose
+
+SECTIONS = (
+    "cam-given",
+    "cam-law",
+    "cam-diagrams",
+    "cam-motion-table",
+    "cam-limits",
+    "cam-choice",
+    "cam-pressure",
+    "cam-profile",
+    "cam-curvature",
+    "cam-checks",
+    "cam-conclusion",
+)
+SHORT = frozenset({"cam-diagrams", "cam-curvature"})
+"""The sections, and what templates ask for by `full`, that a short report goes without."""
+DATA = (95.0, 25.0, 40.0)
+CHECKS = (74.0, 30.0, 30.0, 26.0)
+ROWS = 16.0
+"""The width of the column of positions (mm)."""
+WIDEST = 27.0
+ANGLE = 2
+NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
+
+
+def report(case: SolvedCam) -> Document:
+    """The finished, numbered report."""
+    page, words, assignment = CamPage(case), case.words, case.assignment
+    prose, full = Prose(case.places), assignment.report.extent == "full"
+    names = page.names()
+    blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
+    for section in SECTIONS:
+        if page.has(section) and (full or section not in SHORT):
+            found = prose.render(section, names)
+            blocks += found
+    return number(
+        Document(
+            language=assignment.language,
+            title=f"{words['cover']['title']} – {case.title}",
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words.among(words["document"]),
+            blocks=tuple(blocks),
+            close=not full,
+        )
+    )
+
+
+def task(case: SolvedCam, key: Key, by_section: bool = False) -> Document:
+    """The student's handout: the given data and the empty answer sheet."""
+    from reportgen.marking.paper import empty_sheet, task_paper
+
+    page = CamPage(case)
+    names = {
+        **page.names(),
+        "answer_tables": empty_sheet(key, by_section),
+        "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
+    }
+    title = (Section(1, (Text(case.words["cam"]["task"].format(title=case.title)),), numbered=False),)
+    return task_paper(case, key, title, Prose(case.places).render("cam-task", names))
+
+
+@dataclass(frozen=True)
+class LawView:
+    """The law of a phase: its words' key, and its formulas piece by piece with the angles between which they hold."""
+
+    phase: str
+    equation: Equation
+    table: tuple[Table, ...]
+
+
+@dataclass(frozen=True)
+class ImpactView:
+    """Impacts of one kind, and the angles at which they are."""
+
+    rigid: bool
+    angles: Inlines
+
+
+@dataclass(frozen=True)
+class CamPage:
+    """A cam as templates name it."""
+
+    case: SolvedCam
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        found: Mapping[str, Any] = self.case.words["cam"]
+        return found
+
+    @cached_property
+    def judged(self) -> Judged:
+        return judged(self.case.solution.cam)
+
+    def has(self, section: str) -> bool:
+        """Whether a cam like this has a section."""
+        cam, least = self.case.solution.cam, self.case.solution.designed.least
+        return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
+
+    def names(self) -> dict[str, Any]:
+        case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
+        found = case.solution.designed
+        exceeded, undercut = self.exceeded, self.undercut
+        return {
+            "words": case.words,
+            "full": case.assignment.report.extent == "full",
+            # what kind of cam it is
+            "translating": cam.translating,
+            "flat": cam.flat,
+            "roller": bool(cam.roller),
+            "offset": bool(cam.e),
+            "has_axis": cam.translating and not cam.flat,
+            "sliding_face": cam.translating and cam.flat,
+            "turning_face": cam.flat and not cam.translating,
+            "one_curve": not cam.roller,
+            "opposite": cam.opposite > 0,
+            "lifts": self.lifts,
+            "clockwise": cam.turn < 0,
+            "with_speed": given.n is not None,
+            # what is sought, within what limits
+            "finds": given.finds,
+            "several": len(given.finds) > 1,
+            "finds_e": given.seeks("e"),
+            "finds_roller": given.seeks("roller"),
+            "found": listed(InlineMath(case.ledger.symbol(_id(key))) for key in given.finds),
+            "chosen": tuple(map(_id, given.finds)),
+            "has_limits": found.limits.rise is not None,
+            "limited": found.limits.rise is not None and not cam.flat,
+            "both_limits": found.limits.back is not None,
+            "least": found.least is not None,
+            "apex": "cam.apex.s0" in case.ledger,
+            "apex_is_least": found.least is not None and found.least.rule == "apex",
+            "deciding": self.deciding,
+            # laws, positions, tables
+            "laws": self.laws,
+            "law_words": self.law_words,
+            "impacts": self.impacts,
+            "worked": case.worked,
+            "count": case.count,
+            "phase_of": lambda k: self.words["phases"][case.solution.stretches[k - 1].phase],
+            "data": self.data,
+            "motion_table": self.motion_table,
+            "profile_table": self.profile_table,
+            # what is judged
+            "checks": self.checks,
+            "extremes": self.judged,
+            "exceeded": exceeded,
+            "undercut": undercut,
+            "sound": not (exceeded or undercut),
+            # symbols, numbers, lines, figures
+            "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
+            "value": lambda id, k=None: Value(case.printed.number(id, k)),
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "angle": lambda angle: Value(Number(math.degrees(angle), ANGLE, "°")),
+            "length": lambda size: Value(Number(size * MM, 3, "mm")),
+            "figure": self.figure,
+        }
+
+    @property
+    def deciding(self) -> Mapping[str, str]:
+        """The limit line that decides: its phase in words, and the ids of what is read where it touches."""
+        least = self.case.solution.designed.least
+        if least is None:
+            return {}
+        rule = "return" if least.rule == "return" else "rise"
+        read = {name: ids.cam_touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
+        return {"phase": str(self.words["phases"][rule]), **read}
+
+    # --- symbols and lines
+
+    def math(self, text: str) -> Symbol:
+        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
+        if text in self.case.printed:
+            return self.case.printed.symbol(text)
+        base, _, sub = text.partition("_")
+        return vocabulary.in_language(Symbol(base, sub), self.case.words["symbols"])
+
+    def quantity(self, id: str, k: int | None = None) -> Inlines:
+        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
+
+    def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Equation, ...]:
+        """Worked lines, in an equation if there are any."""
+        rows = tuple(self.case.printed.chain(id, k) for id in quantities)
+        return (Equation(rows),) if rows else ()
+
+    # --- what is given
+
+    @property
+    def data(self) -> Table:
+        """The data with their names, symbols and values; what was found is left out."""
+        case, heads, finds = self.case, self.case.words["table"], self.case.solution.given.finds
+        hidden = {_id(key) for key in finds}
+        rows = []
+        for id, name in case.words["given"].items():
+            if id in case.printed and id not in hidden:
+                symbol, value = case.printed.symbol(id), Value(case.printed.number(id))
+                rows.append((Cell((Text(str(name)),)), Cell((InlineMath(symbol),)), Cell((value,))))
+        for key in ("follower", "end", "lifts", "direction", "closed_by"):
+            if (said := self._said(key)) is not None:
+                rows.append((Cell((Text(said[0]),)), Cell((Text("–"),)), Cell((Text(said[1]),))))
+        for phase, text in self.law_words.items():
+            rows.append((Cell((Text(self.words["law_of"][phase]),)), Cell((Text("–"),)), Cell((Text(text),))))
+        head = tuple(Cell((Text(heads[key]),)) for key in ("quantity", "symbol", "value"))
+        caption = Prose(case.places).inlines(self.words["captions"]["data"])
+        widths = (Column(DATA[0], "left"), Column(DATA[1]), Column(DATA[2]))
+        return Table(widths, (head,), tuple(rows), caption, "tab.data")
+
+    def _said(self, key: str) -> tuple[str, str] | None:
+        """A choice of the file in words."""
+        given = self.case.solution.given
+        if key == "lifts" and given.translating:
+            return None
+        table = self.words["choices"][key]
+        return str(table["name"]), str(table[getattr(given, key)])
+
+    @property
+    def law_words(self) -> Mapping[str, str]:
+        motion = self.case.solution.motion
+        return {
+            phase: str(self.words["laws"][law.name]) for phase, law in (("rise", motion.rise), ("return", motion.back))
+        }
+
+    @property
+    def lifts(self) -> str:
+        return str(self.words["choices"]["lifts"][self.case.solution.given.lifts])
+
+    # --- the laws
+
+    @property
+    def laws(self) -> tuple[LawView, ...]:
+        motion = self.case.solution.motion
+        return tuple(
+            LawView(phase, self._formulas(phase, law), self._nodes(phase, law))
+            for phase, law in (("rise", motion.rise), ("return", motion.back))
+        )
+
+    def _formulas(self, phase: str, law: FollowerLaw) -> Equation:
+        """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
+        ledger, names = self.case.printed, self.case.solution.moved
+        rows: list[Expression] = []
+        stretches = [one for one in self.case.solution.motion.stretches if one.phase == phase]
+        numbers = [n for n, one in enumerate(self.case.solution.motion.stretches) if one.phase == phase]
+        for n, one in zip(numbers, stretches, strict=True):
+            note = self._between(one.piece) if len(stretches) > 1 and law.table is None else ""
+            for id in names:
+                definition = self.case.ledger[id].definition
+                assert definition is not None
+                branch = definition.arguments[1 + n]  # type: ignore[union-attr]
+                shown = substitute(branch, lambda ref: ledger.symbol(ref.id))
+                rows.append(Chain((ledger.symbol(id), shown), note if id == names[0] else ""))
+            if law.table is not None and len(stretches) > 2:
+                break
+        return Equation(tuple(rows))
+
+    def _between(self, piece: Piece | None) -> str:
+        """For which x a piece holds."""
+        assert piece is not None
+        low, high = (formula(Number(one), self.case.assignment.language) for one in (piece.start, piece.stop))
+        return f"{low} ≤ x ≤ {high}"
+
+    def _nodes(self, phase: str, law: FollowerLaw) -> tuple[Table, ...]:
+        """The graph of an acceleration, integrated twice at its nodes."""
+        if law.table is None:
+            return ()
+        number = MOVING[phase]
+        columns = ("x", "A", "V", "S", "J")
+        head = (Cell((InlineMath(Symbol("i")),)), *(Cell((InlineMath(Symbol(one)),)) for one in columns))
+        rows = [
+            (Cell((Text(str(i)),)), *(Cell(self._at_node(ids.cam_node(number, i, one))) for one in columns))
+            for i in range(len(law.table.x))
+        ]
+        caption = Prose(self.case.places).inlines(
+            self.words["captions"]["nodes"].format(phase=self.words["phases"][phase])
+        )
+        return (Table(tuple(map(Column, NODES)), (head,), tuple(rows), caption, f"tab.nodes.{phase}"),)
+
+    def _at_node(self, id: str) -> Inlines:
+        return (Value(self.case.printed.number(id)) if id in self.case.printed else Text("–"),)
+
+    @property
+    def impacts(self) -> tuple[ImpactView, ...]:
+        """The kinds of impact with the angles at which they are."""
+        found: dict[str, list[float]] = {}
+        for one in self.case.solution.motion.impacts:
+            found.setdefault(one.kind, []).append(math.degrees(one.angle))
+        return tuple(
+            ImpactView(kind == "rigid", listed(Value(Number(float(f"{angle:.6g}"), None, "°")) for angle in angles))
+            for kind, angles in found.items()
+        )
+
+    # --- tables of the positions
+
+    @property
+    def motion_table(self) -> Table:
+        lines = self.case.printed.known(self.case.printed.lines["motion"])
+        return self._positions("motion", ("cam.phi", *(id for id in lines if id != "cam.z")))
+
+    @property
+    def profile_table(self) -> Table:
+        lines = self.case.printed.lines
+        shown = ("cam.contact", "cam.alpha", *lines["points"], "cam.rho", "cam.rho.working")
+        name = "profile_flat" if self.case.solution.cam.flat else "profile"
+        return self._positions(name, ("cam.phi", *self.case.printed.known(shown)))
+
+    def _positions(self, name: str, quantities: Sequence[str]) -> Table:
+        """Quantities over the positions, a row each."""
+        ledger, words = self.case.printed, self.case.words["table"]
+        units = [ledger.units.get(ledger[id].how.unit, ledger[id].how.unit) for id in quantities]
+        heads = (
+            (Cell((Text(str(words["position"])),)), *(Cell((InlineMath(ledger.symbol(id)),)) for id in quantities)),
+            (Cell(), *(Cell((Text(unit),)) for unit in units)),
+        )
+        rows = [
+            (Cell((Text(str(k)),)), *(Cell(self._bare(id, k)) for id in quantities))
+            for k in range(1, self.case.count + 1)
+        ]
+        width = min((160.0 - ROWS) / len(quantities), WIDEST)
+        columns = (Column(ROWS), *(Column(width),) * len(quantities))
+        caption = Prose(self.case.places).inlines(self.words["captions"][name])
+        return Table(columns, heads, tuple(rows), caption, f"tab.{name}")
+
+    def _bare(self, id: str, k: int) -> Inlines:
+        number = self.case.printed.number(id, k)
+        if not math.isfinite(number.value):
+            return (Text("–"),)
+        return (Value(Number(number.value, number.decimals)),)
+
+    # --- checks
+
+    @property
+    def exceeded(self) -> tuple[str, ...]:
+        return tuple(phase for phase, _, _ in exceeded(self.case.solution.designed))
+
+    @property
+    def undercut(self) -> Inlines:
+        angles = self.case.solution.cam.undercut
+        return listed(Value(Number(math.degrees(angle), 1, "°")) for angle in angles)
+
+    @property
+    def checks(self) -> Table:
+        """What is required, what there is, and whether it holds."""
+        words, found = self.words["checks"], self.case.solution.designed
+        rows: list[tuple[Cell, ...]] = []
+
+        def row(key: str, wanted: Inlines, actual: Number, holds: bool) -> None:
+            verdict = words["yes"] if holds else words["no"]
+            rows.append(
+                (Cell((Text(str(words[key])),)), Cell(wanted), Cell((Value(actual),)), Cell((Text(str(verdict)),)))
+            )
+
+        cam, limits, seen = found.cam, found.limits, self.judged
+        for phase, limit, extreme in (("rise", limits.rise, seen.rise), ("return", limits.back, seen.back)):
+            if limit is not None and not cam.flat:
+                size = Number(math.degrees(extreme[1]), ANGLE, "°")
+                wanted = (Text("≤ "), Value(Number(float(f"{math.degrees(limit):.6g}"), None, "°")))
+                row(phase, wanted, size, extreme[1] <= limit + 1e-9)
+        if cam.flat or cam.roller:
+            least = Number(float(f"{limits.rho * MM:.6g}"), None, "mm")
+            left = seen.least_working[1]
+            row("rho", (Text("≥ "), Value(least)), Number(left * MM, 3, "mm"), left >= limits.rho - 1e-12)
+        if cam.roller:
+            for key, most in (("roller_rho", 0.8 * seen.least_rho[1]), ("roller_r0", 0.4 * cam.r0)):
+                size_of = Number(float(f"{cam.roller * MM:.6g}"), None, "mm")
+                wanted = (Text("≤ "), Value(Number(most * MM, 3, "mm")))
+                row(key, wanted, size_of, cam.roller <= most + 1e-12)
+        head = tuple(Cell((Text(str(one)),)) for one in words["head"])
+        widths = (Column(CHECKS[0], "left"), *(Column(one) for one in CHECKS[1:]))
+        caption = Prose(self.case.places).inlines(self.words["captions"]["checks"])
+        return Table(widths, (head,), tuple(rows), caption, "tab.checks")
+
+    # --- figures
+
+    def figure(self, name: str) -> Figure:
+        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
+        return Figure(tuple(self._scenes(name)), caption, f"fig.{name}")
+
+    def _scenes(self, name: str) -> Iterator[Scene]:
+        match name:
+            case "law":
+                yield law_diagrams(self.case)
+            case "limits":
+                yield limit_diagram(self.case)
+            case "pressure":
+                yield pressure_chart(self.case).scene
+            case "displacements":
+                yield inversion(self.case, "displacements")
+            case "inversion":
+                yield inversion(self.case)
+            case "profile":
+                yield inversion(self.case, "cam")
+            case "curvature":
+                yield curvature_chart(self.case).scene
+
+
+def _id(key: str) -> str:
+    """The id of a length that may be sought."""
+    return {"r0": "cam.r0", "e": "cam.e", "a": "cam.a", "roller": "cam.roller"}[key]

@@ -1,0 +1,174 @@
+"""A class of twelve with drawn cams: task, key, marking, and the usual mistakes by their names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pymupdf
+import pytest
+
+from reportgen import api
+from reportgen.base.errors import AssignmentError
+from reportgen.base.units import write
+from reportgen.cases import open_case
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.variants import make_variants
+from reportgen.formula.evaluation import evaluate
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import MarkingScheme, Policy, marking_scheme
+from reportgen.marking.mistakes import Mistake
+from tests.marking import demo, students
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
+STUDENTS = 12
+DRAWN = {
+    "h: 40 mm": "h: {from: 30 mm, to: 45 mm, step: 1 mm}",
+    "laws: {rise: cosine, return: 3-4-5}": "laws: {rise: [cosine, sine, 3-4-5], return: [3-4-5, parabolic, 4-5-6-7]}",
+    "rise: 30 deg, return: 70 deg": "rise: [28 deg, 30 deg, 32 deg], return: [60 deg, 65 deg, 70 deg]",
+}
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of twelve variants, by laws, strokes and limits."""
+    folder = tmp_path_factory.mktemp("cams")
+    text = (FOLDER / "roller-01.yaml").read_text(encoding="utf-8")
+    for old, new in DRAWN.items():
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    (folder / "spec.yaml").write_text(text, encoding="utf-8")
+    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
+    (folder / "roster.csv").write_text(roster, encoding="utf-8")
+    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
+    assert len(made.files) == STUDENTS
+    return folder
+
+
+@pytest.fixture(scope="module")
+def graded(drawn: Path) -> Graded:
+    """Sheets of three figures; the first student takes the phase in degrees for s′ and goes on from that."""
+    (drawn / "sheets").mkdir()
+    for path in sorted((drawn / "variants").glob("S*.yaml")):
+        scheme = marking_scheme(open_case(path))
+        slip = named(scheme, "cam-degrees", "cam.ds") if path.stem == "S01" else None
+        sheet = students.written(scheme, students.worked_out(scheme, slip))
+        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
+    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+
+
+def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
+    """A mistake of that name in some quantities, as the case knows it."""
+    changes = {}
+    for id in where:
+        for called, definition in scheme.pitfalls.changed.get(id, ()):
+            if called == name:
+                changes[id] = lambda _, values, made=definition: np.atleast_1d(evaluate(made, values))
+        for called, values in scheme.pitfalls.readings.get(id, ()):
+            if called == name:
+                changes[id] = lambda _, __, read=values: read
+    assert changes, name
+    return Mistake(name, where[0], changes)
+
+
+def test_variants_differ(drawn: Path) -> None:
+    answers = {open_case(path).key().row("cam.least.r0").values[0] for path in (drawn / "variants").glob("S*.yaml")}
+    assert len(answers) > STUDENTS / 2
+
+
+@pytest.mark.parametrize(
+    ("roller", "limits", "told"),
+    [
+        ("roller: 35 mm", "rise: 85 deg, return: 85 deg", "undercut"),
+        ("roller: 5 mm", "rise: 6 deg, return: 70 deg", "pressure"),
+    ],
+)
+def test_no_variant_is_undercut_or_beyond_its_limit(tmp_path: Path, roller: str, limits: str, told: str) -> None:
+    text = (FOLDER / "roller-01.yaml").read_text(encoding="utf-8")
+    for old, new in {
+        "h: 40 mm": "h: [38 mm, 40 mm]",
+        "rise: 120 deg, far": "rise: 50 deg, far",
+        "near: 120 deg": "near: 190 deg",
+        "r0: find": "r0: 40 mm",
+        "e: find": "e: 5 mm",
+        "roller: find": roller,
+        "rise: 30 deg, return: 70 deg": limits,
+    }.items():
+        text = text.replace(old, new)
+    (tmp_path / "spec.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "roster.csv").write_text("id,name,class\nS1,Student,K1\n", encoding="utf-8")
+    with pytest.raises(AssignmentError) as refused:
+        make_variants(tmp_path / "spec.yaml", tmp_path / "roster.csv", tmp_path / "variants", False, "en")
+    assert told in str(refused.value)
+
+
+def test_right_sheets_get_all_marks_and_a_slip_costs_few(graded: Graded) -> None:
+    assert graded.problems == ()
+    full = {marking.key.id for marking in graded.markings if marking.points == marking.out_of}
+    assert full == {f"S{number:02d}" for number in range(2, STUDENTS + 1)}
+    slipped = next(one for one in graded.markings if one.key.id == "S01")
+    assert {cell.id for cell in slipped.first_errors} == {"cam.ds"}
+    assert {cell.mistake for cell in slipped.first_errors} == {"cam-degrees"}
+    assert slipped.out_of - slipped.points == len(slipped.first_errors)
+
+
+def test_the_task_holds_no_answer(drawn: Path) -> None:
+    """None of the numbers asked for that have four figures stands in it; in the key each of them does."""
+    file = drawn / "variants" / "S02.yaml"
+    task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
+    texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
+    rows = open_case(file, "en").key().asked
+    shown = [
+        write(abs(float(row.printed[row.at(k)])), row.decimals, "en")
+        for row in rows
+        for k in row.positions
+        if row.decimals is not None
+    ]
+    telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
+    assert telling
+    assert [text for text in telling if text in texts[0]] == []
+    assert [text for text in telling if text not in texts[1]] == []
+
+
+MISTAKES = [
+    ("roller-01", "cam-degrees", ("cam.ds",)),
+    ("roller-01", "cam-exchanged", ("cam.s", "cam.ds", "cam.dds")),
+    ("roller-01", "cam-phase-sum", ("cam.start.return",)),
+    ("roller-01", "cam-offset-side", ("cam.alpha",)),
+    ("roller-01", "cam-offset-side", ("cam.pitch.x",)),
+    ("roller-01", "cam-limits-exchanged", ("cam.c.1",)),
+    ("roller-01", "cam-roller-outward", ("cam.profile.x", "cam.profile.y")),
+    ("shaper-feed", "cam-degrees", ("cam.dpsi",)),
+    ("shaper-feed", "cam-wrong-sense", ("cam.k",)),
+]
+
+
+@pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
+def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
+    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
+    first = mark(scheme, sheet).first_errors
+    assert first
+    assert {cell.mistake for cell in first} == {mistake}
+    assert {cell.id for cell in first} <= set(where)
+
+
+def test_the_wrong_sign_is_far_off() -> None:
+    """The feed cam's ψ′ with the other sign: the pressure angle is more than 38° off where the arm is fastest."""
+    case = open_case(FOLDER / "shaper-feed.yaml", "en")
+    wrong = dict(case.pitfalls.changed)["cam.k"][0][1]
+    values = case.ledger.evaluate({"cam.k": lambda _, before: np.atleast_1d(evaluate(wrong, before))})
+    right = case.ledger["cam.alpha"].values
+    off = np.degrees(np.abs(values["cam.alpha"] - right))
+    assert off.max() > 38
+
+
+def test_mistakes_have_words_in_both_languages() -> None:
+    for language in ("vi", "en"):
+        case = open_case(FOLDER / "roller-01.yaml", language)  # type: ignore[arg-type]
+        pitfalls = case.pitfalls
+        names = {name for many in (*pitfalls.changed.values(), *pitfalls.readings.values()) for name, _ in many}
+        for name in names:
+            assert "{symbol}" in case.words["mistakes"][name]
+            assert case.words["mistake_names"][name]
