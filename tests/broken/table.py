@@ -453,7 +453,6 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("method of no name", {"find: [v.A": "methods: [guessing]\n  …"}, "17:13 choice"),
         ("method named twice", {"find: [v.A": "methods: [projection, projection]\n  …"}, "17:25 method-repeated"),
         ("no moving frame", {"find: [v.A": "methods: [moving frame]\n  …"}, "17:13 no-moving-frame"),
-        ("no equations", {"find: [v.A": "methods: [equations]\n  …"}, "17:13 no-equations"),
         (
             "circles apart",
             {
@@ -549,6 +548,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "29:13 no-base-point",
             "two points that move along known lines",
         ),
+        ("no equations", {"find: [v.D]": "…\n  methods: [equations]"}, "29:13 no-equations"),
     ],
     "plane-motion-lever": [
         (
