@@ -17,6 +17,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
+from reportgen.coursework.case import Coursework, PartCase
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
@@ -28,9 +29,11 @@ from reportgen.report.case import Calculation, Case, Key, Pitfalls
 
 
 def opened(assignment: Assignment) -> Case:
-    """The case of an assignment."""
+    """The case of an assignment, that of a coursework where it has parts."""
     case: Case = getattr(catalogue.module(assignment.kind), "case", MachineCase)(assignment)
-    return case
+    if not assignment.parts:
+        return case
+    return Coursework(case, tuple(PartCase(part, opened(part.within(assignment))) for part in assignment.parts))
 
 
 def open_case(path: Path | str, language: Language | None = None) -> Case:

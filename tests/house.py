@@ -257,15 +257,15 @@ def _called(call: ast.Call) -> str:
 
 
 LIMITS: Mapping[Callable[[House], Counted], int] = {
-    rooms: 19,
-    floors: 10,
-    arrows: 94,
+    rooms: 21,
+    floors: 11,
+    arrows: 108,
     arrows_back_up: 0,
     circles: 0,
-    modules: 155,
+    modules: 174,
     longest_module: 500,
-    lines_of_code: 30960,
-    template_files: 54,
+    lines_of_code: 34700,
+    template_files: 56,
     words_of_architecture: 1500,
     ids_by_f_string: 0,
     class_names_twice: 0,
