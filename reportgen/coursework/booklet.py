@@ -102,11 +102,11 @@ def task_of(machine: Document, parts: Sequence[PartReport]) -> Document:
     """One handout: that of the machine, then those of the parts, each from a page of its own and without its head."""
     blocks = list(machine.blocks)
     for part in parts:
-        head, *below = map(lowered, renamed(part.document.blocks, part.name))
+        head, *below = renamed(part.document.blocks, part.name)
         assert isinstance(head, Section), "a task begins with its title"
         # Whose it is stands on the first page already.
         own = dropwhile(lambda block: isinstance(block, BlankLine), below[1:])
-        blocks += (PageBreak(), heading(part.title, 1), *own, *part.taken)
+        blocks += (PageBreak(), heading(part.title, 1), *part.taken, *own)
     return number(replace(machine, blocks=tuple(blocks)))
 
 

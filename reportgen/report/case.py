@@ -383,7 +383,17 @@ class Key:
 
     def part(self, id: str) -> Key:
         """The key of the part that a quantity belongs to; of a work without parts itself."""
-        return next((part.key for part in self.parts[1:] if part.has(id)), self)
+        return next((part.key for part in self.parts if part.name == self.owner(id)), self)
+
+    def owner(self, id: str) -> str:
+        """The name of the part that a quantity belongs to; the first has whatever no other has."""
+        first, *others = self.parts or (None,)
+        named = (part.name for part in others if part is not None and id.startswith(f"{part.name}."))
+        return next(named, first.name if first else "")
+
+    def title_of(self, name: str) -> str:
+        """The title of a part; "" for what is no part."""
+        return next((part.title for part in self.parts if part.name == name), "")
 
     @property
     def pages(self) -> tuple[tuple[str, Key], ...]:
@@ -424,10 +434,6 @@ class PartOfKey:
     key: Key
     title: str
     head: str = ""
-
-    def has(self, id: str) -> bool:
-        """Whether a quantity of the coursework is one of the part."""
-        return id.startswith(f"{self.name}.") if self.head else True
 
     def own(self, id: str) -> str:
         """The id that a quantity has in the part by itself."""
