@@ -55,9 +55,13 @@ def read(
             faults.append(Fault("no-part", kind.mark, {"text": assignment.kind}))
             continue
         numbers[head] += 1
-        number = numbers[head]
-        found.append(AssignedPart(f"{head}{number if number > 1 else ''}", head, one.title or "", assignment, taken))
+        found.append(AssignedPart(numbered(head, numbers[head]), head, one.title or "", assignment, taken))
     return found, faults
+
+
+def numbered(head: str, number: int) -> str:
+    """The name of a part: that of its kind, with a number behind it from the second of a kind on."""
+    return f"{head}{number if number > 1 else ''}"
 
 
 def files(source: Source, path: Path) -> list[Path]:

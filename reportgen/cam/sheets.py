@@ -65,7 +65,7 @@ def _sheet(case: SolvedCam, paper: str, block: TitleBlock, parts: list[PlacedSce
         PlacedScene("frame", "frame", frame_scene(paper, block.margins, block.note(fields))),
         PlacedScene("title block", "frame", block.scene(fields), corner),
     )
-    return DrawingSheet(paper, width, height, (*own, *parts))
+    return DrawingSheet(paper, width, height, (*own, *parts), fields)
 
 
 def _plates(case: SolvedCam, larger: float, share: float) -> Iterator[tuple[str, str, Scene]]:

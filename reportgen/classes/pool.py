@@ -71,13 +71,15 @@ class Job:
     file: str
     content: bytes
     making: Making
+    beside: Mapping[str, bytes] = field(default_factory=dict)
+    """The files that its parts stand in, by their places from the folder of the assignment."""
     scratch: Path | None = None
     """Where its temporary files go; None: where the system has them, on other machines."""
 
     @property
     def assignment(self) -> str:
-        """SHA-256 of the assignment file."""
-        return sha256(self.content).hexdigest()
+        """SHA-256 of the assignment file and of those of its parts."""
+        return sha256(b"\0".join((self.content, *self.beside.values()))).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,9 +122,14 @@ def run_job(job: Job) -> Outcome:
             tempfile.tempdir = scratch
             file = Path(scratch, job.file)
             file.write_bytes(job.content)
+            for name, content in job.beside.items():
+                Path(scratch, name).parent.mkdir(parents=True, exist_ok=True)
+                Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
-        problems = tuple(problem.in_file(job.file) for problem in error.problems)
+        # Its folder is gone: a mark names the file as the job has it.
+        own = {str(Path(scratch, name)): name for name in job.beside}
+        problems = tuple(problem.in_file(own.get(problem.mark.file, job.file)) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
     except ReportgenError as error:
         return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)

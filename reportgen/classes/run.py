@@ -22,7 +22,7 @@ from reportgen.base.files import contents, held, put_file, put_set, remove_unfin
 from reportgen.base.units import Language, write
 from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
-from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
+from reportgen.classes.roster import Assigned, Roster, RosterEntry, beside, match_files, read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 
@@ -146,17 +146,11 @@ def _run(
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            name, content = read
+            name, content, with_it = read
             job = Job(
-                student.id,
-                student.folder,
-                product,
-                maker,
-                file=name,
-                content=content,
-                making=how[product],
-                scratch=temporary,
-            )
+                student.id, student.folder, product, maker, file=name, content=content, making=how[product],
+                beside=with_it, scratch=temporary,
+            )  # fmt: skip
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)
@@ -193,7 +187,10 @@ def _run(
             for job, made in outcomes:
                 outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
-                problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
+                problems = tuple(
+                    one if isinstance(one, str) else one.in_file(str(Path(file_name).parent / one.mark.file))
+                    for one in outcome.problems
+                )
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):
         write_manifest(out, entries.values())
@@ -283,12 +280,13 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
     return assigned, notes
 
 
-def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes] | Problem:
-    """Name and content of an assignment file; one that cannot be read must not stop the others."""
+def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, dict[str, bytes]] | Problem:
+    """Name and content of an assignment file, and the files of its parts; one fault must not stop the others."""
     if isinstance(file, Problem):
         return file
     try:
-        return file.name, contents(file)
+        parts = {one.relative_to(file.parent).as_posix(): contents(one) for one in beside(file) if one.is_file()}
+        return file.name, contents(file), parts
     except OSError as error:
         return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
 

@@ -12,6 +12,7 @@ import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework.booklet import PartReport, booklet
+from reportgen.coursework.film import joined
 from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
@@ -222,14 +223,27 @@ class Coursework:
         return {**self.machine.results(), "parts": {member.name: member.case.results() for member in self.members}}
 
     def film(self) -> Film | None:
-        return self.machine.film()
+        """That of the machine with a drawing of each part, which goes on with it as their speeds say."""
+        film = self.machine.film()
+        if film is None:
+            return None
+        for member in self.members:
+            own, speed = member.case.film(), member.case.speed
+            if own is not None:
+                ratio = abs(speed / self.machine.speed) if speed and self.machine.speed and not film.span else 1.0
+                film = joined(film, relettered(own, self.letters[member.name]), ratio, member.name, member.title)
+        return film
 
     def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        """The sheets of all parts, in their order."""
-        found = [self.machine.sheets(size, sets, block)]
+        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have."""
+        from reportgen.sheets.frame import DEFAULT, blocks, numbered, read_block
+
+        language = self.assignment.language
+        found = self.machine.sheets(size, sets, block)
         for member in self.members:
-            found.append(relettered(member.case.sheets(size, (), block), self.letters[member.name]))
-        return [sheet for sheets in found for sheet in sheets]
+            found += relettered(member.case.sheets(size, (), block), self.letters[member.name])
+        own = block or blocks(self.assignment.report.school or "")[DEFAULT[language]]
+        return numbered(found, read_block(own, language))
 
 
 def _times(ratio: str, of: Symbol) -> Expression:

@@ -64,4 +64,7 @@ def with_index(symbol: Symbol, index: str) -> Symbol:
 
 def letters_of(quantities: Collection[Symbol], taken: Collection[Symbol], index: str) -> Letters:
     """The symbols of a part's quantities that are taken already, with the part's index."""
-    return {one: with_index(one, index) for one in quantities if one in taken and one.value is None}
+    clash = {one for one in quantities if one in taken and one.value is None}
+    # With s goes s′, which is its derivative.
+    derived = {one for one in quantities if replace(one, base=one.base.rstrip("′")) in clash}
+    return {one: with_index(one, index) for one in quantities if one in clash | derived}

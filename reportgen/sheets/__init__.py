@@ -81,7 +81,7 @@ def sheets_of(plates: Plates, chosen: Sequence[int], size: str, block: TitleBloc
             PlacedScene("frame", "frame", frame_scene(size, block.margins, block.note(fields))),
             PlacedScene("title block", "frame", block.scene(fields), corner),
         )
-        result.append(DrawingSheet(size, width, height, (*own, *parts)))
+        result.append(DrawingSheet(size, width, height, (*own, *parts), fields))
     return result
 
 

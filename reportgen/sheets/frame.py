@@ -21,7 +21,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, templates
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.geometry import box
-from reportgen.drawing.sheet import Room, font_size
+from reportgen.drawing.sheet import DrawingSheet, Room, font_size
 from reportgen.report.case import Opened
 
 SIZES: Mapping[str, tuple[float, float]] = {
@@ -267,6 +267,24 @@ def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
     for name in re.findall(r"\{([^{}]*)\}?", cell.text):
         if name not in FIELDS:
             yield Finding("block-field", (*where, "text"), {"text": name, **close_or_known(name, sorted(FIELDS))})
+
+
+def numbered(sheets: Sequence[DrawingSheet], block: TitleBlock) -> list[DrawingSheet]:
+    """The sheets of several parts as one set: those with a title block numbered on."""
+    total, number = sum(bool(sheet.fields) for sheet in sheets), 0
+    found = []
+    for sheet in sheets:
+        if sheet.fields:
+            number += 1
+            fields = {**sheet.fields, "sheet": str(number), "sheets": str(total)}
+            scenes = {
+                "frame": frame_scene(sheet.name, block.margins, block.note(fields)),
+                "title block": block.scene(fields),
+            }
+            parts = (replace(part, scene=scenes.get(part.name, part.scene)) for part in sheet.parts)
+            sheet = replace(sheet, parts=tuple(parts), fields=fields)
+        found.append(sheet)
+    return found
 
 
 def fields_of(case: Opened) -> dict[str, str]:
