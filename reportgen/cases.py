@@ -5,7 +5,7 @@ A kind's module gives either `machine`, which makes a `Machine` of an assignment
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import takewhile
@@ -17,7 +17,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
-from reportgen.coursework.case import Coursework, PartCase
+from reportgen.coursework.case import Coursework
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
@@ -33,7 +33,7 @@ def opened(assignment: Assignment) -> Case:
     case: Case = getattr(catalogue.module(assignment.kind), "case", MachineCase)(assignment)
     if not assignment.parts:
         return case
-    return Coursework(case, tuple(PartCase(part, opened(part.within(assignment))) for part in assignment.parts))
+    return Coursework.of(case, [opened(part.within(assignment)) for part in assignment.parts])
 
 
 def open_case(path: Path | str, language: Language | None = None) -> Case:
@@ -42,6 +42,19 @@ def open_case(path: Path | str, language: Language | None = None) -> Case:
     Raises `AssignmentError` with all faults of the file, located.
     """
     return opened(catalogue.load(path, language))
+
+
+def opener() -> Callable[[Path | str, Language | None], Case]:
+    """As `open_case`, for a file that is opened again and again: a part that has not changed is not computed again."""
+    earlier: Case | None = None
+
+    def reopened(path: Path | str, language: Language | None = None) -> Case:
+        nonlocal earlier
+        case = open_case(path, language)
+        earlier = case.after(earlier) if isinstance(case, Coursework) else case
+        return earlier
+
+    return reopened
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from reportgen.base.errors import Fault, Where
 from reportgen.base.files import leads_out
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, at, put, read_source, without
 from reportgen.base.units import NUMBER
+from reportgen.base.words import kinds
 
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
@@ -44,19 +45,22 @@ def read(
         )
         if source.top is not None and not own:
             source, own = _with_taken(source, top, index, taken, one)
+        own = own or list(_no_part(source, find))
         assignment, wrong = (None, own) if own else assess(source, Path(source.file))
         if assignment is None:
             faults += wrong
             continue
         head = find(assignment.kind).part
-        if not head:
-            kind = at(source.top, ("kind",))
-            assert kind is not None, "what was assessed has a kind"
-            faults.append(Fault("no-part", kind.mark, {"text": assignment.kind}))
-            continue
         numbers[head] += 1
         found.append(AssignedPart(numbered(head, numbers[head]), head, one.title or "", assignment, taken))
     return found, faults
+
+
+def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
+    """The fault of a kind that cannot be a part, as a machine, which could name parts itself."""
+    name = at(source.top, ("kind",))
+    if isinstance(name, Scalar) and name.text in kinds() and not find(name.text).part:
+        yield Fault("no-part", name.mark, {"text": name.text})
 
 
 def numbered(head: str, number: int) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -33,6 +33,20 @@ class PartCase:
 
     part: AssignedPart
     case: Case
+
+    @cached_property
+    def document(self) -> Document:
+        """Its report by itself."""
+        return self.case.document()
+
+    @cached_property
+    def film(self) -> Film | None:
+        return self.case.film()
+
+    @property
+    def assigned(self) -> Assignment:
+        """The assignment that its case is of, without the parts that follow it."""
+        return replace(self.case.assignment, parts=())
 
     @property
     def name(self) -> str:
@@ -62,8 +76,29 @@ class PartCase:
 class Coursework:
     """A machine and the parts that follow it, as one `Case`."""
 
-    machine: Case
+    first: PartCase
     members: tuple[PartCase, ...]
+
+    @classmethod
+    def of(cls, machine: Case, cases: Sequence[Case]) -> Self:
+        """The coursework of a machine with parts, and of the parts' cases."""
+        whole = machine.assignment
+        members = tuple(PartCase(part, case) for part, case in zip(whole.parts, cases, strict=True))
+        return cls(PartCase(AssignedPart(MACHINE, "", "", replace(whole, parts=())), machine), members)
+
+    def after(self, earlier: Case | None) -> Coursework:
+        """The same with all that an earlier edition has computed of parts that have not changed."""
+        known = (earlier.first, *earlier.members) if isinstance(earlier, Coursework) else ()
+
+        def kept(member: PartCase) -> PartCase:
+            same = (one for one in known if (one.part, one.assigned) == (member.part, member.assigned))
+            return next(same, member)
+
+        return Coursework(kept(self.first), tuple(map(kept, self.members)))
+
+    @property
+    def machine(self) -> Case:
+        return self.first.case
 
     @property
     def assignment(self) -> Assignment:
@@ -140,7 +175,7 @@ class Coursework:
     @cached_property
     def documents(self) -> Mapping[str, Document]:
         """The reports of the parts by themselves."""
-        return {name: case.document() for name, case in self.parts.items()}
+        return {member.name: member.document for member in (self.first, *self.members)}
 
     # --- papers
 
@@ -224,11 +259,11 @@ class Coursework:
 
     def film(self) -> Film | None:
         """That of the machine with a drawing of each part, which goes on with it as their speeds say."""
-        film = self.machine.film()
+        film = self.first.film
         if film is None:
             return None
         for member in self.members:
-            own, speed = member.case.film(), member.case.speed
+            own, speed = member.film, member.case.speed
             if own is not None:
                 ratio = abs(speed / self.machine.speed) if speed and self.machine.speed and not film.span else 1.0
                 film = joined(film, relettered(own, self.letters[member.name]), ratio, member.name, member.title)
