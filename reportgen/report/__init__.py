@@ -87,7 +87,7 @@ class Section:
     key: str = ""
     numbered: bool = True
     number: str = ""
-    opens: str = ""
+    opens: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)
