@@ -5,7 +5,7 @@ A kind's module gives either `machine`, which makes a `Machine` of an assignment
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import takewhile
@@ -17,6 +17,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
+from reportgen.coursework.case import Coursework
 from reportgen.formula import ids
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
@@ -30,9 +31,11 @@ if TYPE_CHECKING:
 
 
 def opened(assignment: Assignment) -> Case:
-    """The case of an assignment."""
+    """The case of an assignment, that of a coursework where it has parts."""
     case: Case = getattr(catalogue.module(assignment.kind), "case", MachineCase)(assignment)
-    return case
+    if not assignment.parts:
+        return case
+    return Coursework.of(case, [opened(part.within(assignment)) for part in assignment.parts])
 
 
 def open_case(path: Path | str, language: Language | None = None) -> Case:
@@ -41,6 +44,19 @@ def open_case(path: Path | str, language: Language | None = None) -> Case:
     Raises `AssignmentError` with all faults of the file, located.
     """
     return opened(catalogue.load(path, language))
+
+
+def opener() -> Callable[[Path | str, Language | None], Case]:
+    """As `open_case`, for a file that is opened again and again: a part that has not changed is not computed again."""
+    earlier: Case | None = None
+
+    def reopened(path: Path | str, language: Language | None = None) -> Case:
+        nonlocal earlier
+        case = open_case(path, language)
+        earlier = case.after(earlier) if isinstance(case, Coursework) else case
+        return earlier
+
+    return reopened
 
 
 @dataclass(frozen=True)

@@ -257,14 +257,14 @@ def _called(call: ast.Call) -> str:
 
 
 LIMITS: Mapping[Callable[[House], Counted], int] = {
-    rooms: 20,
-    floors: 10,
-    arrows: 102,
+    rooms: 21,
+    floors: 11,
+    arrows: 110,
     arrows_back_up: 0,
     circles: 0,
-    modules: 175,
+    modules: 182,
     longest_module: 500,
-    lines_of_code: 36260,
+    lines_of_code: 37090,
     template_files: 57,
     words_of_architecture: 1500,
     ids_by_f_string: 0,

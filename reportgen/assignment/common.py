@@ -15,7 +15,18 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
-from reportgen.assignment.fields import Angle, Date, Flag, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
+from reportgen.assignment.fields import (
+    Angle,
+    Date,
+    Flag,
+    Interval,
+    OneLine,
+    Ratio,
+    SchoolFolder,
+    Whole,
+    WorkedPositions,
+    quantity,
+)
 from reportgen.base.errors import Finding
 from reportgen.base.files import leads_out
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
@@ -141,7 +152,8 @@ class Kind:
     `turns` of the driver make a cycle; `indicator` is the type of the section of that name, None for a
     machine that has none; `checks` look at what no single value shows.  `labels` are given by a kind that adds
     positions to the evenly spaced ones.  A kind that is but one instant of a motion has no positions, and nothing
-    is drawn to a chosen length.
+    is drawn to a chosen length.  The ids of a kind that can be a part of a coursework begin with the name `part`; ""
+    for one that cannot.
     """
 
     name: str
@@ -152,6 +164,7 @@ class Kind:
     labels: Labels | None = None
     indicator_optional: bool = False
     has_positions: bool = True
+    part: str = ""
 
     @property
     def counts_positions(self) -> bool:
@@ -179,6 +192,7 @@ class Assignment:
     id: str
     turns: int = 1
     names: Labels | None = None
+    parts: tuple[AssignedPart, ...] = ()
 
     @property
     def language(self) -> Language:
@@ -240,6 +254,59 @@ class Assignment:
         return replace(self, report=self.report.model_copy(update={"listing": True}))
 
 
+@dataclass(frozen=True, slots=True)
+class TakenDatum:
+    """A value of a part that is the machine's: its key, the place of the machine's value, the ratio as typed."""
+
+    key: str
+    of: str
+    times: str = "1"
+
+
+@dataclass(frozen=True, slots=True)
+class AssignedPart:
+    """A part of a coursework: an assignment of its own.
+
+    Its ids begin with `head`, as those of its kind do; in the coursework they begin with `name`, which no other part
+    has.  Without a `title` it is called as its kind is.
+    """
+
+    name: str
+    head: str
+    title: str
+    alone: Assignment
+    taken: tuple[TakenDatum, ...] = ()
+
+    def within(self, whole: Assignment) -> Assignment:
+        """The part as the coursework of `whole` has it: with its cover, its language and its extent."""
+        told = {key: getattr(whole.report, key) for key in whole.report.model_fields_set - {"worked_positions"}}
+        report = ReportSection.model_construct(**told)
+        return replace(self.alone, report=report, variant=whole.variant, id=whole.id)
+
+
+class _Taken(Part):
+    of: OneLine
+    times: Annotated[Given, Ratio(Interval(least=1e-6, most=1e6))] | None = None
+
+
+class NamedPart(Part):
+    """A part as the file names it: by `file`, or with its sections in place."""
+
+    file: OneLine | None = None
+    title: OneLine | None = None
+    from_: dict[str, _Taken] = Field(default={}, alias="from")
+    kind: OneLine | None = None
+    variant: OneLine | None = None
+    report: dict[str, Any] | None = None
+    parameters: dict[str, Any] | None = None
+    positions: dict[str, Any] | None = None
+    drawing: dict[str, Any] | None = None
+
+
+PARTS = "parts"
+"""The section of a coursework's further parts."""
+
+
 def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     """Keys of the file beside `kind`: type and default (`...`: required); None gives the common ones."""
     common: dict[str, tuple[Any, Any]] = {
@@ -254,7 +321,7 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     if not kind.has_positions:
         shared = {name: common[name] for name in ("variant", "report", "sheet")}
         return {**shared, "parameters": (kind.parameters, ...)}
-    parameters = {**common, "parameters": (kind.parameters, ...)}
+    parameters = {**common, "parameters": (kind.parameters, ...), PARTS: (tuple[NamedPart, ...], ())}
     if kind.indicator is None:
         return parameters
     optional = (kind.indicator | None, None)

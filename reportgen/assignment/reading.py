@@ -13,7 +13,9 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
+from reportgen.assignment import parts
 from reportgen.assignment.common import (
+    PARTS,
     Assignment,
     Draft,
     Drawing,
@@ -65,7 +67,12 @@ def assess(
     if faults or kind is None:
         return None, faults
     values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
-    return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, names=kind.labels), []
+    named = values.pop(PARTS, ())
+    assignment = Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, names=kind.labels)
+    if not named:
+        return assignment, []
+    members, faults = parts.read(top, path, named, find, lambda source, file: assess(source, file, kinds, find))
+    return (None if faults else replace(assignment, parts=tuple(members))), faults
 
 
 def name_faults(path: Path) -> Iterator[Fault]:

@@ -435,7 +435,17 @@ def _entry(key: Scalar, value: Node, depth: int) -> str:
         return f"{space}{name}: {flow}".rstrip() + "\n"
     if isinstance(value, MappingNode):
         return f"{space}{name}:\n{_lines(value, depth + 2)}"
-    return _joined([f"{space}{name}:", *(f"{space}  - {_flow(item)}" for item in value.items)])
+    return _joined([f"{space}{name}:", *(line for item in value.items for line in _item(item, depth + 2))])
+
+
+def _item(item: Node, depth: int) -> list[str]:
+    """An item of a list in one line; a long table with tables in it by its entries."""
+    flow = _flow(item)
+    nested = isinstance(item, MappingNode) and any(isinstance(value, MappingNode) for _, value in item.entries)
+    if depth + 2 + len(flow) <= WIDTH or not isinstance(item, MappingNode) or not nested:
+        return [f"{' ' * depth}- {flow}"]
+    first, *others = _lines(item, depth + 2).splitlines()
+    return [f"{' ' * depth}- {first.lstrip()}", *others]
 
 
 def _lines(table: MappingNode, depth: int) -> str:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 Parameters = file.Parameters
 TURNS = 1
 HAS_POSITIONS = False
+PART = "cam"
 TOP = ("parameters",)
 SAME_AREA = 0.01
 """The areas of an acceleration table above and below its axis may differ by this share."""

@@ -7,7 +7,8 @@ positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but
 `Machine` of an assignment.
 
 A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
-`machine`, which makes a case of its own.
+`machine`, which makes a case of its own.  `PART` is the name that the ids of a kind begin with which can be a part of a
+coursework.
 """
 
 from __future__ import annotations
@@ -47,6 +48,7 @@ def kind(name: str) -> Kind:
         labels=getattr(machine, "position_labels", None),
         indicator_optional=getattr(machine, "INDICATOR_OPTIONAL", False),
         has_positions=getattr(machine, "HAS_POSITIONS", True),
+        part=getattr(machine, "PART", ""),
     )
 
 

@@ -25,6 +25,7 @@ from reportgen.marking.grades import class_document, grade_rows, person
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, MarkingScheme, Policy, Submission, marking_scheme
+from reportgen.marking.parts import check_shares
 from reportgen.marking.sheet import read_submission
 from reportgen.report.case import Key
 from reportgen.workbook import write_csv, write_xlsx
@@ -112,6 +113,7 @@ def grade(
     people = {comparable(name): student for student in students for name in (student.folder, student.id)}
     room = Classroom(files, policy, language, people)
     policy.ask.check(room.keys, language)
+    check_shares(policy, room.keys, language)
     sheets: dict[str, Submission] = {}
     owners: dict[str, Owner] = {}
     problems: list[Problem] = []

@@ -25,6 +25,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 
 from reportgen import catalogue
+from reportgen.assignment.common import PARTS
 from reportgen.base.errors import Fault
 from reportgen.base.source import path_text
 from reportgen.cases import opened
@@ -158,7 +159,7 @@ class Draw:
 
 def _key(settings: Settings) -> Key:
     """What makes two variants the same: equal texts at equal places, but for what the cover says."""
-    drawn = ((where, value) for where, value in settings.items() if where[0] in DRAWN_SECTIONS)
+    drawn = ((where, value) for where, value in settings.items() if where[0] in (*DRAWN_SECTIONS, PARTS))
     return frozenset((path_text(where), value.text.strip()) for where, value in drawn)
 
 

@@ -72,14 +72,14 @@ class Job:
     content: bytes
     making: Making
     beside: Mapping[str, bytes] = field(default_factory=dict)
-    """A school's words that the file names, by their ways from it."""
+    """A school's words and the files of the parts, by their ways from the assignment file."""
     scratch: Path | None = None
     """Where its temporary files go; None: where the system has them, on other machines."""
 
     @property
     def assignment(self) -> str:
         """SHA-256 of the assignment file, and of what lies beside it."""
-        return sha256(b"".join((self.content, *self.beside.values()))).hexdigest()
+        return sha256(b"\0".join((self.content, *self.beside.values()))).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +126,9 @@ def run_job(job: Job) -> Outcome:
                 Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
-        problems = tuple(problem.in_file(job.file) for problem in error.problems)
+        # Its folder is gone: a mark names the file as the job has it.
+        own = {str(Path(scratch, name)): name for name in job.beside}
+        problems = tuple(problem.in_file(own.get(problem.mark.file, job.file)) for problem in error.problems)
         return Outcome(problems=problems, exit_code=error.exit_code)
     except ReportgenError as error:
         return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)

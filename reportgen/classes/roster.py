@@ -21,9 +21,11 @@ from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
+from reportgen.assignment import parts
 from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.source import Scalar
+from reportgen.base.files import contents
+from reportgen.base.source import Scalar, read_source
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
 from reportgen.workbook import Page, SheetCell, read
@@ -308,13 +310,23 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
         raise as_error([Fault("no-folder", Mark(str(folder)))], language)
     files: dict[str, Path] = {}
     faults: list[Fault] = []
-    for path in sorted(path for path in folder.rglob("*") if _is_assignment(path, folder)):
+    found = sorted(path for path in folder.rglob("*") if _is_assignment(path, folder))
+    of_others = {part.resolve() for path in found for part in beside(path)}
+    for path in found:
+        if path.resolve() in of_others:
+            continue
         first = files.setdefault(comparable(path.stem), path)
         if first is not path:
             faults.append(Fault("same-stem", Mark(str(path)), {"text": path.stem, "first": str(first)}))
     if faults:
         raise as_error(faults, language)
     return files
+
+
+def beside(path: Path) -> list[Path]:
+    """The files that the parts of a coursework stand in; none of another assignment."""
+    # Most files have no parts, and are not read for it.
+    return parts.files(read_source(path), path) if b"parts:" in contents(path) else []
 
 
 def match_files(

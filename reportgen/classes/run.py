@@ -23,7 +23,7 @@ from reportgen.base.files import contents, held, put_file, put_set, remove_unfin
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
-from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
+from reportgen.classes.roster import Assigned, Roster, RosterEntry, beside, match_files, read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 
@@ -187,7 +187,10 @@ def _run(
             for job, made in outcomes:
                 outcome = _put(job, made, out, entries.get((job.student, job.product)))
                 file_name = files[job.student]
-                problems = tuple(one if isinstance(one, str) else one.in_file(file_name) for one in outcome.problems)
+                problems = tuple(
+                    one if isinstance(one, str) else one.in_file(str(Path(file_name).parent / one.mark.file))
+                    for one in outcome.problems
+                )
                 add(entry_of(job, outcome), problems, outcome.exit_code)
     with reported(out):
         write_manifest(out, entries.values())
@@ -278,11 +281,12 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
 
 
 def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, Mapping[str, bytes]] | Problem:
-    """Name and content of an assignment file, and its school's words; one that cannot be read stops no other."""
+    """Name and content of an assignment file, its school's words, its parts; one that cannot be read stops no other."""
     if isinstance(file, Problem):
         return file
     try:
-        return file.name, contents(file), words_beside(file)
+        parts = {one.relative_to(file.parent).as_posix(): contents(one) for one in beside(file) if one.is_file()}
+        return file.name, contents(file), {**words_beside(file), **parts}
     except OSError as error:
         return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
 

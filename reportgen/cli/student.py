@@ -130,14 +130,14 @@ def watch(
     templates: TemplatesOption = None,
 ) -> None:
     """Show the report in a browser, renewed whenever FILE changes. Ctrl-C ends it."""
-    from reportgen.cases import open_case
+    from reportgen.cases import opener
     from reportgen.page.watch import nobody
     from reportgen.page.watch import watch as serve
 
     with ending(lang):
         if pdf:
             refuse_inputs(standing(out / file.stem, "report"), [file], lang)
-        serve(file, open_case, lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
+        serve(file, opener(), lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
 
 
 def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:

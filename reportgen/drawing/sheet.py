@@ -5,8 +5,8 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TypeVar
 
@@ -34,12 +34,16 @@ class PlacedScene:
 
 @dataclass(frozen=True, slots=True)
 class DrawingSheet:
-    """A sheet of paper `width` × `height` with what is drawn on it; `name` is that of its size, such as A1."""
+    """A sheet of paper `width` × `height` with what is drawn on it; `name` is that of its size, such as A1.
+
+    `fields` are what its title block says; one without has no frame.
+    """
 
     name: str
     width: float
     height: float
     parts: tuple[PlacedScene, ...] = ()
+    fields: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

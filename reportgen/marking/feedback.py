@@ -16,7 +16,7 @@ from reportgen.marking.key import shown_number, words_of
 from reportgen.marking.key_files import band, band_decimals
 from reportgen.marking.marks import Marked, Marking, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
-from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, page, rows_shown
+from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
 from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.report.case import Key, KeyRow
 from reportgen.workbook import Book, BookSheet, Entry
@@ -48,7 +48,6 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
     key, words = marking.key, words_of(marking.key)
     feedback = words["feedback"]
     marked = {(cell.id, cell.position): cell for cell in marking.cells}
-    positions = asked_positions(key)
 
     def filling(row: KeyRow, position: int) -> Entry | None:
         place = (row.id, position)
@@ -65,20 +64,26 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
         return _points(own) if own else ()
 
     heads = (feedback["points"], feedback["out_of"])
-    rows = grid(
-        key,
-        feedback["marked"],
-        "",
-        filling=filling,
-        rows=rows_shown(key),
-        positions=positions,
-        tail_head=heads,
-        tail=tail,
-    )
-    between = (Entry(),) * (NAMES - 2 + len(positions))
-    total = (Entry(), Entry(feedback["total"], "bold"), *between, *_points(marking.cells, "bold"))
-    title = f"{feedback['marked']} {key.id}"
-    return Book((page(feedback["marked"], (*rows, total)), _legend(words), info_page(key)), title)
+
+    def marked_page(name: str, part: Key) -> BookSheet:
+        positions = asked_positions(part)
+        rows = grid(
+            part,
+            feedback["marked"],
+            "",
+            filling=filling,
+            rows=rows_shown(part),
+            positions=positions,
+            tail_head=heads,
+            tail=tail,
+        )
+        between = (Entry(),) * (NAMES - 2 + len(positions))
+        ids = {row.id for row in part.rows}
+        total = _points([cell for cell in marking.cells if cell.id in ids], "bold")
+        return page(name, (*rows, (Entry(), Entry(feedback["total"], "bold"), *between, *total)))
+
+    pages = (marked_page(name, part) for name, part in named_pages(key, feedback["marked"]))
+    return Book((*pages, _legend(words), info_page(key)), f"{feedback['marked']} {key.id}")
 
 
 def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answers: bool) -> Entry:
@@ -160,7 +165,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     assert cell.given is not None
     number = shown_number(row, cell.expected)
     expected = tree.Value(Number(number.value, number.decimals, row.unit))
-    label = key.label(cell.position)
+    label = key.label(cell.position, cell.id)
     return (
         InlineMath(row.symbol),
         *((Text(f" ({row.what})"),) if row.what else ()),
@@ -185,7 +190,7 @@ def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[M
     line: list[Any] = []
     for id, of_row in groupby(chosen, lambda cell: cell.id):
         symbol = InlineMath(key.row(id).symbol)
-        labels = ", ".join(key.label(cell.position) for cell in of_row if cell.position)
+        labels = ", ".join(key.label(cell.position, cell.id) for cell in of_row if cell.position)
         line += [Text("; ")] if line else []
         line += sentence(words["feedback"]["with_labels"], symbol=symbol, labels=labels) if labels else (symbol,)
     yield Paragraph((Text(f"{lead} "), *line, Text(".")))
@@ -203,11 +208,15 @@ def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
     """Counts of verdicts and points, a part a row, and their sums."""
     key, feedback = marking.key, words["feedback"]
     verdicts = [verdict for verdict in Verdict if any(cell.verdict is verdict for cell in marking.cells)]
-    parts = groupby(marking.cells, lambda cell: key.row(cell.id).part)
     heads = (feedback["part"], *(str(words["verdicts"][v]) for v in verdicts), feedback["points"], feedback["out_of"])
     first = tree.TEXT_WIDTH - len(verdicts) * COUNT - 2 * POINTS
     columns = (Column(first, "left"), *(Column(COUNT),) * len(verdicts), Column(POINTS), Column(POINTS))
-    rows = [_counted(str(words["parts"][part]), list(of_part), verdicts, key) for part, of_part in parts]
+    rows = []
+    for owner, of_owner in groupby(marking.cells, lambda cell: key.owner(cell.id)):
+        here = list(of_owner)
+        rows += [_counted(key.title_of(owner), here, verdicts, key)] if owner else []
+        for part, of_part in groupby(here, lambda cell: key.row(cell.id).part):
+            rows.append(_counted(str(words["parts"][part]), list(of_part), verdicts, key))
     rows.append(_counted(feedback["total"], marking.cells, verdicts, key))
     return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(feedback["by_part"]),))
 
@@ -250,7 +259,8 @@ def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines
         return (Text(words["feedback"]["unnamed"]),)
     # The key may have no row of the quantity in which it was made.
     row = key.find(cell.where) or key.row(cell.id)
-    return sentence(words["mistakes"][cell.mistake], symbol=InlineMath(row.symbol))
+    named = words_of(key.part(cell.id))["mistakes"] if key.parts else words["mistakes"]
+    return sentence(named[cell.mistake], symbol=InlineMath(row.symbol))
 
 
 def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:

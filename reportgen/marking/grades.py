@@ -17,7 +17,7 @@ from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Scale, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
 from reportgen.report import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Table, Text
-from reportgen.report.case import Key, capitalised
+from reportgen.report.case import Key, KeyRow, capitalised
 
 Value = str | float | None
 
@@ -43,9 +43,11 @@ def grade_rows(
     names = words["grades"]
     judged = {marking.key.row(cell.id).part for marking in markings for cell in marking.cells}
     parts = [part for part in Chapter if part in judged]
+    owners = {part.name: part.title for marking in markings for part in marking.key.parts}
     head = (
         *(names[name] for name in ("id", "name", "class", "points", "out_of", "percent", "mark")),
         *(str(words["parts"][part]) for part in parts),
+        *owners.values(),
         *(names[name] for name in ("firsts", "warnings", "flags", "elsewhere")),
     )
     people = {key.id: person(key) for key in (*(marking.key for marking in markings), *missing)}
@@ -58,14 +60,15 @@ def grade_rows(
             round(100 * marking.share, 1),
             marks.mark(marking.share),
             *(_points_of(marking, part) for part in parts),
-            "; ".join(_error_text(marking.key, cell, words) for cell in marking.first_errors),
+            *(_points_of_owner(marking, owner) for owner in owners),
+            "; ".join(_error_text(marking.key, cell, language) for cell in marking.first_errors),
             ", ".join(words["warning_names"][warning] for warning in marking.warnings),
             _flags(marking, words, people),
             ", ".join(_cell_text(marking.key, cell) for cell in marking.elsewhere),
         )
         for marking in markings
     ]
-    rows += [(*_who(key), *(None,) * 4, *(None for _ in parts), "", "", "", "") for key in missing]
+    rows += [(*_who(key), *(None,) * 4, *(None for _ in (*parts, *owners)), "", "", "", "") for key in missing]
     return tuple(rows)
 
 
@@ -74,9 +77,20 @@ def person(key: Key) -> str:
     return " ".join(filter(None, (key.id, key.student.get("name", ""))))
 
 
-def _error_text(key: Key, cell: Marked, words: Mapping[str, Any]) -> str:
+def _error_text(key: Key, cell: Marked, language: Language) -> str:
     """A first error and its name: v_BA (3): scale forgotten."""
-    return f"{_cell_text(key, cell)}: {words['mistake_names'][cell.mistake or 'none']}"
+    return f"{_cell_text(key, cell)}: {_mistake_name(key, cell, language)}"
+
+
+def _mistake_name(key: Key, cell: Marked, language: Language) -> str:
+    """What the mistake behind a cell is called where its kind of work is marked."""
+    words = load_words(search_path(language, key.part(cell.id).kind))
+    return str(words["mistake_names"][cell.mistake or "none"])
+
+
+def _section_name(key: Key, row: KeyRow, words: Mapping[str, Any]) -> str:
+    """The section of a quantity, behind the title of its part."""
+    return ": ".join(filter(None, (key.title_of(key.owner(row.id)), str(words["parts"][row.part]))))
 
 
 def _who(key: Key) -> tuple[str, str, str]:
@@ -89,10 +103,14 @@ def _points_of(marking: Marking, part: Chapter) -> float:
     return round(points_of(cell for cell in marking.cells if marking.key.row(cell.id).part is part)[0], 2)
 
 
+def _points_of_owner(marking: Marking, owner: str) -> float:
+    return round(points_of(cell for cell in marking.cells if marking.key.owner(cell.id) == owner)[0], 2)
+
+
 def _cell_text(key: Key, cell: Marked) -> str:
     """A quantity and its position in one line: v_BA (3)."""
     symbol = symbol_text(key.row(cell.id), key)
-    return f"{symbol} ({key.label(cell.position)})" if cell.position else symbol
+    return f"{symbol} ({key.label(cell.position, cell.id)})" if cell.position else symbol
 
 
 SHOWN = 4
@@ -127,7 +145,7 @@ def class_document(
         _marks(markings, words, language, missing, scale or Scale()),
     ]
     if markings:
-        blocks += [_spread(markings, page), *_shares(markings, words, language), *_errors(markings, words)]
+        blocks += [_spread(markings, page), *_shares(markings, words, language), *_errors(markings, words, language)]
     return paper(language, words, f"{page['title']} – {title}", blocks)
 
 
@@ -180,9 +198,11 @@ def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Lan
     not count.  Questions that all had right are only counted.
     """
     page, names = words["class_page"], words["answer_sheet"]
-    asked = [(marking.key.row(cell.id), cell) for marking in markings for cell in marking.cells if cell.worth]
-    sections = _right([(row.part, cell) for row, cell in asked])
-    parts = [(str(words["parts"][part]), _percent(share, language)) for part, share in sections]
+    asked = [
+        (marking.key, marking.key.row(cell.id), cell) for marking in markings for cell in marking.cells if cell.worth
+    ]
+    sections = _right([(_section_name(key, row, words), cell) for key, row, cell in asked])
+    parts = [(name, _percent(share, language)) for name, share in sections]
     widths = (Column(PART + 3 * SHARE, "left"), Column(SHARE))
     yield Table(
         widths,
@@ -190,9 +210,9 @@ def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Lan
         tuple(map(cells, parts)),
         (Text(page["by_section"]),),
     )
-    rows = {row.id: row for row, _ in asked}
-    questions = [(rows[id], share) for id, share in _right([(row.id, cell) for row, cell in asked])]
-    hard = [(row, share) for row, share in questions if share < 1]
+    rows = {row.id: (key, row) for key, row, _ in asked}
+    questions = [(rows[id], share) for id, share in _right([(row.id, cell) for _, row, cell in asked])]
+    hard = [(key, row, share) for (key, row), share in questions if share < 1]
     if hard:
         what = TEXT_WIDTH - SYMBOL - PART - SHARE
         heads = (words["table"]["symbol"], names["what"], words["feedback"]["part"], page["right"])
@@ -201,11 +221,11 @@ def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Lan
                 (
                     (InlineMath(row.symbol),),
                     capitalised(row.what),
-                    str(words["parts"][row.part]),
+                    _section_name(key, row, words),
                     _percent(share, language),
                 )
             )
-            for row, share in hard
+            for key, row, share in hard
         )
         columns = (Column(SYMBOL), Column(what, "left"), Column(PART, "left"), Column(SHARE))
         yield Table(columns, (cells(heads),), tuple(lines), (Text(page["by_question"]),))
@@ -225,7 +245,7 @@ def _percent(share: float, language: Language) -> str:
     return write(100 * share, 0, language)
 
 
-def _errors(markings: Sequence[Marking], words: Mapping[str, Any]) -> Iterator[Block]:
+def _errors(markings: Sequence[Marking], words: Mapping[str, Any], language: Language) -> Iterator[Block]:
     """First errors by quantity, then by the mistakes that were recognised."""
     page = words["class_page"]
     firsts = [(marking.key, cell) for marking in markings for cell in marking.first_errors]
@@ -234,10 +254,11 @@ def _errors(markings: Sequence[Marking], words: Mapping[str, Any]) -> Iterator[B
         return
     symbols: dict[str, Content] = {cell.id: key.row(cell.id).symbol for key, cell in firsts}
     quantities = Counter(cell.id for _, cell in firsts).most_common()
-    mistakes = Counter(cell.mistake or "none" for _, cell in firsts).most_common()
+    mistakes: list[tuple[Content, int]] = [
+        *Counter[Content](_mistake_name(key, cell, language) for key, cell in firsts).most_common()
+    ]
     by_quantity = [(symbols[id], count) for id, count in quantities]
-    by_mistake: list[tuple[Content, int]] = [(str(words["mistake_names"][name]), count) for name, count in mistakes]
-    for title, counted in ((page["quantities"], by_quantity), (page["mistakes"], by_mistake)):
+    for title, counted in ((page["quantities"], by_quantity), (page["mistakes"], mistakes)):
         shown, others = counted[:MOST_BARS], counted[MOST_BARS:]
         if others:
             shown.append((page["others"].format(count=len(others)), sum(count for _, count in others)))

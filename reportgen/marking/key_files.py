@@ -28,8 +28,8 @@ from reportgen.marking.paper import (
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
 from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text
-from reportgen.report.case import Key, KeyRow
-from reportgen.workbook import Book, Entry
+from reportgen.report.case import Key, KeyRow, PartOfKey
+from reportgen.workbook import Book, BookSheet, Entry
 
 FORMAT = "reportgen-key/1"
 """Of the JSON."""
@@ -64,6 +64,12 @@ def key_book(key: Key) -> Book:
 
     The page of values is laid out as a filled answer sheet.
     """
+    sheets = [sheet for number, (title, part) in enumerate(key.pages) for sheet in _book_pages(part, number, title)]
+    return Book((*sheets, info_page(key)), f"{words_of(key)['key']['title']} {key.id}")
+
+
+def _book_pages(key: Key, number: int, title: str) -> Iterator[BookSheet]:
+    """The pages of a key, or of a part of it, whose title they name behind the first."""
     words = words_of(key)["key"]
     positions = range(1, len(key.labels) + 1)
     turning = [row for row in key.rows if any(row.sense)]
@@ -77,8 +83,9 @@ def key_book(key: Key) -> Book:
         (words["computed"], lambda row, index: Entry(band(row, float(row.computed[index]))), key.rows),
         *([(words["senses"], lambda row, index: Entry(row.sense[index]), turning)] if turning else []),
     ]
-    sheets = (page(name, grid(key, name, "", filling(entry), rows, positions)) for name, entry, rows in pages)
-    return Book((*sheets, info_page(key)), f"{words['title']} {key.id}")
+    for name, entry, rows in pages:
+        called = f"{name} – {title}" if number else name
+        yield page(called, grid(key, called, "", filling(entry), rows, positions))
 
 
 def _value_entry(row: KeyRow, index: int) -> Entry:
@@ -100,7 +107,7 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
             symbol_text(row, key),
             row.described,
             row.unit,
-            "" if row.single else key.labels[index],
+            "" if row.single else key.label(index + 1, row.id),
             shown_number(row, float(value)).shown if value == value else None,
             row.sense[index],
             band(row, float(row.drawn[index])),
@@ -126,6 +133,7 @@ def key_data(key: Key) -> dict[str, Any]:
         "language": key.language,
         "student": dict(key.student),
         "positions": list(key.labels),
+        **({"parts": {part.name: _part_data(part) for part in key.parts}} if key.parts else {}),
         "rows": [
             {
                 "id": row.id,
@@ -137,7 +145,7 @@ def key_data(key: Key) -> dict[str, Any]:
                 "kind": row.kind,
                 "unit": row.unit,
                 "decimals": row.decimals,
-                "asked": [key.label(k) for k in row.positions],
+                "asked": [key.label(k, row.id) for k in row.positions],
                 "values": _numbers(row.values),
                 "printed": _numbers(row.printed),
                 "drawn": _numbers(row.drawn),
@@ -147,6 +155,10 @@ def key_data(key: Key) -> dict[str, Any]:
             for row in key.rows
         ],
     }
+
+
+def _part_data(part: PartOfKey) -> dict[str, Any]:
+    return {"kind": part.key.kind, "title": part.title, "positions": list(part.key.labels)}
 
 
 def key_json(key: Key) -> str:
@@ -170,8 +182,10 @@ def key_document(key: Key, title: str) -> Document:
         paragraph(words["key"]["note"]),
         *([paragraph(words["key"]["thinned"].format(count=len(key.printed)))] if key.printed else []),
     ]
-    for part, rows in groupby(key.rows, lambda row: row.part):
-        blocks += _tables(key, words, str(words["parts"][part]), list(rows))
+    for title_of_part, page_of in key.pages:
+        blocks += [heading(title_of_part, 2)] if title_of_part else []
+        for part, rows in groupby(page_of.rows, lambda row: row.part):
+            blocks += _tables(page_of, words, str(words["parts"][part]), list(rows))
     return paper(key.language, words, f"{words['key']['title']} – {key.id}", blocks, variant=key.variant)
 
 

@@ -34,6 +34,7 @@ from reportgen.marking.marks import (
 )
 from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
+from reportgen.marking.parts import joined, sheets_of
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working, lay_out
 from reportgen.report.case import Case, KeyRow
@@ -50,6 +51,11 @@ SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
 
 def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
     """The verdicts on a submission; `classmates` are those that none of its values should come from."""
+    if scheme.parts:
+        sheets = sheets_of(scheme, submission, classmates)
+        return joined(
+            scheme, submission, [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
+        )
     working = lay_out(scheme, submission)
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = {
@@ -206,7 +212,7 @@ def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
     if cell.mistake:
         where = marking.key.find(cell.where)
         symbol = symbol_text(where, marking.key) if where else _named(marking, cell)
-        return str(words["mistakes"][cell.mistake]).format(symbol=symbol)
+        return str(words_of(marking.key.part(cell.id))["mistakes"][cell.mistake]).format(symbol=symbol)
     assert cell.given is not None, "only a given value diverges"
     size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
     shown = (marking.key.find(id) for id in scheme.before[cell.id])
@@ -220,4 +226,4 @@ def _named(marking: Marking, cell: Marked) -> str:
     symbol = symbol_text(row, marking.key)
     if cell.position == 0:
         return symbol
-    return str(words["at"].format(symbol=symbol, label=marking.key.label(cell.position)))
+    return str(words["at"].format(symbol=symbol, label=marking.key.label(cell.position, cell.id)))

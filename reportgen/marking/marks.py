@@ -205,6 +205,9 @@ class Policy:
     overrule: Mapping[str, str] = field(default_factory=dict)
     ask: Ask = field(default_factory=Ask)
     scale: Scale = field(default_factory=Scale)
+    parts: Mapping[str, float] = field(default_factory=dict)
+    """The shares of the parts of a coursework, by name; without them each value counts alike."""
+    file: Path | None = None
 
     def takes(self, kind: str, assignment: str) -> bool:
         """Whether a kind of flag costs marks on the sheet of an assignment."""
@@ -242,6 +245,7 @@ class _PolicyFile(Part):
     take: dict[str, Annotated[bool, Flag()]] = {}  # noqa: RUF012
     overrule: dict[str, Annotated[str, TypedText()]] = {}  # noqa: RUF012
     show_answers: Annotated[bool, Flag()] = True
+    parts: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -264,6 +268,9 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
     overrule:                # sheets that keep their marks, and why
       K225520103023: has shown the drawings
     show_answers: true       # the feedback tells the right values
+    parts:                   # what each part of a coursework counts; else as many points as values are asked for
+      machine: 6
+      cam: 4
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points
@@ -280,6 +287,8 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         overrule=content.overrule,
         ask=Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
         scale=Scale(content.mark.highest, content.mark.step),
+        parts=content.parts,
+        file=path,
     )
 
 
@@ -303,6 +312,8 @@ class MarkingScheme:
     count: int
     """Positions of one turn."""
     policy: Policy
+    parts: tuple[MarkingScheme, ...] = ()
+    """Those of the parts of a coursework, each by its own ids."""
 
     @cached_property
     def bands(self) -> dict[str, np.ndarray]:
@@ -445,7 +456,8 @@ class MarkingScheme:
 
 def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
     """The marking scheme of an assignment, computed as its report is."""
-    return MarkingScheme(case.key(), case.ledger, case.pitfalls, case.positions_of_a_turn, policy or Policy())
+    parts = tuple(marking_scheme(one, policy) for one in case.parts.values())
+    return MarkingScheme(case.key(), case.ledger, case.pitfalls, case.positions_of_a_turn, policy or Policy(), parts)
 
 
 def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:

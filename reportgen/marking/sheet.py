@@ -145,8 +145,20 @@ def info_page(key: Key) -> BookSheet:
     return BookSheet(words_of(key)["answer_sheet"]["info"], rows, (24.0, 44.0), protected=True)
 
 
+def named_pages(key: Key, name: str) -> Iterator[tuple[str, Key]]:
+    """The pages that a workbook has for a sheet called `name`: of a coursework one a part, with its title."""
+    for number, (title, part) in enumerate(key.pages):
+        yield (title if number else name), part
+
+
 def answer_book(key: Key, by_section: bool = False) -> Book:
     """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
+    sheet = words_of(key)["answer_sheet"]
+    pages = [_answer_page(part, name, by_section) for name, part in named_pages(key, sheet["answers"])]
+    return Book((*pages, info_page(key)), f"{sheet['title']} {key.id}")
+
+
+def _answer_page(key: Key, name: str, by_section: bool) -> BookSheet:
     sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
 
     def filling(row: KeyRow, position: int) -> Entry | None:
@@ -155,7 +167,7 @@ def answer_book(key: Key, by_section: bool = False) -> Book:
         return given_entry(row, position)
 
     rows = grid(key, sheet["title"], sheet["note"], filling, rows_shown(key), asked_positions(key))
-    return Book((page(sheet["answers"], rows, by_section), info_page(key)), f"{sheet['title']} {key.id}")
+    return page(name, rows, by_section)
 
 
 # --- a student's file → `Submission`: the sheet found by its words --------------------------------
@@ -185,7 +197,8 @@ def read_submission(
     answer sheet or belongs to another assignment or machine.
     """
     pages = read(path, language) if pages is None else pages
-    found = _sheet(pages)
+    sheets = _sheets(pages)
+    found = sheets[0] if sheets else None
     if found is None:
         raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)
     named = _beside(pages, "assignment") or _titled(found[0].rows[: found[1]])
@@ -204,7 +217,8 @@ def read_submission(
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
         raise as_error([Fault("sheet-of-another", kind[1], about)], language)
     reading = _Reading(key, language)
-    reading.sheet(*found)
+    for one in sheets if key.parts else sheets[:1]:
+        reading.sheet(*one)
     return Submission(
         key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
     )
@@ -224,15 +238,17 @@ def _says(cell: SheetCell, name: str) -> bool:
     return cell.text.strip().rstrip(":").casefold() in _words(name)
 
 
-def _sheet(pages: Sequence[Page]) -> tuple[Page, int] | None:
-    """The page of the answers and the index of its head row: the page so called, else the first that has a head."""
+def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
+    """The pages of answers with the indices of their head rows: the page so called first, then all that have a head."""
+    found: dict[int, tuple[Page, int]] = {}
     called = [page for page in pages if page.name.strip().casefold() in _words("answers")]
     for page in (*called, *pages):
         for number, row in enumerate(page.rows[:HEAD_WITHIN]):
             # The head names more than the id: a lone cell could be anything.
             if any(_says(cell, "id") for cell in row) and any(_says(cell, "value") for cell in row):
-                return page, number
-    return None
+                found.setdefault(id(page), (page, number))
+                break
+    return list(found.values())
 
 
 def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
@@ -270,9 +286,11 @@ class _Reading:
 
     def sheet(self, page: Page, head: int) -> None:
         """Read all rows below the head."""
-        columns = self.columns(page.rows[head])
         at = next(number for number, cell in enumerate(page.rows[head]) if _says(cell, "id"))
         found: dict[Place, SheetCell] = {}
+        ids = (cells[at].text.strip() for cells in page.rows[head + 1 :] if at < len(cells))
+        part = next((self.key.part(id) for id in ids if self.key.find(id)), self.key)
+        columns = self.columns(page.rows[head], part)
         for place, cell in self.cells(page.rows[head + 1 :], at, columns):
             if place not in found:
                 found[place] = cell
@@ -285,9 +303,9 @@ class _Reading:
             if place not in self.problems:
                 self.value(place, cell, mark, agreed)
 
-    def columns(self, head: Sequence[SheetCell]) -> dict[int, int]:
-        """Positions (0 for single values) by the indices of their columns."""
-        labels = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
+    def columns(self, head: Sequence[SheetCell], part: Key) -> dict[int, int]:
+        """Positions (0 for single values) of a part by the indices of their columns."""
+        labels = {label.casefold(): k for k, label in enumerate(part.labels, start=1)}
         columns: dict[int, int] = {}
         for number, cell in enumerate(head):
             if _says(cell, "value"):

@@ -13,7 +13,7 @@ import webbrowser
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import partial
+from functools import lru_cache, partial
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -21,8 +21,10 @@ from typing import Any, ClassVar, TextIO
 from urllib.parse import urlsplit
 
 from reportgen import report as tree
+from reportgen.assignment import parts
 from reportgen.base.errors import AssignmentError, ReportgenError
 from reportgen.base.files import reported
+from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, spoken, templates, unexpected
 from reportgen.page import html, moving_part
@@ -334,7 +336,7 @@ def watch(
     stop = threading.Event()
     threads = (
         threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True),
-        threading.Thread(target=_follow, args=(path, desk, stop, _state(path)), daemon=True),
+        threading.Thread(target=_follow, args=(path, desk, stop, _states(path)), daemon=True),
         threading.Thread(target=_follow_templates, args=(desk, stop, _school(path, opens)), daemon=True),
     )
     try:
@@ -370,11 +372,23 @@ def _follow(path: Path, desk: Desk, stop: threading.Event, shown: object) -> Non
     and hears nothing of changes that another computer makes.
     """
     while not stop.wait(LOOKING):
-        if _state(path) != shown:
+        if _states(path) != shown:
             stop.wait(QUIET / 1000)
-            shown = _state(path)
+            shown = _states(path)
             with _ONE_AT_A_TIME:
                 desk.renew()
+
+
+def _states(path: Path) -> tuple[tuple[float, ...], ...]:
+    """What changes with a file and with the files of its parts."""
+    own = _state(path)
+    return own, *map(_state, _beside(path, own))
+
+
+@lru_cache(maxsize=4)
+def _beside(path: Path, _: tuple[float, ...]) -> tuple[Path, ...]:
+    """The files of the parts of a file, read once for as long as it stays the same."""
+    return tuple(parts.files(read_source(path), path))
 
 
 def _state(path: Path) -> tuple[float, ...]:

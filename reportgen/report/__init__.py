@@ -78,7 +78,8 @@ Inlines = tuple[Inline, ...]
 class Section:
     """A heading; level 1 is a part of the report, 4 is a run-in heading.
 
-    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.
+    `numbered=False` is for foreword, conclusion and the like: listed in the contents, not counted.  One that begins a
+    section of the templates has its name in `opens`, which is not printed.
     """
 
     level: int
@@ -86,6 +87,7 @@ class Section:
     key: str = ""
     numbered: bool = True
     number: str = ""
+    opens: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)

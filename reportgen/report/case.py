@@ -103,6 +103,10 @@ class Case(Protocol):
     def pitfalls(self) -> Pitfalls:
         """What marking looks for beside the mistakes that any formula may have."""
 
+    @property
+    def parts(self) -> Mapping[str, Case]:
+        """The cases that a coursework is made of, by name, that of the machine first; none of a work without parts."""
+
     def fault(self) -> str:
         """The code of a fault that shows only in the results, "" if they are sound; variants are judged by it."""
 
@@ -224,6 +228,11 @@ class Opened:
     def title(self) -> str:
         """The machine's name in the assignment's language."""
         return kind_title(self.assignment.kind, self.assignment.language)
+
+    @property
+    def parts(self) -> Mapping[str, Case]:
+        """It is a work of one part."""
+        return {}
 
     @property
     def variant_line(self) -> str:
@@ -357,10 +366,40 @@ class Key:
     labels: tuple[str, ...]
     rows: tuple[KeyRow, ...]
     printed: tuple[int, ...] = ()
+    parts: tuple[PartOfKey, ...] = ()
+    """The parts of a coursework in the order of their rows."""
 
-    def label(self, position: int) -> str:
-        """What a position (from 1) is called; "" for 0, the one of single values."""
-        return self.labels[position - 1] if position else ""
+    def label(self, position: int, id: str = "") -> str:
+        """What a position (from 1) of a quantity is called; "" for 0, the one of single values."""
+        labels = self.part(id).labels if id else self.labels
+        return labels[position - 1] if position else ""
+
+    def part(self, id: str) -> Key:
+        """The key of the part that a quantity belongs to; of a work without parts itself."""
+        return next((part.key for part in self.parts if part.name == self.owner(id)), self)
+
+    def owner(self, id: str) -> str:
+        """The name of the part that a quantity belongs to; the first has whatever no other has."""
+        first, *others = self.parts or (None,)
+        named = (part.name for part in others if part is not None and id.startswith(f"{part.name}."))
+        return next(named, first.name if first else "")
+
+    def title_of(self, name: str) -> str:
+        """The title of a part; "" for what is no part."""
+        return next((part.title for part in self.parts if part.name == name), "")
+
+    @property
+    def pages(self) -> tuple[tuple[str, Key], ...]:
+        """The parts by their titles, each with its rows as they stand here; what has none is one part without title."""
+        if not self.parts:
+            return (("", self),)
+        first = 0
+        found = []
+        for part in self.parts:
+            rows = self.rows[first : first + len(part.key.rows)]
+            first += len(rows)
+            found.append((part.title, replace(part.key, rows=rows, student=self.student)))
+        return tuple(found)
 
     def find(self, id: str) -> KeyRow | None:
         """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""
@@ -378,6 +417,24 @@ class Key:
     def asked(self) -> tuple[KeyRow, ...]:
         """The rows of the answer sheet, in order."""
         return tuple(row for row in self.rows if row.positions)
+
+
+@dataclass(frozen=True, slots=True)
+class PartOfKey:
+    """A part of a coursework: its name in front of its ids in place of the `head` that they have by themselves."""
+
+    name: str
+    key: Key
+    title: str
+    head: str = ""
+
+    def own(self, id: str) -> str:
+        """The id that a quantity has in the part by itself."""
+        return self.head + id.removeprefix(self.name) if self.head and id else id
+
+    def full(self, id: str) -> str:
+        """The id in the coursework of a quantity of the part."""
+        return self.name + id.removeprefix(self.head) if self.head and id else id
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from contextvars import ContextVar
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import lru_cache, partial
 from pathlib import Path
 from pickle import UnpicklingError
@@ -44,7 +44,7 @@ from reportgen.base.limits import TEMPLATES, LimitError
 from reportgen.base.units import MINUS, Language
 from reportgen.base.words import find, home, of_school, refuse_strangers, word
 from reportgen.formula import Expression, Number, vocabulary
-from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Text, Value, markdown
+from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, markdown
 from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
 
 _PRIVATE = re.compile("[\ue000-\ue004]")
@@ -88,7 +88,9 @@ class Prose:
         Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
         as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
         """
-        return markdown.blocks(_render(self.places, name, names))
+        found = markdown.blocks(_render(self.places, name, names))
+        first = found[0] if found else None
+        return (replace(first, opens=name), *found[1:]) if isinstance(first, Section) else found
 
     def inlines(self, words: str) -> Inlines:
         """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.

@@ -16,7 +16,7 @@ from reportgen.base.words import as_error, word
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.report.case import Calculation, Opened
 from reportgen.report.report import Report
-from reportgen.sheets.frame import DEFAULT, SIZES, TitleBlock, blocks, fields_of, frame_scene, read_block, room
+from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, read_block, room
 from reportgen.sheets.packing import DrawingPlate, Packing
 from reportgen.sheets.plates import Set, Sources, plates_of
 
@@ -138,17 +138,10 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str) -> tuple[str, list[La
 def _sheet(case: Opened, form: TitleBlock, paper: str, number: int, found: Sequence[Laid]) -> DrawingSheet:
     """One of the sheets with its frame and its title block."""
     shown, parts = found[number - 1]
-    own = form if number == 1 or form.following is None else form.following
     fields = fields_of(case, form, number) | {
         "title": case.words["plates"]["sets"][shown],
         "sheet": str(number),
         "sheets": str(len(found)),
         "format": paper,
     }
-    space = room(paper, own)
-    corner = complex(space.high.real - own.size[0], space.low.imag)
-    placed = (
-        PlacedScene("frame", "frame", frame_scene(paper, form, fields)),
-        PlacedScene("title block", "frame", own.scene(fields), corner),
-    )
-    return DrawingSheet(paper, *SIZES[paper], (*placed, *parts))
+    return framed(parts, form, fields)

@@ -7,7 +7,7 @@ middle of each side.  Letters have the heights of ISO 3098.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Literal
@@ -21,7 +21,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, templates
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.geometry import box
-from reportgen.drawing.sheet import Room, font_size
+from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
 from reportgen.report.case import Opened
 
 SIZES: Mapping[str, tuple[float, float]] = {
@@ -73,6 +73,10 @@ class Margins:
 
     left: float = 20.0
     other: float = 10.0
+
+
+FRAME = "frame"
+"""The layer of what belongs to the sheet itself."""
 
 
 def room(size: str, block: TitleBlock) -> Room:
@@ -327,6 +331,34 @@ def _texts(cell: _Cell, where: Where) -> Iterator[Finding]:
     for name in re.findall(r"\{([^{}]*)\}?", cell.text):
         if name not in FIELDS:
             yield Finding("block-field", (*where, "text"), {"text": name, **close_or_known(name, sorted(FIELDS))})
+
+
+def framed(parts: Iterable[PlacedScene], form: TitleBlock, fields: Mapping[str, str]) -> DrawingSheet:
+    """A sheet with its frame and its title block, which is another one from the second sheet on where there is such."""
+    paper = fields["format"]
+    own = form if fields["sheet"] == "1" or form.following is None else form.following
+    space = room(paper, own)
+    corner = complex(space.high.real - own.size[0], space.low.imag)
+    placed = (
+        PlacedScene("frame", FRAME, frame_scene(paper, form, fields)),
+        PlacedScene("title block", FRAME, own.scene(fields), corner),
+    )
+    return DrawingSheet(paper, *SIZES[paper], (*placed, *parts), fields)
+
+
+def numbered(sheets: Sequence[DrawingSheet], form: TitleBlock, designation: str) -> list[DrawingSheet]:
+    """The sheets of several parts as one set: those with a title block numbered on, all of one designation if given."""
+    total, number = sum(bool(sheet.fields) for sheet in sheets), 0
+    found = []
+    for sheet in sheets:
+        if sheet.fields:
+            number += 1
+            told = {"designation": designation or _filled(form.designation, {**sheet.fields, "sheet": f"{number:02}"})}
+            told |= {"sheet": str(number), "sheets": str(total)}
+            parts = (part for part in sheet.parts if part.layer != FRAME)
+            sheet = framed(parts, form, {**sheet.fields, **told})
+        found.append(sheet)
+    return found
 
 
 def fields_of(case: Opened, block: TitleBlock, number: int) -> dict[str, str]:

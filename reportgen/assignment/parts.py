@@ -1,0 +1,142 @@
+"""The further parts of a coursework: assignments of their own, by their files or in place, with data of the machine.
+
+A part is one table whether it stands in a file of its own or in the coursework's; each of its nodes keeps the place
+where it was written, so that a fault is told there.  What it takes `from` the machine is put among its parameters
+before it is read.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from reportgen.assignment.common import PARTS, AssignedPart, Assignment, Kind, NamedPart, TakenDatum
+from reportgen.base.errors import Fault, Where
+from reportgen.base.files import leads_out
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, at, put, read_source, without
+from reportgen.base.units import NUMBER
+from reportgen.base.words import kinds
+
+ABOUT = ("file", "title", "from")
+"""The keys of a named part that are not those of an assignment."""
+_TYPED = re.compile(rf"\s*({NUMBER})(.*)")
+
+Assess = Callable[[Source, Path], tuple[Assignment | None, list[Fault]]]
+
+
+def read(
+    top: MappingNode, path: Path, named: Sequence[NamedPart], find: Callable[[str], Kind], assess: Assess
+) -> tuple[list[AssignedPart], list[Fault]]:
+    """The parts of a coursework's file, and all their faults.
+
+    `find` gives what the reader must know of a kind, `assess` the assignment of a part's nodes.
+    """
+    found: list[AssignedPart] = []
+    faults: list[Fault] = []
+    numbers: Counter[str] = Counter()
+    for index, one in enumerate(named):
+        source, own = source_of(top, path, index)
+        taken = tuple(
+            TakenDatum(key, wanted.of, wanted.times.text.strip() if wanted.times else "1")
+            for key, wanted in one.from_.items()
+        )
+        if source.top is not None and not own:
+            source, own = _with_taken(source, top, index, taken, one)
+        own = own or list(_no_part(source, find))
+        assignment, wrong = (None, own) if own else assess(source, Path(source.file))
+        if assignment is None:
+            faults += wrong
+            continue
+        head = find(assignment.kind).part
+        numbers[head] += 1
+        found.append(AssignedPart(numbered(head, numbers[head]), head, one.title or "", assignment, taken))
+    return found, faults
+
+
+def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
+    """The fault of a kind that cannot be a part, as a machine, which could name parts itself."""
+    name = at(source.top, ("kind",))
+    if isinstance(name, Scalar) and name.text in kinds() and not find(name.text).part:
+        yield Fault("no-part", name.mark, {"text": name.text})
+
+
+def numbered(head: str, number: int) -> str:
+    """The name of a part: that of its kind, with a number behind it from the second of a kind on."""
+    return f"{head}{number if number > 1 else ''}"
+
+
+def files(source: Source, path: Path) -> list[Path]:
+    """The files that the parts of a coursework's file stand in, those that may be read."""
+    listed = at(source.top, (PARTS,))
+    items = listed.items if isinstance(listed, SequenceNode) else ()
+    named = (at(item, ("file",)) for item in items)
+    paths = (path.parent / one.text for one in named if isinstance(one, Scalar) and not one.null)
+    return [file for file in paths if not leads_out(file, path.parent)]
+
+
+def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fault]]:
+    """The nodes of a part by its number, and what keeps its file from being read."""
+    table = at(top, (PARTS, index))
+    assert isinstance(table, MappingNode), "the list of parts is in order"
+    place = table.find("file")
+    inline = without(table, ABOUT)
+    if place is None or not isinstance(place[1], Scalar) or place[1].null:
+        return Source(str(path), top=inline), []
+    named = place[1]
+    if inline.entries:
+        second = inline.entries[0][0]
+        return Source(str(path)), [Fault("both-given", second.mark, {"first": "file", "second": second.text})]
+    file = path.parent / named.text
+    if leads_out(file, path.parent):
+        # Nothing of it is read, so that nothing of it is told.
+        return Source(str(path)), [Fault("path-outside", named.mark, {"text": named.text})]
+    source = read_source(file)
+    unread = [replace(one, mark=named.mark) for one in source.faults if one.code == "unreadable"]
+    return source, unread
+
+
+def _with_taken(
+    source: Source, top: MappingNode, index: int, taken: Sequence[TakenDatum], one: NamedPart
+) -> tuple[Source, list[Fault]]:
+    """The part with the machine's values among its parameters."""
+    node: Node | None = source.top
+    faults: list[Fault] = []
+    for datum in taken:
+        here = (PARTS, index, "from", datum.key)
+        wanted = at(top, (*here, "of"))
+        where = place_of(datum.of)
+        value, own = at(top, where), at(node, ("parameters", datum.key))
+        assert isinstance(wanted, Scalar), "what is taken is in order"
+        if not isinstance(value, Scalar) or value.null:
+            known = ", ".join(_quantities(top))
+            faults.append(Fault("no-datum", wanted.mark, {"text": datum.of, "known": known}))
+        elif own is not None:
+            faults.append(Fault("datum-twice", own.mark, {"key": datum.key}))
+        elif node is not None:
+            times = one.from_[datum.key].times
+            text = value.text if times is None else scaled(value.text, times.si)
+            node = put(node, ("parameters", datum.key), Scalar(text, wanted.mark))
+    return replace(source, top=node), faults
+
+
+def place_of(name: str) -> Where:
+    """The place of a quantity in the machine's file: among its parameters, or in the section that its name says."""
+    steps = tuple(name.split("."))
+    return steps if len(steps) > 1 else ("parameters", *steps)
+
+
+def scaled(text: str, times: float) -> str:
+    """A quantity as typed, so many times as large, in its own unit; what is no quantity stays."""
+    typed = _TYPED.fullmatch(text)
+    return f"{float(typed[1]) * times:.12g}{typed[2]}" if typed else text
+
+
+def _quantities(top: MappingNode) -> Iterator[str]:
+    """The keys of the machine's parameters that have one value."""
+    section = at(top, ("parameters",))
+    for key, value in section.entries if isinstance(section, MappingNode) else ():
+        if isinstance(value, Scalar):
+            yield key.text

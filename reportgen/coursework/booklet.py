@@ -1,0 +1,162 @@
+"""Reports of several cases as one booklet: one cover, task, contents and conclusion, the parts' chapters numbered on.
+
+Each report is a finished tree.  What begins with its task, its symbols or its conclusion says so itself
+(`Section.opens`); numbering is a pass over a tree, so the joined one is numbered again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import dropwhile
+from typing import Any
+
+from reportgen.coursework.letters import changed
+from reportgen.marking.feedback import sentence
+from reportgen.report import (
+    BlankLine,
+    Block,
+    Cell,
+    Column,
+    Cover,
+    Document,
+    Equation,
+    Figure,
+    Inlines,
+    PageBreak,
+    Paragraph,
+    Plate,
+    Reference,
+    Section,
+    Table,
+    Text,
+)
+from reportgen.report.numbering import number
+
+RUN_IN = 4
+"""The level of a heading that stands in its paragraph."""
+SYMBOLS = (34.0, 96.0, 30.0)
+"""Widths (mm) of the columns of a part's symbols."""
+NAMED = (Section, Equation, Table, Figure, Plate, Reference)
+"""What has a key or refers to one."""
+
+Blocks = tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class PartReport:
+    """The report of a part: its `name` among the parts, its title, its finished tree.
+
+    `taken` says what it has from the machine, `lettered` which letters have its index; `symbols` are rows of its
+    quantities: symbol, meaning, unit.
+    """
+
+    name: str
+    title: str
+    document: Document
+    taken: Blocks = ()
+    lettered: Blocks = ()
+    symbols: tuple[tuple[Inlines, Inlines, Inlines], ...] = ()
+
+    def group(self, what: str) -> Blocks:
+        """What stands below the heading that opens a section, "" for the chapters, their headings included."""
+        found: list[Block] = []
+        for group in self._groups:
+            if told(group[0]) == what:
+                found += group[1:]
+            elif not what and told(group[0]) not in ("given", "conclusion"):
+                found += group
+        return tuple(found)
+
+    @property
+    def _groups(self) -> Iterator[Blocks]:
+        """The groups of its report behind cover and contents: a level further down, keys in its own name."""
+        for group in groups(self.document.blocks):
+            if isinstance(group[0], Section):
+                yield tuple(map(lowered, renamed(group, self.name)))
+
+
+def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any]) -> Document:
+    """One numbered document; `words` are those of the machine."""
+    found = list(groups(machine.blocks))
+    counted = [index for index, (head, *_) in enumerate(found) if isinstance(head, Section) and head.numbered]
+    last = counted[-1] if counted else len(found) - 1
+    blocks: list[Block] = []
+    for index, (head, *below) in enumerate(found):
+        blocks += (with_titles(head, parts) if isinstance(head, Cover) else head, *below)
+        for part in parts:
+            match told(head):
+                case "given":
+                    blocks += (heading(part.title, 2), *part.group("given"), *part.taken)
+                case "symbols" if part.symbols:
+                    blocks += symbols(part, words)
+                case "conclusion":
+                    blocks += (heading(f"{part.title}.", RUN_IN), *part.group("conclusion"))
+        if index == last:
+            for part in parts:
+                blocks += (Section(1, (Text(part.title),)), *part.lettered, *part.group(""))
+    return number(replace(machine, blocks=tuple(blocks)))
+
+
+def task_of(machine: Document, parts: Sequence[PartReport]) -> Document:
+    """One handout: that of the machine, then those of the parts, each from a page of its own and without its head."""
+    blocks = list(machine.blocks)
+    for part in parts:
+        head, *below = renamed(part.document.blocks, part.name)
+        assert isinstance(head, Section), "a task begins with its title"
+        # Whose it is stands on the first page already.
+        own = dropwhile(lambda block: isinstance(block, BlankLine), below[1:])
+        blocks += (PageBreak(), heading(part.title, 1), *part.taken, *own)
+    return number(replace(machine, blocks=tuple(blocks)))
+
+
+def groups(blocks: Iterable[Block]) -> Iterator[Blocks]:
+    """What stands before the first heading of level 1, then each such heading with all below it."""
+    group: list[Block] = []
+    for block in blocks:
+        if isinstance(block, Section) and block.level == 1 and group:
+            yield tuple(group)
+            group = []
+        group.append(block)
+    if group:
+        yield tuple(group)
+
+
+def told(block: Block) -> str:
+    """What a heading begins, whatever kind of work it is of: given, symbols, conclusion, …."""
+    return block.opens.rpartition("-")[2] if isinstance(block, Section) else ""
+
+
+def heading(title: str, level: int) -> Section:
+    """A heading without a number."""
+    return Section(level, (Text(title),), numbered=False)
+
+
+def with_titles(cover: Cover, parts: Sequence[PartReport]) -> Cover:
+    """The cover with the titles of the parts below that of the machine."""
+    return replace(cover, subtitle=(*cover.subtitle, *(part.title for part in parts)))
+
+
+def lowered(block: Block) -> Block:
+    """A block, a heading a level further down."""
+    return replace(block, level=min(block.level + 1, RUN_IN)) if isinstance(block, Section) else block
+
+
+def renamed(blocks: Blocks, name: str) -> Blocks:
+    """Blocks whose keys, and the references to them, begin with a part's name."""
+
+    def own(one: Any) -> Any:
+        return replace(one, key=f"{name}.{one.key}") if one.key else one
+
+    # References first: they stand inside of what has a key itself.
+    return changed(changed(blocks, Reference, own), tuple(kind for kind in NAMED if kind is not Reference), own)
+
+
+def symbols(part: PartReport, words: Mapping[str, Any]) -> Iterator[Block]:
+    """The quantities of a part in a table, and what says so."""
+    own, key = words["coursework"], f"{part.name}.tab.symbols"
+    yield Paragraph(sentence(own["symbols"], title=part.title, table=Reference(key)))
+    head = tuple(Cell((Text(str(text)),)) for text in words["tables"]["symbols"]["head"])
+    columns = (Column(SYMBOLS[0]), Column(SYMBOLS[1], "left"), Column(SYMBOLS[2]))
+    rows = tuple(tuple(map(Cell, row)) for row in part.symbols)
+    yield Table(columns, (head,), rows, sentence(own["caption"], title=part.title), key)

@@ -1,0 +1,292 @@
+"""A coursework as a case: what a machine's case and its parts' cases come to together."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+
+from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
+from reportgen.coursework.booklet import PartReport, booklet
+from reportgen.coursework.film import joined
+from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
+from reportgen.drawing.film import Film
+from reportgen.drawing.sheet import DrawingSheet
+from reportgen.formula import Chain, Expression, Number, Ref, Symbol
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Family
+from reportgen.marking.key import phrase
+from reportgen.report import Document, Equation, InlineMath, Paragraph, Text, listed
+from reportgen.report.case import Case, Key, PartOfKey, Pitfalls, capitalised
+
+MACHINE = "machine"
+"""The name of the part that the others follow."""
+
+
+@dataclass(frozen=True)
+class PartCase:
+    """A part with its case, as it is by itself."""
+
+    part: AssignedPart
+    case: Case
+
+    @cached_property
+    def document(self) -> Document:
+        """Its report by itself."""
+        return self.case.document()
+
+    @cached_property
+    def film(self) -> Film | None:
+        return self.case.film()
+
+    @property
+    def assigned(self) -> Assignment:
+        """The assignment that its case is of, without the parts that follow it."""
+        return replace(self.case.assignment, parts=())
+
+    @property
+    def name(self) -> str:
+        return self.part.name
+
+    @property
+    def title(self) -> str:
+        return self.part.title or self.case.title
+
+    def id(self, own: str) -> str:
+        """The id in the coursework of a quantity of the part: cam.s, or cam2.s of the second cam."""
+        return self.name + own.removeprefix(self.part.head)
+
+    def whole(self, ledger: Ledger, letters: Letters) -> Mapping[str, Family]:
+        """The families of a ledger of the part under their ids in the coursework."""
+
+        def renamed(family: Family) -> Family:
+            inner = changed(family, Ref, lambda ref: Ref(self.id(ref.id)))
+            symbol = letters.get(family.symbol, family.symbol)
+            of, about = (self.id(one) if one else "" for one in (family.of, family.about))
+            return replace(inner, id=self.id(family.id), of=of, about=about, symbol=symbol)
+
+        return {self.id(id): renamed(family) for id, family in ledger.families.items()}
+
+
+@dataclass(frozen=True)
+class Coursework:
+    """A machine and the parts that follow it, as one `Case`."""
+
+    first: PartCase
+    members: tuple[PartCase, ...]
+
+    @classmethod
+    def of(cls, machine: Case, cases: Sequence[Case]) -> Self:
+        """The coursework of a machine with parts, and of the parts' cases."""
+        whole = machine.assignment
+        members = tuple(PartCase(part, case) for part, case in zip(whole.parts, cases, strict=True))
+        return cls(PartCase(AssignedPart(MACHINE, "", "", replace(whole, parts=())), machine), members)
+
+    def after(self, earlier: Case | None) -> Coursework:
+        """The same with all that an earlier edition has computed of parts that have not changed."""
+        known = (earlier.first, *earlier.members) if isinstance(earlier, Coursework) else ()
+
+        def kept(member: PartCase) -> PartCase:
+            same = (one for one in known if (one.part, one.assigned) == (member.part, member.assigned))
+            return next(same, member)
+
+        return Coursework(kept(self.first), tuple(map(kept, self.members)))
+
+    @property
+    def machine(self) -> Case:
+        return self.first.case
+
+    @property
+    def assignment(self) -> Assignment:
+        return self.machine.assignment
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        return self.machine.words
+
+    @property
+    def title(self) -> str:
+        return self.machine.title
+
+    @property
+    def parts(self) -> Mapping[str, Case]:
+        return {MACHINE: self.machine, **{member.name: member.case for member in self.members}}
+
+    # --- numbers: of the whole to be read, of each part to be worked out again
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        return self._joined(self.machine.ledger, [member.case.ledger for member in self.members])
+
+    @cached_property
+    def printed(self) -> Ledger:
+        return self._joined(self.machine.printed, [member.case.printed for member in self.members])
+
+    def _joined(self, machine: Ledger, parts: Sequence[Ledger]) -> Ledger:
+        families, decimals = dict(machine.families), dict(machine.decimals)
+        for member, ledger in zip(self.members, parts, strict=True):
+            families |= member.whole(ledger, self.letters[member.name])
+            decimals |= {member.id(id): digits for id, digits in ledger.decimals.items()}
+        return replace(machine, families=families, decimals=decimals)
+
+    @property
+    def families(self) -> Mapping[str, Family]:
+        parts = [member.whole(member.case.ledger, {}) for member in self.members]
+        return {id: family for families in (self.machine.families, *parts) for id, family in families.items()}
+
+    @property
+    def positions_of_a_turn(self) -> int:
+        return self.machine.positions_of_a_turn
+
+    @property
+    def speed(self) -> float | None:
+        return self.machine.speed
+
+    @property
+    def balance(self) -> np.ndarray | None:
+        return self.machine.balance
+
+    @property
+    def pitfalls(self) -> Pitfalls:
+        return self.machine.pitfalls
+
+    def fault(self) -> str:
+        return next(filter(None, (case.fault() for case in self.parts.values())), "")
+
+    # --- letters
+
+    @cached_property
+    def letters(self) -> Mapping[str, Letters]:
+        """Of each part the symbols that are other ones in the coursework."""
+        used = set(nodes(self.documents[MACHINE].blocks, Symbol))
+        found: dict[str, Letters] = {}
+        for member in self.members:
+            same = {self._taken_symbols(member, datum)[0] for datum in member.part.taken if datum.times == "1"}
+            quantities = {one.symbol for one in member.case.printed.families.values() if not one.hidden} - same
+            letters = letters_of(sorted(quantities, key=str), used, member.name)
+            found[member.name] = letters
+            used |= {letters.get(one, one) for one in nodes(self.documents[member.name].blocks, Symbol)}
+        return found
+
+    @cached_property
+    def documents(self) -> Mapping[str, Document]:
+        """The reports of the parts by themselves."""
+        return {member.name: member.document for member in (self.first, *self.members)}
+
+    # --- papers
+
+    def document(self) -> Document:
+        return booklet(self.documents[MACHINE], [self._report(member) for member in self.members], self.words)
+
+    def _report(self, member: PartCase) -> PartReport:
+        letters = self.letters[member.name]
+        document = relettered(self.documents[member.name], letters)
+        rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
+        lettered = tuple(self._said(letters, member.name))
+        return PartReport(member.name, member.title, document, tuple(self._taken(member)), lettered, rows)
+
+    def _said(self, letters: Letters, index: str) -> Iterator[Paragraph]:
+        """Which symbols of a part have its index."""
+        if letters:
+            shown = listed(InlineMath(one) for one in letters.values())
+            lead = str(self.words["coursework"]["letters"]).format(index=index)
+            yield Paragraph((Text(lead), *shown, Text(".")))
+
+    def _taken(self, member: PartCase) -> Iterator[Paragraph | Equation]:
+        """What a part has from the machine: n_cam = 1/2 · n = 45 rpm."""
+        chains = []
+        for datum in member.part.taken:
+            own, of = self._taken_symbols(member, datum)
+            id = f"{member.part.head}.{datum.key}"
+            value = (member.case.printed.number(id),) if id in member.case.printed else ()
+            shown = self.letters[member.name].get(own, own)
+            times: tuple[Expression, ...] = () if shown == of else (_times(datum.times, of),)
+            chains.append(Chain((shown, *times, *value)))
+        if chains:
+            yield Paragraph((Text(str(self.words["coursework"]["taken"]).strip()),))
+            yield Equation(tuple(chains))
+
+    def _taken_symbols(self, member: PartCase, datum: TakenDatum) -> tuple[Symbol, Symbol]:
+        """The symbol that a part has for a datum, and that of the machine."""
+        own, of = f"{member.part.head}.{datum.key}", datum.of
+        ledger, machine = member.case.printed, self.machine.printed
+        return (
+            ledger.symbol(own) if own in ledger else Symbol(datum.key),
+            machine.symbol(of) if of in machine else Symbol(of.rpartition(".")[2]),
+        )
+
+    def _symbols(self, member: PartCase) -> Iterator[tuple[Any, Any, Any]]:
+        """A row for each symbol of the part that has a meaning in words."""
+        ledger, letters, met = member.case.printed, self.letters[member.name], set[Symbol]()
+        for id, family in ledger.families.items():
+            meaning = "" if family.hidden or family.is_plane else phrase(id, ledger, member.case.words)
+            if meaning and family.symbol not in met:
+                met.add(family.symbol)
+                unit = ledger.units.get(family.how.unit, family.how.unit)
+                shown = letters.get(family.symbol, family.symbol)
+                yield (InlineMath(shown),), (Text(capitalised(meaning)),), (Text(unit or "–"),)
+
+    def key(self) -> Key:
+        machine = self.machine.key()
+        rows, parts = list(machine.rows), [PartOfKey(MACHINE, machine, self.title)]
+        for member in self.members:
+            key = relettered(member.case.key(), self.letters[member.name])
+            own = [replace(row, id=member.id(row.id), size=member.id(row.size) if row.size else "") for row in key.rows]
+            rows += own
+            parts.append(PartOfKey(member.name, replace(key, rows=tuple(own)), member.title, member.part.head))
+        return replace(machine, rows=tuple(rows), parts=tuple(parts))
+
+    def task(self, key: Key, by_section: bool = False) -> Document:
+        from reportgen.coursework.booklet import task_of
+
+        (_, first), *others = key.pages
+        papers = [
+            PartReport(member.name, member.title, member.case.task(page, by_section), tuple(self._taken(member)), ())
+            for member, (_, page) in zip(self.members, others, strict=True)
+        ]
+        return task_of(
+            self.machine.task(first, by_section),
+            [replace(one, document=relettered(one.document, self.letters[one.name])) for one in papers],
+        )
+
+    def results(self) -> dict[str, Any]:
+        """Those of the machine, with those of each part by its name."""
+        return {**self.machine.results(), "parts": {member.name: member.case.results() for member in self.members}}
+
+    def film(self) -> Film | None:
+        """That of the machine with a drawing of each part, which goes on with it as their speeds say."""
+        film = self.first.film
+        if film is None:
+            return None
+        for member in self.members:
+            own, speed = member.film, member.case.speed
+            if own is not None:
+                ratio = abs(speed / self.machine.speed) if speed and self.machine.speed and not film.span else 1.0
+                film = joined(film, relettered(own, self.letters[member.name]), ratio, member.name, member.title)
+        return film
+
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have."""
+        from reportgen.sheets.frame import DEFAULT, blocks, numbered, read_block
+
+        language = self.assignment.language
+        found = self.machine.sheets(size, sets, block, every)
+        for member in self.members:
+            found += relettered(member.case.sheets(size, (), block, every), self.letters[member.name])
+        own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
+        return numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+
+
+def _times(ratio: str, of: Symbol) -> Expression:
+    """A symbol so many times, the ratio as typed."""
+    above, _, below = ratio.partition("/")
+    factor: Expression = Number(float(above))
+    if below:
+        factor = factor / Number(float(below))
+    return of if ratio == "1" else factor * of

@@ -1,0 +1,70 @@
+"""Letters with one meaning: what a part of a coursework calls as an earlier one calls something else gets its index.
+
+A part's pages, key, film and sheets are trees of frozen nouns, in which a symbol is a symbol wherever it stands: so one
+change of symbols serves them all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, TypeVar
+
+from reportgen.formula import Symbol
+
+Tree = TypeVar("Tree")
+Letters = Mapping[Symbol, Symbol]
+"""What stands in place of some symbols."""
+
+
+def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
+    """A tree of dataclasses, tuples and tables with `change` made of each node of a kind; what it leaves is itself."""
+    node: Any = tree
+    if isinstance(node, kind):
+        return change(node)  # type: ignore[no-any-return]
+    if isinstance(node, (tuple, list)):
+        items = [changed(item, kind, change) for item in node]
+        same = all(new is old for new, old in zip(items, node, strict=True))
+        # A tuple with names takes its items one by one.
+        return node if same else type(node)(*items) if hasattr(node, "_fields") else type(node)(items)  # type: ignore[return-value]
+    if isinstance(node, dict):
+        table = {key: changed(value, kind, change) for key, value in node.items()}
+        return table if any(table[key] is not node[key] for key in node) else tree  # type: ignore[return-value]
+    if is_dataclass(node) and not isinstance(node, type):
+        held = {one.name: getattr(node, one.name) for one in fields(node) if one.init}
+        new = {name: changed(value, kind, change) for name, value in held.items()}
+        other = {name: value for name, value in new.items() if value is not held[name]}
+        return replace(node, **other) if other else node  # type: ignore[return-value]
+    return tree
+
+
+def nodes(tree: Any, kind: type) -> Iterator[Any]:
+    """All nodes of a kind in a tree."""
+    if isinstance(tree, kind):
+        yield tree
+    elif isinstance(tree, (tuple, list)):
+        for item in tree:
+            yield from nodes(item, kind)
+    elif isinstance(tree, dict):
+        yield from nodes(tuple(tree.values()), kind)
+    elif is_dataclass(tree) and not isinstance(tree, type):
+        for one in fields(tree):
+            yield from nodes(getattr(tree, one.name), kind)
+
+
+def relettered(tree: Tree, letters: Letters) -> Tree:
+    """A tree with other symbols in place of some."""
+    return changed(tree, Symbol, lambda symbol: letters.get(symbol, symbol)) if letters else tree
+
+
+def with_index(symbol: Symbol, index: str) -> Symbol:
+    """A symbol with one index more: n → n_cam, Φ_x → Φ_x,cam."""
+    return replace(symbol, sub=f"{symbol.sub},{index}" if symbol.sub else index)
+
+
+def letters_of(quantities: Collection[Symbol], taken: Collection[Symbol], index: str) -> Letters:
+    """The symbols of a part's quantities that are taken already, with the part's index."""
+    clash = {one for one in quantities if one in taken and one.value is None}
+    # With s goes s′, which is its derivative.
+    derived = {one for one in quantities if replace(one, base=one.base.rstrip("′")) in clash}
+    return {one: with_index(one, index) for one in quantities if one in clash | derived}

@@ -1,0 +1,113 @@
+"""A coursework marked part by part: each part is judged by its own ledger, and what is found is put together again.
+
+In the coursework ids have the part's name in front; the part by itself knows the ids of its kind.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from reportgen.assignment.reading import placed
+from reportgen.base.errors import Finding
+from reportgen.base.source import read_source
+from reportgen.base.units import Language
+from reportgen.base.words import as_error
+from reportgen.marking.guard import Classmate
+from reportgen.marking.marks import Marked, Marking, MarkingScheme, Notice, Place, Policy, Submission
+from reportgen.report.case import Key, PartOfKey
+
+
+@dataclass(frozen=True, slots=True)
+class PartSheet:
+    """What of a sheet is of one part: its scheme, its values, and those of the classmates, by its own ids."""
+
+    part: PartOfKey
+    scheme: MarkingScheme
+    submission: Submission
+    classmates: tuple[Classmate, ...]
+
+
+def sheets_of(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate]) -> Iterator[PartSheet]:
+    """The parts of a coursework's sheet, in order, with their shares of the mark."""
+    pages = {part.name: page for part, (_, page) in zip(scheme.key.parts, scheme.key.pages, strict=True)}
+    earned = {
+        name: sum(scheme.policy.worth(row.id) * len(row.positions) for row in page.asked)
+        for name, page in pages.items()
+    }
+    for part, alone in zip(scheme.key.parts, scheme.parts, strict=True):
+        page = pages[part.name]
+        factor = share(scheme.policy.parts, earned, part.name)
+        worths = {part.own(row.id): factor * scheme.policy.worth(row.id) for row in page.rows}
+        key = _own_key(page, part)
+        policy = replace(scheme.policy, weights=worths)
+        mates = (_own_classmate(one, part.name) for one in classmates)
+        own = replace(alone, key=key, policy=policy)
+        yield PartSheet(part, own, _own_submission(submission, scheme.key, part), tuple(filter(None, mates)))
+
+
+def share(shares: Mapping[str, float], earned: Mapping[str, float], name: str) -> float:
+    """What the points of a part are multiplied by, so that it has its share of all points; 1 without shares."""
+    if not shares or not earned[name]:
+        return 1.0
+    here = {one: shares.get(one, 0.0) for one in earned if earned[one]}
+    return here[name] / (sum(here.values()) or 1.0) * sum(earned.values()) / earned[name]
+
+
+def _own_key(page: Key, part: PartOfKey) -> Key:
+    rows = (replace(row, id=part.own(row.id), size=part.own(row.size)) for row in page.rows)
+    return replace(page, rows=tuple(rows))
+
+
+def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
+    """What of a submission is of a part."""
+
+    def own(values: Mapping[Place, Any]) -> dict[Place, Any]:
+        return {(part.own(id), k): one for (id, k), one in values.items() if key.owner(id) == part.name}
+
+    rows = frozenset(part.own(id) for id in whole.rows if key.owner(id) == part.name)
+    return replace(whole, values=own(whole.values), problems=own(whole.problems), notes=(), rows=rows)
+
+
+def _own_classmate(one: Classmate, name: str) -> Classmate | None:
+    """The same part of a classmate's work, if there is one."""
+    for part, (_, page) in zip(one.key.parts, one.key.pages, strict=False):
+        if part.name == name:
+            sheet = one.submission and _own_submission(one.submission, one.key, part)
+            return Classmate(_own_key(page, part), sheet)
+    return None
+
+
+def joined(scheme: MarkingScheme, submission: Submission, marked: Sequence[tuple[PartOfKey, Marking]]) -> Marking:
+    """One marking of the whole sheet."""
+    cells = [_full_cell(cell, part) for part, marking in marked for cell in marking.cells]
+    flags = [_full_notice(flag, part) for part, marking in marked for flag in marking.flags]
+    return Marking(scheme.key, submission, tuple(cells), tuple(flags))
+
+
+def _full_cell(cell: Marked, part: PartOfKey) -> Marked:
+    return replace(cell, id=part.full(cell.id), where=part.full(cell.where))
+
+
+def _full_notice(flag: Notice, part: PartOfKey) -> Notice:
+    def full(places: Sequence[Place]) -> tuple[Place, ...]:
+        return tuple((part.full(id), k) for id, k in places)
+
+    return replace(flag, places=full(flag.places), spoiled=full(flag.spoiled), taken=full(flag.taken))
+
+
+def check_shares(policy: Policy, keys: Sequence[Key], language: Language | None) -> None:
+    """Raises `AssignmentError`, located in the policy, for shares of parts that no work has, and for forgotten ones."""
+    if policy.file is None or not policy.parts:
+        return
+    names = dict.fromkeys(part.name for key in keys for part in key.parts)
+    known = ", ".join(names)
+    findings = [
+        Finding("unknown-key", ("parts", name), {"key": name, "known": known}, at="key")
+        for name in policy.parts
+        if name not in names
+    ]
+    findings += [Finding("missing-key", ("parts", name), {"key": name}) for name in names if name not in policy.parts]
+    if names and findings:
+        raise as_error(placed(read_source(policy.file), findings), language)

@@ -1,0 +1,276 @@
+"""A coursework of a machine and its parts: one booklet, one key, one mark, sheets and motion together."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen import check, load
+from reportgen.base.errors import Mark
+from reportgen.cases import open_case, opened, opener
+from reportgen.coursework.case import Coursework
+from reportgen.coursework.film import joined
+from reportgen.coursework.letters import nodes
+from reportgen.formula import Symbol
+from reportgen.marking.key import Ask
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Answer, Marking, Policy, Submission, Verdict, marking_scheme
+from reportgen.report import Document, Section, plain, text_of
+from reportgen.report.numbering import unreferenced
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "coursework"
+SHAPER, TWIN = FOLDER / "shaper.yaml", FOLDER / "engine-twin.yaml"
+SECOND = """
+  - title: Cam thứ hai
+    from: {n: {of: n, times: 1/2}}
+    kind: cam
+    parameters:
+      follower: translating
+      end: knife
+      h: 30 mm
+      phases: {rise: 120 deg, far: 60 deg, return: 120 deg, near: 60 deg}
+      laws: {rise: parabolic, return: sine}
+      r0: 40 mm
+      e: 0 mm
+      limits: {rise: 60 deg, return: 60 deg}
+      positions: 8
+"""
+
+
+@cache
+def coursework(path: Path = SHAPER) -> Coursework:
+    case = open_case(path)
+    assert isinstance(case, Coursework)
+    return case
+
+
+@pytest.fixture(scope="module")
+def three(tmp_path_factory: pytest.TempPathFactory) -> Coursework:
+    """The shaper with two cams, the second one in the file itself."""
+    folder = tmp_path_factory.mktemp("three")
+    (folder / "feed-cam.yaml").write_bytes((FOLDER / "feed-cam.yaml").read_bytes())
+    (folder / "three.yaml").write_text(SHAPER.read_text(encoding="utf-8") + SECOND, encoding="utf-8")
+    case = open_case(folder / "three.yaml")
+    assert isinstance(case, Coursework)
+    return case
+
+
+def headings(document: Document, level: int) -> list[tuple[str, str]]:
+    found = [block for block in document.blocks if isinstance(block, Section) and block.level == level]
+    return [(one.number, plain(one.title, document.language)) for one in found]
+
+
+# --- one booklet ------------------------------------------------------------------------------------
+
+
+def test_the_chapters_of_the_parts_follow_those_of_the_machine(three: Coursework) -> None:
+    document, alone = three.document(), three.machine.document()
+    chapters = [title for number, title in headings(document, 1) if number]
+    own = [title for number, title in headings(alone, 1) if number]
+    assert chapters == [*own, "Thiết kế cơ cấu cam đẩy bàn máy", "Cam thứ hai"]
+    assert [number for number, _ in headings(document, 1) if number] == ["1", "2", "3", "4"]
+    unnumbered = [title for number, title in headings(document, 1) if not number]
+    assert unnumbered == [title for number, title in headings(alone, 1) if not number]
+    assert next(number for number, _ in headings(document, 2) if number.startswith("4.")) == "4.1"
+
+
+def test_nothing_of_the_machines_chapters_is_another_one() -> None:
+    """But for the numbers of tables at the front, where those of the parts have come in."""
+    case = coursework()
+    both = (text_of(one) for one in (case.document(), case.machine.document()))
+    whole, alone = (re.sub(r"bảng \d+(?!\.?\d)", "bảng", one).splitlines() for one in both)
+    first = alone.index("1 Tổng hợp và phân tích động học cơ cấu")
+    last = alone.index("Kết luận", first)
+    there = whole.index("1 Tổng hợp và phân tích động học cơ cấu")
+    assert whole[there : there + last - first] == alone[first:last]
+
+
+def test_every_table_and_figure_is_spoken_of_by_its_number() -> None:
+    case = coursework()
+    new = set(unreferenced(case.document()))
+    old = set(unreferenced(case.machine.document()))
+    own = {f"cam.{key}" for key in unreferenced(case.members[0].case.document())}
+    assert new <= old | own
+
+
+def test_each_quantity_has_a_symbol_of_its_own(three: Coursework) -> None:
+    """What two parts name alike is the machine's datum itself, taken as it is."""
+    machine = {one.symbol for one in three.machine.printed.families.values() if not one.hidden}
+    for member in three.members:
+        own = {id for id in three.printed.families if id.startswith(f"{member.name}.")}
+        alike = {id for id in own if three.printed[id].symbol in machine and not three.printed[id].hidden}
+        assert alike <= {f"{member.name}.{one.key}" for one in member.part.taken if one.times == "1"}
+    cams = [
+        {one.symbol for id, one in three.printed.families.items() if id.startswith(f"{name}.") and not one.hidden}
+        for name in ("cam", "cam2")
+    ]
+    assert not cams[0] & cams[1]
+
+
+def test_a_derivative_goes_with_what_it_is_of() -> None:
+    letters = coursework(TWIN).letters["cam"]
+    assert letters[Symbol("s")] == Symbol("s", "cam")
+    assert letters[Symbol("s′")] == Symbol("s′", "cam")
+
+
+@pytest.mark.parametrize("extent", ["full", "short"])
+def test_what_is_taken_from_the_machine_is_printed_with_where_it_comes_from(extent: str) -> None:
+    text = text_of(opened(load(TWIN, "en").with_extent(extent)).document())  # type: ignore[arg-type]
+    assert "Taken from the data of the machine:\nn_cam = 1/2·n = 1100 rpm" in text
+
+
+def test_the_camshaft_turns_half_as_fast() -> None:
+    case = coursework(TWIN)
+    assert case.members[0].case.speed == pytest.approx(2 * math.pi * 2200 / 60 / 2, rel=1e-12)
+
+
+def test_the_cover_and_the_extent_are_those_of_the_machine() -> None:
+    part = coursework(TWIN).members[0].case.assignment
+    assert part.report.university == "Trường Đại học Kỹ thuật Công nghiệp Thái Nguyên"
+    assert part.report.extent == "full"
+    assert "worked_positions" not in part.report.model_fields_set
+
+
+# --- key and marks ----------------------------------------------------------------------------------
+
+
+def test_ids_have_the_name_of_their_part_in_front(three: Coursework) -> None:
+    key = three.key()
+    names = Counter(key.owner(row.id) for row in key.rows)
+    assert list(names) == ["machine", "cam", "cam2"]
+    assert names["machine"] == len(three.machine.key().rows)
+    assert key.row("cam2.n").values[0] == pytest.approx(26)
+    assert key.row("cam.n").values[0] == pytest.approx(52)
+    assert len({row.id for row in key.rows}) == len(key.rows)
+
+
+def marked(case: Coursework, change: Callable[[str, float], float], policy: Policy | None = None) -> Marking:
+    """A sheet with every value of the key but for what is changed."""
+    scheme = marking_scheme(case, policy or Policy(guard=False))
+    key = Ask().of(scheme.key)
+    values = {
+        (row.id, k): Answer(change(row.id, float(row.values[row.at(k)])), "", Mark("sheet"))
+        for row in key.asked
+        for k in row.positions
+    }
+    sheet = Submission(key.id, "sheet", values, {})
+    return mark(replace(scheme, key=key), sheet)
+
+
+def test_the_key_itself_is_right_in_every_part(three: Coursework) -> None:
+    found = marked(three, lambda id, value: value)
+    assert {cell.verdict for cell in found.cells} == {Verdict.right}
+    assert found.points == found.out_of == len(found.cells)
+
+
+def test_a_mistake_is_found_in_the_part_in_which_it_was_made(three: Coursework) -> None:
+    found = marked(three, lambda id, value: -value if id == "cam.psi" else 2 * value if id == "cam2.r0" else value)
+    assert {key for one in found.first_errors if (key := found.key.owner(one.id))} == {"cam"}
+    assert {(one.mistake, one.where) for one in found.first_errors if one.id == "cam.psi"} == {
+        ("sign-reversed", "cam.psi")
+    }
+
+
+def test_each_part_has_its_share_of_the_mark(three: Coursework) -> None:
+    """With 6 : 3 : 1 the parts are worth 60, 30 and 10 of a hundred, whatever they ask for."""
+    policy = Policy(guard=False, parts={"machine": 6, "cam": 3, "cam2": 1})
+    found = marked(three, lambda id, value: 3 * value if id == "cam.psi" else value, policy)
+    worth = Counter[str]()
+    for cell in found.cells:
+        worth[found.key.owner(cell.id)] += cell.worth  # type: ignore[assignment]
+    whole = sum(worth.values())
+    assert [worth[name] / whole for name in ("machine", "cam", "cam2")] == pytest.approx([0.6, 0.3, 0.1])
+    assert found.out_of == pytest.approx(len(found.cells))
+
+
+# --- motion, sheets, watching -----------------------------------------------------------------------
+
+
+def test_the_cam_turns_on_the_page_as_its_shaft_does() -> None:
+    """After a turn and a half of the crank the camshaft has turned by 270°."""
+    case = coursework(TWIN)
+    machine, part = case.first.film, case.members[0].film
+    assert machine is not None
+    assert part is not None
+    film = joined(machine, part, 0.5, "cam", "")
+    (turning, *_) = [one.angle.values for one in film.stages[-1].items if getattr(one, "angle", None) is not None]
+    whole = np.concatenate([film.knots, film.knots[1:] + 360])
+    assert len(turning) == len(whole)
+    assert np.degrees(turning) == pytest.approx(whole / 2, abs=1e-6)
+
+
+def test_sheets_are_numbered_on() -> None:
+    case = coursework()
+    sheets = case.sheets("A1")
+    framed = [sheet.fields for sheet in sheets if sheet.fields]
+    assert [one["sheet"] for one in framed] == [str(number) for number in range(1, len(framed) + 1)]
+    assert {one["sheets"] for one in framed} == {str(len(framed))}
+    assert len(sheets) - len(framed) == 1, "the profile in true size has no frame"
+
+
+def test_a_part_that_has_not_changed_is_not_computed_again(tmp_path: Path) -> None:
+    for file in (SHAPER, FOLDER / "feed-cam.yaml"):
+        (tmp_path / file.name).write_bytes(file.read_bytes())
+    opens, path = opener(), tmp_path / "shaper.yaml"
+    before = opens(path, None)
+    part = tmp_path / "feed-cam.yaml"
+    part.write_text(part.read_text(encoding="utf-8").replace("15 deg", "14 deg"), encoding="utf-8")
+    after = opens(path, None)
+    assert isinstance(before, Coursework)
+    assert isinstance(after, Coursework)
+    assert after.first is before.first
+    assert after.members[0].case.ledger["cam.swing"].values[0] == pytest.approx(math.radians(14))
+
+
+def test_no_symbol_of_a_part_stays_in_its_drawings() -> None:
+    """A letter that has an index has it in formulas, tables and figures alike."""
+    case = coursework(TWIN)
+    document = case.document()
+    first = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3")
+    last = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3.7")
+    assert not set(nodes(document.blocks[first:last], Symbol)) & set(case.letters["cam"])
+
+
+# --- faults -----------------------------------------------------------------------------------------
+
+PARTS = "parts:\n  - file: part.yaml\n"
+CAM = (FOLDER / "feed-cam.yaml").read_text(encoding="utf-8")
+MACHINE = SHAPER.read_text(encoding="utf-8").partition("parts:")[0]
+LINE = MACHINE.count("\n")
+
+FAULTS = {
+    "outside": ("parts:\n  - file: ../part.yaml\n", CAM, f"whole.yaml:{LINE + 2}:11 path-outside"),
+    "missing file": ("parts:\n  - file: other.yaml\n", CAM, f"whole.yaml:{LINE + 2}:11 unreadable"),
+    "circle": ("parts:\n  - file: whole.yaml\n", CAM, "whole.yaml:2:7 no-part"),
+    "a machine": (PARTS, MACHINE, "part.yaml:2:7 no-part"),
+    "parts of a part": (PARTS, f"{CAM}parts:\n  - file: part.yaml\n", "part.yaml:17:1 unknown-key"),
+    "fault of the part": (PARTS, CAM.replace("arm: 132 mm", "arm: 132"), "part.yaml:7:8 missing-unit"),
+    "no such datum": (f"{PARTS}    from: {{n: {{of: speed}}}}\n", CAM, f"whole.yaml:{LINE + 3}:20 no-datum"),
+    "given twice": (
+        f"{PARTS}    from: {{n: {{of: n}}}}\n",
+        CAM.replace("  end:", "  n: 9 rpm\n  end:"),
+        "part.yaml:5:6 datum-twice",
+    ),
+    "of another kind": (f"{PARTS}    from: {{n: {{of: H}}}}\n", CAM, f"whole.yaml:{LINE + 3}:20 wrong-unit"),
+    "unknown key": (f"{PARTS}    form: {{}}\n", CAM, f"whole.yaml:{LINE + 3}:5 unknown-key"),
+}
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_is_told_where_it_stands(name: str, tmp_path: Path) -> None:
+    whole, part, wanted = FAULTS[name]
+    (tmp_path / "whole.yaml").write_text(MACHINE + whole, encoding="utf-8")
+    (tmp_path / "part.yaml").write_text(part, encoding="utf-8")
+    found = [
+        f"{Path(one.mark.file).name}:{one.mark.line}:{one.mark.column} {one.code}"
+        for one in check(tmp_path / "whole.yaml")
+    ]
+    assert found == [wanted]

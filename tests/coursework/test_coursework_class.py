@@ -1,0 +1,171 @@
+"""A class of courseworks: the parts are drawn with the machine, frozen in one file, made, handed in and marked."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from reportgen.api import task_files
+from reportgen.assignment.common import Assignment
+from reportgen.base.errors import AssignmentError
+from reportgen.cases import open_case
+from reportgen.catalogue import load
+from reportgen.classes.assess import grade
+from reportgen.classes.draw import pick
+from reportgen.classes.pool import Job, making, run_job
+from reportgen.classes.roster import assignment_files, beside
+from reportgen.classes.run import Order, run_batch
+from reportgen.classes.variants import Variants, make_variants
+from reportgen.marking.grades import grade_rows
+from reportgen.marking.key import Ask
+from reportgen.marking.marks import Policy, read_policy
+from reportgen.marking.sheet import answer_book
+from reportgen.report.case import Key
+from reportgen.workbook import Book, write_xlsx
+from tests.lanes import proof
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "coursework"
+STUDENTS = [f"K2255201030{number:02d}" for number in range(1, 13)]
+ANGLES = ("12 deg", "15 deg", "18 deg")
+
+
+def drawn(folder: Path, count: int = 12) -> Variants:
+    """The files of a class in `out`, from a spec of the shaper with a spec of its cam."""
+    spec = (FOLDER / "shaper.yaml").read_text(encoding="utf-8").replace("variant: 4", "salt: s")
+    spec = spec.replace("H: 300 mm", "H: {from: 280 mm, to: 340 mm, step: 10 mm}").replace("feed-cam", "cams")
+    cams = (FOLDER / "feed-cam.yaml").read_text(encoding="utf-8")
+    (folder / "spec.yaml").write_text(spec, encoding="utf-8")
+    (folder / "cams.yaml").write_text(
+        cams.replace("15 deg", f"[{', '.join(ANGLES)}]").replace(
+            "r0: 80 mm", "r0: {from: 76 mm, to: 84 mm, step: 4 mm}"
+        ),
+        encoding="utf-8",
+    )
+    rows = "".join(f"{id},Student {id}\n" for id in STUDENTS[:count])
+    (folder / "roster.csv").write_text(f"id,name\n{rows}", encoding="utf-8")
+    return make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "out")
+
+
+def part_of(file: Path) -> Assignment:
+    (part,) = load(file).parts
+    return part.alone
+
+
+def test_a_part_is_drawn_with_the_machine_and_frozen_in_its_file(tmp_path: Path) -> None:
+    """The value of a part is drawn by the rule of all, by the name of the part and the path there."""
+    files = drawn(tmp_path).files
+    assert sorted(path.name for path in (tmp_path / "out").glob("*.yaml")) == [f"{id}.yaml" for id in STUDENTS]
+    first = files[0].drawn.student.id
+    wanted = ANGLES[pick("spec", "s", first, "cam.parameters.psi_max", 0, 3)]
+    assert part_of(files[0].path).parameters.psi_max.text == wanted
+    assert len({(str(load(one.path).parameters), str(part_of(one.path).parameters)) for one in files}) == len(files)
+    assert {one.state for one in drawn(tmp_path).files} == {"same"}
+
+
+def test_a_fault_of_a_parts_spec_stands_in_its_file(tmp_path: Path) -> None:
+    drawn(tmp_path, 1)
+    cams = tmp_path / "cams.yaml"
+    cams.write_text(cams.read_text(encoding="utf-8").replace("arm: 132 mm", "arm: 132"), encoding="utf-8")
+    with pytest.raises(AssignmentError) as caught:
+        make_variants(tmp_path / "spec.yaml", tmp_path / "roster.csv", tmp_path / "out")
+    places = [(Path(one.mark.file).name, one.mark.line, one.code) for one in caught.value.problems]
+    assert ("cams.yaml", 7, "missing-unit") in places
+
+
+def test_a_job_takes_the_files_of_the_parts_along(tmp_path: Path) -> None:
+    """Its product is another one as soon as a part is; a fault of the part is told in its file."""
+
+    def maker(path: Path, *_: object) -> dict[str, bytes]:
+        return {"n": str(open_case(path).key().row("cam.n").values[0]).encode()}
+
+    for name in ("shaper.yaml", "feed-cam.yaml"):
+        (tmp_path / name).write_bytes((FOLDER / name).read_bytes())
+    whole = tmp_path / "shaper.yaml"
+    (part,) = beside(whole)
+    assert list(assignment_files(tmp_path, None).values()) == [whole], "a part is nobody's own assignment"
+    content = part.read_bytes()
+    making_now = making("typst", None)
+    job = Job("K", "K", "report", maker, whole.name, whole.read_bytes(), making_now, {part.name: content})
+    assert float(run_job(job).files["n"]) == pytest.approx(52)
+    edited = replace(job, beside={part.name: content.replace(b"132 mm", b"132")})
+    assert edited.assignment != job.assignment
+    assert [one.mark.file for one in run_job(edited).problems if not isinstance(one, str)] == [part.name]
+
+
+def filled(key: Key, changed: dict[str, float], cam: Key | None = None) -> bytes:
+    """The answer sheet with the key's values, some times a factor, those of the cam perhaps from another key."""
+    book = answer_book(key)
+    pages = []
+    for page in book.sheets:
+        rows = []
+        for row in page.rows:
+            id = getattr(row[0], "value", None) if row else None
+            found = key.find(id) if isinstance(id, str) else None
+            cells = list(row)
+            if found is not None and found.positions:
+                own = next(part for _, part in key.pages if part.find(found.id))
+                places = [0, *sorted({k for one in own.asked for k in one.positions if k})]
+                for column, k in enumerate(places, start=4):
+                    if k in found.positions:
+                        source = cam.row(found.id) if cam and key.owner(found.id) == "cam" else found
+                        value = float(source.printed[source.at(k)]) * changed.get(found.id, 1.0)
+                        cells[column] = replace(cells[column], value=value)  # type: ignore[type-var]
+            rows.append(cells)
+        pages.append(replace(page, rows=rows))
+    return write_xlsx(Book(pages, book.title))
+
+
+def test_a_sheet_goes_out_comes_back_and_is_marked_by_parts(tmp_path: Path) -> None:
+    (one,) = drawn(tmp_path, 1).files
+    assert set(task_files(one.path, "typst", None)) == {"task.pdf", "answers.xlsx"}
+    key = Ask().of(open_case(one.path).key())
+    (tmp_path / "sheet.xlsx").write_bytes(filled(key, {"cam.psi": -1.0}))
+    (tmp_path / "policy.yaml").write_text("parts: {machine: 7, cam: 3}\n", encoding="utf-8")
+    graded = grade([tmp_path / "sheet.xlsx"], tmp_path / "out", read_policy(tmp_path / "policy.yaml"))
+    (marking,) = graded.markings
+    assert not graded.problems
+    assert {cell.id for cell in marking.first_errors} == {"cam.psi"}
+    head, row = grade_rows(graded.markings, "en")
+    points = dict(zip(head, row, strict=True))
+    whole = points["out of"]
+    assert isinstance(whole, float)
+    assert points["Máy bào ngang"] == pytest.approx(0.7 * whole, abs=0.01)
+    assert points["Thiết kế cơ cấu cam đẩy bàn máy"] < 0.3 * whole - 0.5  # type: ignore[operator]
+
+
+def test_shares_name_every_part(tmp_path: Path) -> None:
+    drawn(tmp_path, 1)
+    (tmp_path / "policy.yaml").write_text("parts: {machine: 7, gears: 3}\n", encoding="utf-8")
+    with pytest.raises(AssignmentError) as caught:
+        grade([], tmp_path / "out", read_policy(tmp_path / "policy.yaml"))
+    assert sorted(one.code for one in caught.value.problems) == ["missing-key", "unknown-key"]
+
+
+@proof
+def test_a_class_of_twelve(tmp_path: Path) -> None:
+    """Some went wrong in the machine or in the cam, one has copied another's cam: each is told, nobody else."""
+    files = drawn(tmp_path).files
+    keys = [Ask().of(open_case(one.path).key()) for one in files]
+    handed = tmp_path / "handed"
+    handed.mkdir()
+    wrong = {1: {"cam.psi": -1.0}, 2: {"v.B": 2.0}, 3: {"cam.pitch.x": -1.0}}
+    for number, key in enumerate(keys):
+        cam = keys[0] if number == 4 else None
+        (handed / f"{key.id}.xlsx").write_bytes(filled(key, wrong.get(number, {}), cam))
+    graded = grade([handed], tmp_path / "out", Policy())
+    firsts = {number: {cell.id for cell in one.first_errors} for number, one in enumerate(graded.markings)}
+    copied = firsts.pop(4)
+    assert all(id.startswith("cam.") for id in copied)
+    assert {number: ids for number, ids in firsts.items() if ids} == {n: set(ids) for n, ids in wrong.items()}
+    flags = {number: marking.flags for number, marking in enumerate(graded.markings) if marking.flags}
+    assert set(flags) <= {0, 4}
+    assert 4 in flags
+    assert {id.partition(".")[0] for flag in flags[4] for id, _ in flag.places} == {"cam"}
+    assert {flag.other for flag in flags[4]} == {keys[0].id}
+    result = run_batch(
+        Order(tmp_path / "roster.csv", assignments=tmp_path / "out", out=tmp_path / "made", products=("task",), jobs=1),
+        (tmp_path / "log").open("w"),
+    )
+    assert (result.made, result.failures) == (12, [])
