@@ -214,14 +214,17 @@ def _by_part(marking: Marking, words: Mapping[str, Any]) -> Table:
     rows = []
     for owner, of_owner in groupby(marking.cells, lambda cell: key.owner(cell.id)):
         here = list(of_owner)
-        rows += [_counted(key.title_of(owner), here, verdicts, key)] if owner else []
+        rows += [_counted((tree.Strong((Text(key.title_of(owner)),)),), here, verdicts, key)] if owner else []
+        names = words_of(key.part(here[0].id))["parts"] if owner else words["parts"]
         for part, of_part in groupby(here, lambda cell: key.row(cell.id).part):
-            rows.append(_counted(str(words["parts"][part]), list(of_part), verdicts, key))
+            rows.append(_counted(str(names[part]), list(of_part), verdicts, key))
     rows.append(_counted(feedback["total"], marking.cells, verdicts, key))
     return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(feedback["by_part"]),))
 
 
-def _counted(name: str, judged: Sequence[Marked], verdicts: Sequence[Verdict], key: Key) -> tuple[str, ...]:
+def _counted(
+    name: str | Inlines, judged: Sequence[Marked], verdicts: Sequence[Verdict], key: Key
+) -> tuple[str | Inlines, ...]:
     counts = Counter(cell.verdict for cell in judged)
     numbers = (str(counts[verdict] or DASH) for verdict in verdicts)
     return (name, *numbers, *(points_text(value, key.language) for value in points_of(judged)))

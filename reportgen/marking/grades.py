@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
 from statistics import fmean, median
 from typing import Any
 
@@ -84,13 +86,19 @@ def _error_text(key: Key, cell: Marked, language: Language) -> str:
 
 def _mistake_name(key: Key, cell: Marked, language: Language) -> str:
     """What the mistake behind a cell is called where its kind of work is marked."""
-    words = load_words(search_path(language, key.part(cell.id).kind))
-    return str(words["mistake_names"][cell.mistake or "none"])
+    return str(_words(search_path(language, key.part(cell.id).kind))["mistake_names"][cell.mistake or "none"])
 
 
-def _section_name(key: Key, row: KeyRow, words: Mapping[str, Any]) -> str:
+def _section_name(key: Key, row: KeyRow, language: Language) -> str:
     """The section of a quantity, behind the title of its part."""
-    return ": ".join(filter(None, (key.title_of(key.owner(row.id)), str(words["parts"][row.part]))))
+    section = str(_words(search_path(language, key.part(row.id).kind))["parts"][row.part])
+    return ": ".join(filter(None, (key.title_of(key.owner(row.id)), section)))
+
+
+@lru_cache(maxsize=8)
+def _words(places: tuple[Path, ...]) -> Mapping[str, Any]:
+    """The words of a kind of work, put together once for all cells of a class."""
+    return load_words(places)
 
 
 def _who(key: Key) -> tuple[str, str, str]:
@@ -201,7 +209,7 @@ def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Lan
     asked = [
         (marking.key, marking.key.row(cell.id), cell) for marking in markings for cell in marking.cells if cell.worth
     ]
-    sections = _right([(_section_name(key, row, words), cell) for key, row, cell in asked])
+    sections = _right([(_section_name(key, row, language), cell) for key, row, cell in asked])
     parts = [(name, _percent(share, language)) for name, share in sections]
     widths = (Column(PART + 3 * SHARE, "left"), Column(SHARE))
     yield Table(
@@ -221,7 +229,7 @@ def _shares(markings: Sequence[Marking], words: Mapping[str, Any], language: Lan
                 (
                     (InlineMath(row.symbol),),
                     capitalised(row.what),
-                    _section_name(key, row, words),
+                    _section_name(key, row, language),
                     _percent(share, language),
                 )
             )

@@ -98,12 +98,13 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
     """The key as rows of CSV: id, part, symbol, unit, position, value as printed, direction, both bands."""
     words = words_of(key)
     sheet, names = words["answer_sheet"], words["key"]
+    sections = {part.name: words_of(part.key)["parts"] for part in key.parts} or {"": words["parts"]}
     quantity = (sheet["id"], names["part"], sheet["symbol"], sheet["what"], sheet["unit"])
     head = (*quantity, words["table"]["position"], sheet["value"], names["sense"], names["drawn"], names["computed"])
     body = (
         (
             row.id,
-            words["parts"][row.part],
+            sections[key.owner(row.id)][row.part],
             symbol_text(row, key),
             row.described,
             row.unit,
@@ -185,7 +186,7 @@ def key_document(key: Key, title: str) -> Document:
     for title_of_part, page_of in key.pages:
         blocks += [heading(title_of_part, 2)] if title_of_part else []
         for part, rows in groupby(page_of.rows, lambda row: row.part):
-            blocks += _tables(page_of, words, str(words["parts"][part]), list(rows))
+            blocks += _tables(page_of, words, str(words_of(page_of)["parts"][part]), list(rows))
     return paper(key.language, words, f"{words['key']['title']} – {key.id}", blocks, variant=key.variant)
 
 

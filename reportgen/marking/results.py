@@ -178,6 +178,10 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
                 table.add_row(*cells)
             console.print(table)
             console.print()
+    for name, part in results.get("parts", {}).items():
+        console.print(name, style="bold")
+        console.print()
+        print_tables(part, language)
 
 
 def _split(row: Row) -> list[list[str]]:
@@ -312,14 +316,19 @@ WIDTH = 16.0
 
 
 def result_file(results: Mapping[str, Any], format: str) -> bytes:
-    """The bytes of results as csv, xlsx or json."""
+    """The bytes of results as csv, xlsx or json; csv, which has one table, without the parts of a coursework."""
     if format == "json":
         return (json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
-    rows = result_rows(results)
     if format == "csv":
-        return write_csv(rows)
+        return write_csv(result_rows(results))
     name = f"{results['kind']} {results['variant']}".strip()
-    return write_xlsx(Book((BookSheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1)),), name))
+    pages = [_result_page(called, one) for called, one in {name: results, **results.get("parts", {})}.items()]
+    return write_xlsx(Book(pages, name))
+
+
+def _result_page(name: str, results: Mapping[str, Any]) -> BookSheet:
+    rows = result_rows(results)
+    return BookSheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1))
 
 
 def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:

@@ -8,12 +8,14 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 import pytest
+from openpyxl import load_workbook
 
-from reportgen import check, load
+from reportgen import check, load, solve
 from reportgen.base.errors import Mark
 from reportgen.cases import open_case, opened, opener
 from reportgen.coursework.case import Coursework
@@ -23,6 +25,7 @@ from reportgen.formula import Symbol
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, Policy, Submission, Verdict, marking_scheme
+from reportgen.marking.results import result_file
 from reportgen.report import Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced
 
@@ -189,6 +192,18 @@ def test_each_part_has_its_share_of_the_mark(three: Coursework) -> None:
     whole = sum(worth.values())
     assert [worth[name] / whole for name in ("machine", "cam", "cam2")] == pytest.approx([0.6, 0.3, 0.1])
     assert found.out_of == pytest.approx(len(found.cells))
+
+
+def test_results_have_those_of_each_part(three: Coursework) -> None:
+    found = solve(three.assignment, printed=True)
+    assert list(found["parts"]) == ["cam", "cam2"]
+    assert found["parts"]["cam2"]["kind"] == "cam"
+    assert found["printed"]["cam2.n"]["values"] == [26]
+    assert [page.title for page in load_workbook(BytesIO(result_file(found, "xlsx"))).worksheets] == [
+        "shaper 4",
+        "cam",
+        "cam2",
+    ]
 
 
 # --- motion, sheets, watching -----------------------------------------------------------------------
