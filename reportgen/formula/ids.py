@@ -257,6 +257,10 @@ cam_bend = Name("cam.m.{number}")
 cam_pitch = Name("cam.pitch.{axis}")
 cam_profile = Name("cam.profile.{axis}")
 
+# --- gears
+
+gear = Name("gears.{quantity}.{wheel}")
+
 # --- a word before the id of another quantity
 
 formula = Name("f.{id}")  # the same by a closed formula

@@ -212,7 +212,7 @@ def balanced(pair: Pair, total: float) -> Floats:
 
 
 def least_sliding(pair: Pair, limits: PairLimits) -> Floats:
-    """Of all shifts in hundredths within the limits those whose greater |λ| is least, where the two are as good as equal.
+    """Of all shifts in hundredths within the limits those with the least greater |λ|: there the two are nearly equal.
 
     Raises `NoPairError` where none keep the limits.
     """
@@ -228,3 +228,57 @@ def least_sliding(pair: Pair, limits: PairLimits) -> Floats:
         raise NoPairError("gear-no-shifts")
     place = np.unravel_index(int(worst.argmin()), worst.shape)
     return np.array([axis[at] for axis, at in zip(axes, place, strict=True)]).round(2)
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """A pair with what it was chosen by: its limits, the rule of its shifts, whether the centre distance was given."""
+
+    pair: Pair
+    limits: PairLimits
+    rule: str
+    """`given`, `x_min` or `equal-sliding`."""
+    a_w: float | None
+    """The given centre distance (m)."""
+
+    @property
+    def follows(self) -> bool:
+        """Whether x₂ follows from the centre distance."""
+        return self.a_w is not None
+
+    def broken(self) -> Iterator[tuple[str, int, float, float]]:
+        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, and its limit."""
+        pair, limits = self.pair, self.limits
+        for i in (0, 1):
+            checks = (
+                ("undercut", pair.x, pair.x_min),
+                ("tip", pair.s_a / pair.m, np.full(2, limits.tip)),
+                ("interference", pair.rho_p, np.maximum(pair.rho_f, 0.0)),
+            )
+            for name, actual, least in checks:
+                if actual[i] < least[i] - 1e-9 * pair.m:
+                    yield name, i + 1, float(actual[i]), float(least[i])
+            if limits.sliding is not None and -pair.sliding[i] > limits.sliding:
+                yield "sliding", i + 1, float(-pair.sliding[i]), limits.sliding
+        if pair.epsilon < limits.epsilon - 1e-12:
+            yield "epsilon", 0, float(pair.epsilon), limits.epsilon
+
+
+def choose(
+    blank: Pair, limits: PairLimits, rule: str, a_w: float | None, told: tuple[float, float | None] | None
+) -> Chosen:
+    """The shifts of a pair by a rule, in hundredths unless a centre distance (m) decides.
+
+    Raises `NoPairError` where there are none.
+    """
+    total = None if a_w is None else sum_for(blank.rack, blank.m, blank.teeth, a_w)
+    if told is not None:
+        first, second = told[0], told[1] or 0.0
+    elif rule == "x_min":
+        first, second = map(float, least_shifts(blank))
+    elif total is None:
+        first, second = map(float, least_sliding(blank, limits))
+    else:
+        first, second = round(float(balanced(blank, total)[0]), 2), 0.0
+    shifts = np.array([first, second if total is None else total - first])
+    return Chosen(Pair(blank.rack, blank.m, blank.teeth, shifts), limits, rule, a_w)
