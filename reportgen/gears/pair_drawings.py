@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.charts import Plotted, PlottedCurve, level_lines, plotted
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
@@ -74,10 +74,10 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
     drawn = np.concatenate([points for teeth in outlines for points in teeth])
     height = float(case.ledger["gears.h"].values[0])
     scale = _fitting([*drawn, *ends], room, enlarged)
-    with_ends = height / scale >= LEAST_WITH_ENDS * enlarged
+    with_ends = height / scale * enlarged >= LEAST_WITH_ENDS
     if not with_ends:
         scale = _fitting(list(drawn), room, enlarged)
-    scale = max(scale, nice_up(height * MM / HIGHEST / enlarged, SCALES) * enlarged / MM)
+    scale = max(scale, nice_up(height * MM / HIGHEST, SCALES) * enlarged / MM)
     at = 1 / scale
     low, high = _corners(np.append(drawn, ends) * at if with_ends else drawn * at)
     items: list[Item] = []
@@ -210,6 +210,8 @@ def _line_of_action(pair: Pair, at: float, with_ends: bool, items: list[Item], r
 GRID = 241
 FRAME = 112 + 100j
 """The diagram without its text (mm)."""
+LONG = 15.0
+"""A line of a limit is named from this length on (mm)."""
 AROUND = 0.15
 """White around the region (modules)."""
 OUTER = (-1.5, 3.0)
@@ -245,7 +247,7 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
         )
         balance = np.where((grid.rho_p > 0).all(axis=0), grid.sliding[0] - grid.sliding[1], np.nan)
         ε = grid.epsilon
-    x, s, ρ = (lambda i: Symbol("x", f"{i}min")), (lambda i: Symbol("s", f"a{i}")), (lambda i: Symbol("ρ", f"p{i}"))
+    x, s, ρ = (lambda i: Symbol("x", f"min{i}")), (lambda i: Symbol("s", f"a{i}")), (lambda i: Symbol("ρ", f"p{i}"))
     lines: list[tuple[Floats, float, Pen, tuple[Content, ...]]] = []
     for i in WHEELS:
         lines.append((undercut[i - 1], 0.0, HARD, (x(i),)))
@@ -261,18 +263,18 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
     for values, level, pen, named in lines:
         pieces = [paper(piece) for piece in level_lines(x1, x2, values.T, level)]
         items += [Polyline(tuple(piece), pen) for piece in pieces if piece.size > 1]
-        if pieces:
-            longest = max(pieces, key=lambda piece: float(np.abs(np.diff(piece)).sum()))
-            places = [complex(longest[int(share * (longest.size - 1))]) for share in (0.9, 0.75, 0.5, 0.25, 0.1)]
-            requests.append(label(places, *named, gap=0.6, size=style.SMALL))
+        for piece in pieces:
+            if float(np.abs(np.diff(piece)).sum()) >= LONG:
+                places = [complex(piece[int(share * (piece.size - 1))]) for share in (0.9, 0.75, 0.5, 0.25, 0.1)]
+                requests.append(label(places, *named, gap=0.6, size=style.SMALL))
     items.append(Polyline((0j, frame.real + 0j, frame, frame.imag * 1j), Pen(0.25), closed=True))
-    items += _ticks(low, high, per, requests)
+    items += _ticks(low, high, per)
     chosen = complex(paper(np.array([complex(*pair.x)]))[0])
     items.append(Circle(chosen, 1.0, None, style.RED))
     requests.append(label(chosen, "(", Symbol("x", "1"), "; ", Symbol("x", "2"), ")", gap=1.2))
     requests += [
-        label(complex(frame.real, -3), Symbol("x", "1"), gap=2.0, prefer=(-math.pi / 2,)),
-        label(complex(-3, frame.imag), Symbol("x", "2"), gap=2.0, prefer=(math.pi,)),
+        label(complex(frame.real, -5), Symbol("x", "1"), gap=1.0, prefer=(-math.pi / 2,)),
+        label(complex(-7, frame.imag), Symbol("x", "2"), gap=1.0, prefer=(math.pi,)),
     ]
     return finish(Canvas(tuple(items), tuple(requests)), margin=2.0)
 
@@ -294,9 +296,7 @@ def _bounds(grid: Pair) -> Floats:
     return np.nan_to_num(np.array(found), nan=-1.0)
 
 
-def _ticks(
-    low: Sequence[float], high: Sequence[float], per: tuple[float, float], requests: list[Request]
-) -> Iterator[Item]:
+def _ticks(low: Sequence[float], high: Sequence[float], per: tuple[float, float]) -> Iterator[Item]:
     for side in (0, 1):
         step = nice_up((high[side] - low[side]) / 9, (1.0, 2.0, 5.0))
         for k in range(math.ceil(low[side] / step), math.floor(high[side] / step) + 1):
@@ -305,9 +305,7 @@ def _ticks(
             far = (high[1 - side] - low[1 - side]) * per[1 - side]
             yield Line(start, start + way * far, Pen(0.08, style.PALE if k else style.BLACK))
             text = Number(k * step, max(-math.floor(math.log10(step)), 0))
-            requests.append(
-                label(start, text, size=style.SMALL, gap=0.6, prefer=(-math.pi / 2 if side == 0 else math.pi,))
-            )
+            yield Label(start - way, text, "top" if side == 0 else "right", style.SMALL)
 
 
 # --- sliding --------------------------------------------------------------------------------------
