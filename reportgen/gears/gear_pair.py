@@ -15,7 +15,7 @@ from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Who
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM, Given
 from reportgen.gears.involute import Rack
-from reportgen.gears.pair import Chosen, NoPairError, Pair, PairLimits, choose
+from reportgen.gears.pair import Chosen, GearPair, NoPairError, PairLimits, choose
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
@@ -91,10 +91,11 @@ class Parameters(Part):
 @lru_cache(maxsize=64)
 def _chosen(given: Parameters) -> Chosen:
     told = given.shifts if isinstance(given.shifts, Shifts) else None
-    blank = Pair(Rack(given.alpha.si, given.ha, given.c), given.m.si, (given.z1, given.z2), np.zeros(2))
+    blank = GearPair(Rack(given.alpha.si, given.ha, given.c), given.m.si, (given.z1, given.z2), np.zeros(2))
     limits = PairLimits(given.limits.epsilon, given.limits.tip, given.limits.sliding)
     rule = "given" if told else given.by
-    return choose(blank, limits, rule, given.a_w and given.a_w.si, told and (told.x1, told.x2))
+    a_w = None if given.a_w is None else given.a_w.si
+    return choose(blank, limits, rule, a_w, None if told is None else (told.x1, told.x2))
 
 
 # --- what cannot be -------------------------------------------------------------------------------
@@ -120,8 +121,8 @@ def _keys(given: Parameters) -> Iterator[Finding]:
 
 def _mesh(given: Parameters) -> Iterator[Finding]:
     """A pair that can be drawn: its base circles apart, its teeth not beyond their point, contact between N₁ and N₂."""
-    where = (*TOP, "shifts" if isinstance(given.shifts, Shifts) else "by" if given.a_w is None else "a_w")
-    where = where if where[-1] in given.model_fields_set else TOP
+    key = "shifts" if isinstance(given.shifts, Shifts) else "by" if given.a_w is None else "a_w"
+    where = (*TOP, key) if key in given.model_fields_set else TOP
     try:
         pair = given.chosen.pair
     except NoPairError as error:

@@ -39,7 +39,7 @@ class PairLimits:
 
 
 @dataclass(frozen=True)
-class Pair:
+class GearPair:
     """A pair by its rack, its module (m), its numbers of teeth and its shifts [2, ...]; lengths [2, ...] in metres."""
 
     rack: Rack
@@ -187,17 +187,17 @@ def sum_for(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
     return float(inv(math.acos(cosine)) - inv(rack.alpha)) * sum(teeth) / (2 * math.tan(rack.alpha))
 
 
-def least_shifts(pair: Pair) -> Floats:
+def least_shifts(pair: GearPair) -> Floats:
     """x_min in hundredths upwards, and no shift where none is needed."""
     return np.maximum(np.ceil(np.round(pair.x_min / HUNDREDTH, 9)) * HUNDREDTH, 0.0).round(2)
 
 
-def balanced(pair: Pair, total: float) -> Floats:
+def balanced(pair: GearPair, total: float) -> Floats:
     """The shifts of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
     first = np.linspace(total / 2 - LARGEST, total / 2 + LARGEST, 601)
 
     def unlike(x1: Floats) -> Floats:
-        shifted = Pair(pair.rack, pair.m, pair.teeth, np.stack((x1, total - x1)))
+        shifted = GearPair(pair.rack, pair.m, pair.teeth, np.stack((x1, total - x1)))
         # Only where both involutes begin outside the base circles is there a foot that slides.
         λ1, λ2 = np.where(shifted.rho_p > 0, shifted.sliding, np.nan)
         return np.asarray(λ1 - λ2)
@@ -211,7 +211,7 @@ def balanced(pair: Pair, total: float) -> Floats:
     return np.array([x1, total - x1])
 
 
-def least_sliding(pair: Pair, limits: PairLimits) -> Floats:
+def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
     """Of all shifts in hundredths within the limits those with the least greater |λ|: there the two are nearly equal.
 
     Raises `NoPairError` where none keep the limits.
@@ -220,7 +220,7 @@ def least_sliding(pair: Pair, limits: PairLimits) -> Floats:
     axes = [np.arange(start, LARGEST / HUNDREDTH + 0.5) * HUNDREDTH for start in low]
     if not all(axis.size for axis in axes):
         raise NoPairError("gear-no-shifts")
-    grid = Pair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(*axes, indexing="ij")))
+    grid = GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(*axes, indexing="ij")))
     with np.errstate(invalid="ignore", divide="ignore"):
         kept = np.all([margin >= -1e-12 for margin in grid.margins(limits)], axis=0)
         worst = np.where(kept, -grid.sliding.min(axis=0), np.inf)
@@ -234,7 +234,7 @@ def least_sliding(pair: Pair, limits: PairLimits) -> Floats:
 class Chosen:
     """A pair with what it was chosen by: its limits, the rule of its shifts, whether the centre distance was given."""
 
-    pair: Pair
+    pair: GearPair
     limits: PairLimits
     rule: str
     """`given`, `x_min` or `equal-sliding`."""
@@ -265,7 +265,7 @@ class Chosen:
 
 
 def choose(
-    blank: Pair, limits: PairLimits, rule: str, a_w: float | None, told: tuple[float, float | None] | None
+    blank: GearPair, limits: PairLimits, rule: str, a_w: float | None, told: tuple[float, float | None] | None
 ) -> Chosen:
     """The shifts of a pair by a rule, in hundredths unless a centre distance (m) decides.
 
@@ -281,4 +281,4 @@ def choose(
     else:
         first, second = round(float(balanced(blank, total)[0]), 2), 0.0
     shifts = np.array([first, second if total is None else total - first])
-    return Chosen(Pair(blank.rack, blank.m, blank.teeth, shifts), limits, rule, a_w)
+    return Chosen(GearPair(blank.rack, blank.m, blank.teeth, shifts), limits, rule, a_w)

@@ -33,10 +33,10 @@ from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
 from reportgen.gears import pair_views as views
 from reportgen.gears.involute import Floats
-from reportgen.gears.pair import Pair
+from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_drawings import FLANK, FRAME, MESH_ROOM, centre, mesh, on_line, region, sliding, turned
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import Document, InlineMath, Inlines, Text, Value
+from reportgen.report import Document, InlineMath, Inlines, Value
 from reportgen.report.case import Key, Span
 from reportgen.sheets.columns import Plate, in_columns, titled, true_size
 
@@ -56,6 +56,10 @@ class PairCase(SolvedPair):
     @property
     def balance(self) -> None:
         """It has no forces."""
+
+    @property
+    def speed(self) -> None:
+        """It has no speed."""
 
     def fault(self) -> str:
         return next((f"gear-{name}" for name, *_ in self.chosen.broken()), "")
@@ -150,7 +154,7 @@ def _film(case: PairCase) -> Film:
     )
 
 
-def _moving(pair: Pair, φ: Floats, at: float) -> tuple[list[MovingItem], Floats]:
+def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Floats]:
     """Wheels, line of action and points of contact, so many mm of paper a metre; and how many pairs touch."""
     at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
     ratio = pair.teeth[0] / pair.teeth[1]
@@ -222,11 +226,12 @@ def _side_by_side(left: Scene, right: Scene) -> Scene:
 def _content(case: PairCase, inlines: Inlines) -> Content:
     """What stands in a cell, as a label has it."""
     match inlines:
-        case (InlineMath(shown),):
-            return shown
-        case (Value(shown),):
-            return shown
+        case (InlineMath(expression),):
+            return expression
+        case (Value(number),):
+            return number
         case _:
             return "".join(
-                one.text if isinstance(one, Text) else formula(one.number, case.assignment.language) for one in inlines
-            )  # type: ignore[union-attr]
+                formula(one.number, case.assignment.language) if isinstance(one, Value) else getattr(one, "text", "")
+                for one in inlines
+            )

@@ -13,7 +13,7 @@ from reportgen.drawing.charts import Plotted, PlottedCurve, level_lines, plotted
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.gears.involute import Complexes, Floats
-from reportgen.gears.pair import Pair
+from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
 
 MESH_ROOM = 150 + 168j
@@ -41,7 +41,7 @@ LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 # --- the mesh -------------------------------------------------------------------------------------
 
 
-def turned(pair: Pair, number: int, rolled: float) -> float:
+def turned(pair: GearPair, number: int, rolled: float) -> float:
     """By how much a wheel (0 or 1) is turned, whose middle tooth touches where wheel 1's flank has rolled so far (m).
 
     Wheel 1 stands below, wheel 2 above it; wheel 1 turns anticlockwise and drives with its left flanks.
@@ -54,12 +54,12 @@ def turned(pair: Pair, number: int, rolled: float) -> float:
     return -math.pi / 2 - second.pitch / 2 - angle * first.z / second.z
 
 
-def centre(pair: Pair, number: int) -> complex:
+def centre(pair: GearPair, number: int) -> complex:
     """The centre of a wheel, the pitch point at 0."""
     return (-1j, 1j)[number] * float(pair.d_w[number]) / 2
 
 
-def on_line(pair: Pair, rolled: float) -> complex:
+def on_line(pair: GearPair, rolled: float) -> complex:
     """The point of the line of action so far (m) from N₁, the pitch point at 0."""
     at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
     return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair.alpha_w))))
@@ -114,7 +114,7 @@ def _corners(points: Complexes) -> tuple[complex, complex]:
     return complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
 
 
-def _teeth(pair: Pair, number: int, rolled: float) -> Iterator[Complexes]:
+def _teeth(pair: GearPair, number: int, rolled: float) -> Iterator[Complexes]:
     """Three teeth of a wheel from space to space, as one line."""
     wheel = pair.wheel(number)
     tooth = wheel.tooth()
@@ -145,7 +145,7 @@ def _circles(
         )
 
 
-def _construction(pair: Pair, number: int, at: float, items: list[Item], requests: list[Request]) -> None:
+def _construction(pair: GearPair, number: int, at: float, items: list[Item], requests: list[Request]) -> None:
     """The involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their ends."""
     o, r_b = centre(pair, number), float(pair.d_b[number]) / 2
     α_w = float(pair.alpha_w)
@@ -168,7 +168,7 @@ def _construction(pair: Pair, number: int, at: float, items: list[Item], request
         items.append(Circle(complex((o + end) * at), 0.4, Pen(0.12), style.PAPER))
 
 
-def _working_flank(pair: Pair, number: int, rolled: float, at: float) -> Iterator[Item]:
+def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Iterator[Item]:
     """The part of the touching flank that is in use, and the arc of contact on the working circle."""
     wheel, o = pair.wheel(number), centre(pair, number)
     r = np.hypot(wheel.r_b, np.linspace(float(pair.rho_p[number]), float(pair.rho_a[number]), 60))
@@ -181,7 +181,7 @@ def _working_flank(pair: Pair, number: int, rolled: float, at: float) -> Iterato
     yield Arc(o * at, radius, pitch_point - before, pitch_point - after, Pen(0.6, style.BLUE))
 
 
-def _line_of_action(pair: Pair, at: float, with_ends: bool, items: list[Item], requests: list[Request]) -> None:
+def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item], requests: list[Request]) -> None:
     starts = {"N1": 0.0, "B2": float(pair.rho_p[0]), "B1": float(pair.rho_a[0]), "N2": float(pair.path)}
     points = {name: on_line(pair, rolled) * at for name, rolled in starts.items()}
     shown = ("N1", "N2") if with_ends else ("B2", "B1")
@@ -247,26 +247,27 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
         )
         balance = np.where((grid.rho_p > 0).all(axis=0), grid.sliding[0] - grid.sliding[1], np.nan)
         ε = grid.epsilon
-    x, s, ρ = (lambda i: Symbol("x", f"min{i}")), (lambda i: Symbol("s", f"a{i}")), (lambda i: Symbol("ρ", f"p{i}"))
     lines: list[tuple[Floats, float, Pen, tuple[Content, ...]]] = []
     for i in WHEELS:
-        lines.append((undercut[i - 1], 0.0, HARD, (x(i),)))
-        lines.append((tips[i - 1], 0.0, HARD, (s(i), " = 0")))
-        lines.append((meet[i - 1], 0.0, HARD, (ρ(i), " = ", Symbol("ρ", f"l{i}"))))
-        named = (s(i), " = ", Number(limits.tip, None), " ", Symbol("m"))
+        tip = Symbol("s", f"a{i}")
+        lines += [
+            (undercut[i - 1], 0.0, HARD, (Symbol("x", f"min{i}"),)),
+            (tips[i - 1], 0.0, HARD, (tip, " = 0")),
+            (meet[i - 1], 0.0, HARD, (Symbol("ρ", f"p{i}"), " = ", Symbol("ρ", f"f{i}"))),
+        ]
         if limits.tip:
-            lines.append((tips[i - 1], limits.tip, SOFT, named))
+            lines.append((tips[i - 1], limits.tip, SOFT, (tip, " = ", Number(limits.tip, None), " ", Symbol("m"))))
     lines.append((ε, 1.0, HARD, (Symbol("ε", "α"), " = 1")))
     if limits.epsilon > 1:
         lines.append((ε, limits.epsilon, SOFT, (Symbol("ε", "α"), " = ", Number(limits.epsilon, None))))
     lines.append((balance, 0.0, ALIKE, (Symbol("λ", "1"), " = ", Symbol("λ", "2"))))
-    for values, level, pen, named in lines:
+    for values, level, pen, name in lines:
         pieces = [paper(piece) for piece in level_lines(x1, x2, values.T, level)]
         items += [Polyline(tuple(piece), pen) for piece in pieces if piece.size > 1]
         for piece in pieces:
             if float(np.abs(np.diff(piece)).sum()) >= LONG:
                 places = [complex(piece[int(share * (piece.size - 1))]) for share in (0.9, 0.75, 0.5, 0.25, 0.1)]
-                requests.append(label(places, *named, gap=0.6, size=style.SMALL))
+                requests.append(label(places, *name, gap=0.6, size=style.SMALL))
     items.append(Polyline((0j, frame.real + 0j, frame, frame.imag * 1j), Pen(0.25), closed=True))
     items += _ticks(low, high, per)
     chosen = complex(paper(np.array([complex(*pair.x)]))[0])
@@ -279,12 +280,12 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
     return finish(Canvas(tuple(items), tuple(requests)), margin=2.0)
 
 
-def _at(pair: Pair, x1: Floats, x2: Floats) -> Pair:
+def _at(pair: GearPair, x1: Floats, x2: Floats) -> GearPair:
     """The pairs of all shifts of two axes, the first axis that of x₁."""
-    return Pair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(x1, x2, indexing="ij")))
+    return GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(x1, x2, indexing="ij")))
 
 
-def _bounds(grid: Pair) -> Floats:
+def _bounds(grid: GearPair) -> Floats:
     """The hard limits over a grid: without undercut, not pointed, no interference, ε ≥ 1; −1 where there is no pair."""
     with np.errstate(invalid="ignore", divide="ignore"):
         found = [
@@ -293,7 +294,7 @@ def _bounds(grid: Pair) -> Floats:
             *((grid.rho_p - np.maximum(grid.rho_f, 0.0)) / grid.m),
             grid.epsilon - 1,
         ]
-    return np.nan_to_num(np.array(found), nan=-1.0)
+    return np.asarray(np.nan_to_num(np.array(found), nan=-1.0))
 
 
 def _ticks(low: Sequence[float], high: Sequence[float], per: tuple[float, float]) -> Iterator[Item]:

@@ -6,7 +6,7 @@ The points of the active path of contact at which sliding is worked out are rows
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,12 +31,62 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
-from reportgen.gears.pair import Chosen, Pair
+from reportgen.gears.pair import Chosen, GearPair
 from reportgen.report.case import Opened, Pitfalls
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
 WHEELS = (1, 2)
+LENGTH, NUMBER, ANGLE, INVOLUTE = "gear length", "gear number", "gear angle", "involute"
+PAIR: Mapping[str, tuple[Symbol, str]] = {
+    "m": (Symbol("m"), LENGTH),
+    "alpha": (Symbol("α"), "angle"),
+    "ha": (Symbol("h", "a", "*"), NUMBER),
+    "c": (Symbol("c", "", "*"), NUMBER),
+    "limit.epsilon": (Symbol("[ε]"), NUMBER),
+    "limit.tip": (Symbol("[s/m]"), NUMBER),
+    "limit.sliding": (Symbol("[λ]"), NUMBER),
+    "u": (Symbol("u"), NUMBER),
+    "a": (Symbol("a"), LENGTH),
+    "inv": (Symbol("inv α"), INVOLUTE),
+    "inv_w": (Symbol("inv α", "w"), INVOLUTE),
+    "x_sum": (Symbol("x", "Σ"), NUMBER),
+    "alpha_w": (Symbol("α", "w"), ANGLE),
+    "a_w": (Symbol("a", "w"), LENGTH),
+    "y": (Symbol("y"), NUMBER),
+    "dy": (Symbol("Δy"), NUMBER),
+    "h": (Symbol("h"), LENGTH),
+    "p": (Symbol("p"), LENGTH),
+    "p_b": (Symbol("p", "b"), LENGTH),
+    "epsilon": (Symbol("ε", "α"), NUMBER),
+    "g": (Symbol("g"), LENGTH),
+    "g_a": (Symbol("g", "α"), LENGTH),
+    "t": (Symbol("t"), NUMBER),
+}
+"""Symbol and kind of what the pair has,"""
+WHEEL: Mapping[str, tuple[Symbol, str]] = {
+    "z": (Symbol("z"), "count"),
+    "x": (Symbol("x"), NUMBER),
+    "x_min": (Symbol("x", "min"), NUMBER),
+    "d": (Symbol("d"), LENGTH),
+    "d_b": (Symbol("d", "b"), LENGTH),
+    "d_w": (Symbol("d", "w"), LENGTH),
+    "h_a": (Symbol("h", "a"), LENGTH),
+    "d_a": (Symbol("d", "a"), LENGTH),
+    "d_f": (Symbol("d", "f"), LENGTH),
+    "s": (Symbol("s"), LENGTH),
+    "s_w": (Symbol("s", "w"), LENGTH),
+    "alpha_a": (Symbol("α", "a"), ANGLE),
+    "inv_a": (Symbol("inv α", "a"), INVOLUTE),
+    "s_a": (Symbol("s", "a"), LENGTH),
+    "tip": (Symbol("s", "a", "*"), NUMBER),
+    "rho_a": (Symbol("ρ", "a"), LENGTH),
+    "rho_p": (Symbol("ρ", "p"), LENGTH),
+    "rho_f": (Symbol("ρ", "f"), LENGTH),
+    "rho": (Symbol("ρ"), LENGTH),
+    "lambda": (Symbol("λ"), NUMBER),
+}
+"""and of what each wheel has."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +99,7 @@ class SolvedPair(Opened):
         return found
 
     @property
-    def gears(self) -> Pair:
+    def gears(self) -> GearPair:
         return self.chosen.pair
 
     @cached_property
@@ -87,109 +137,125 @@ class PairSheet:
     def __init__(self, chosen: Chosen) -> None:
         self.chosen, self.pair = chosen, chosen.pair
         self.q = Sheet(POINTS)
-        self.enter_given()
-        self.enter_mesh()
-        for wheel in WHEELS:
-            self.enter_wheel(wheel)
-        self.enter_contact()
-        self.enter_sliding()
+        with self.q.within(Chapter.data):
+            self.enter_given()
+        with self.q.within(Chapter.geometry):
+            self.enter_mesh()
+            for wheel in WHEELS:
+                self.enter_wheel(wheel)
+        with self.q.within(Chapter.velocity):
+            self.enter_contact()
+        with self.q.within(Chapter.acceleration):
+            self.enter_sliding()
+
+    def __getitem__(self, quantity: str) -> Ref:
+        return self.q[f"gears.{quantity}"]
+
+    def of(self, quantity: str, wheel: int) -> Ref:
+        return self.q[ids.gear(quantity, wheel)]
 
     def both(self, quantity: str) -> tuple[Ref, Ref]:
-        first, second = (self.q[ids.gear(quantity, wheel)] for wheel in WHEELS)
-        return first, second
+        return self.of(quantity, 1), self.of(quantity, 2)
+
+    def give(self, quantity: str, value: object, wheel: int = 0) -> Ref:
+        id, symbol, kind = named(quantity, wheel)
+        return self.q.give(id, value, symbol, kind)
+
+    def define(self, quantity: str, definition: Operand, wheel: int = 0) -> Ref:
+        """Enter a quantity; below 1e-9 of a module, or of 1, it is nothing."""
+        id, symbol, kind = named(quantity, wheel)
+        return self.q.define(id, definition, symbol, kind, scale=self.pair.m if kind == LENGTH else 1.0)
 
     def enter_given(self) -> None:
-        q, pair, limits = self.q, self.pair, self.chosen.limits
-        with q.within(Chapter.data):
-            self.m = q.give("gears.m", pair.m)
-            for wheel, z in zip(WHEELS, pair.teeth, strict=True):
-                q.give(ids.gear("z", wheel), float(z))
-            self.α = q.give("gears.alpha", pair.rack.alpha)
-            self.ha, self.c = (
-                q.give(id, value, Symbol(letter, below, "*"))
-                for id, value, letter, below in (
-                    ("gears.ha", pair.rack.ha, "h", "a"),
-                    ("gears.c", pair.rack.c, "c", ""),
-                )
-            )
-            q.give("gears.limit.epsilon", limits.epsilon)
-            q.give("gears.limit.tip", limits.tip)
-            if limits.sliding is not None:
-                q.give("gears.limit.sliding", limits.sliding)
-            for wheel in WHEELS[: 1 if self.chosen.follows else 2]:
-                q.give(ids.gear("x", wheel), float(pair.x[wheel - 1]))
-            if self.chosen.a_w is not None:
-                q.give("gears.a_w", self.chosen.a_w)
+        pair, limits = self.pair, self.chosen.limits
+        self.give("m", pair.m)
+        for wheel, z in zip(WHEELS, pair.teeth, strict=True):
+            self.give("z", float(z), wheel)
+        self.give("alpha", pair.rack.alpha)
+        self.give("ha", pair.rack.ha)
+        self.give("c", pair.rack.c)
+        self.give("limit.epsilon", limits.epsilon)
+        self.give("limit.tip", limits.tip)
+        if limits.sliding is not None:
+            self.give("limit.sliding", limits.sliding)
+        for wheel in WHEELS[: 1 if self.chosen.follows else 2]:
+            self.give("x", float(pair.x[wheel - 1]), wheel)
+        if self.chosen.a_w is not None:
+            self.give("a_w", self.chosen.a_w)
 
     def enter_mesh(self) -> None:
         """The working pressure angle from the shifts, or the shifts from the centre distance."""
-        q, m, α = self.q, self.m, self.α
+        m, α = self["m"], self["alpha"]
         z1, z2 = self.both("z")
-        q.define("gears.u", z2 / z1)
-        a = q.define("gears.a", m * (z1 + z2) / 2)
-        inv_α = q.define("gears.inv", tan(α) - α)
+        self.define("u", z2 / z1)
+        a = self.define("a", m * (z1 + z2) / 2)
+        inv_α = self.define("inv", tan(α) - α)
         if self.chosen.follows:
-            α_w = q.define("gears.alpha_w", acos(a * cos(α) / q["gears.a_w"]))
-            inv_w = q.define("gears.inv_w", tan(α_w) - α_w)
-            total = q.define("gears.x_sum", (inv_w - inv_α) * (z1 + z2) / (2 * tan(α)), scale=1.0)
-            q.define(ids.gear("x", 2), total - q[ids.gear("x", 1)], scale=1.0)
+            α_w = self.define("alpha_w", acos(a * cos(α) / self["a_w"]))
+            inv_w = self.define("inv_w", tan(α_w) - α_w)
+            total = self.define("x_sum", (inv_w - inv_α) * (z1 + z2) / (2 * tan(α)))
+            self.define("x", total - self.of("x", 1), 2)
+            y = self.define("y", (self["a_w"] - a) / m)
         else:
             x1, x2 = self.both("x")
-            total = q.define("gears.x_sum", x1 + x2, scale=1.0)
-            inv_w = q.define("gears.inv_w", inv_α + 2 * total * tan(α) / (z1 + z2))
-            α_w = q.define("gears.alpha_w", arcinv(inv_w))
-            q.define("gears.a_w", a * cos(α) / cos(α_w))
-        y = q.define("gears.y", (q["gears.a_w"] - a) / m, scale=1.0)
-        q.define("gears.dy", total - y, scale=1.0)
-        q.define("gears.h", m * (2 * self.ha + self.c - q["gears.dy"]))
-        p = q.define("gears.p", PI * m)
-        q.define("gears.p_b", p * cos(α))
+            total = self.define("x_sum", x1 + x2)
+            inv_w = self.define("inv_w", inv_α + 2 * total * tan(α) / (z1 + z2))
+            α_w = self.define("alpha_w", arcinv(inv_w))
+            self.define("a_w", a * cos(α) / cos(α_w))
+            # Of a centre distance in four figures too little would be left after subtracting a.
+            y = self.define("y", (z1 + z2) / 2 * (cos(α) / cos(α_w) - 1))
+        self.define("dy", total - y)
+        self.define("h", m * (2 * self["ha"] + self["c"] - self["dy"]))
+        p = self.define("p", PI * m)
+        self.define("p_b", p * cos(α))
 
     def enter_wheel(self, wheel: int) -> None:
-        q, m, α, ha = self.q, self.m, self.α, self.ha
-        z, x = q[ids.gear("z", wheel)], q[ids.gear("x", wheel)]
-
-        def define(quantity: str, definition: Operand, **traits: float) -> Ref:
-            return q.define(ids.gear(quantity, wheel), definition, **traits)
-
-        define("x_min", ha - z * sin(α) ** 2 / 2, scale=1.0)
-        d = define("d", m * z)
-        d_b = define("d_b", d * cos(α))
-        d_w = define("d_w", d_b / cos(q["gears.alpha_w"]))
-        h_a = define("h_a", m * (ha + x - q["gears.dy"]), scale=self.pair.m)
-        d_a = define("d_a", d + 2 * h_a)
-        define("d_f", d - 2 * m * (ha + self.c - x))
-        s = define("s", m * (PI / 2 + 2 * x * tan(α)))
-        define("s_w", d_w * (s / d + q["gears.inv"] - q["gears.inv_w"]))
-        α_a = define("alpha_a", acos(d_b / d_a))
-        define("inv_a", tan(α_a) - α_a)
-        s_a = define("s_a", d_a * (s / d + q["gears.inv"] - q[ids.gear("inv_a", wheel)]), scale=self.pair.m)
-        q.define(ids.gear("tip", wheel), s_a / m, Symbol("s", f"a{wheel}", "*"), scale=1.0)
+        m, α, ha = self["m"], self["alpha"], self["ha"]
+        z, x = self.of("z", wheel), self.of("x", wheel)
+        self.define("x_min", ha - z * sin(α) ** 2 / 2, wheel)
+        d = self.define("d", m * z, wheel)
+        d_b = self.define("d_b", d * cos(α), wheel)
+        d_w = self.define("d_w", d_b / cos(self["alpha_w"]), wheel)
+        h_a = self.define("h_a", m * (ha + x - self["dy"]), wheel)
+        d_a = self.define("d_a", d + 2 * h_a, wheel)
+        self.define("d_f", d - 2 * m * (ha + self["c"] - x), wheel)
+        s = self.define("s", m * (PI / 2 + 2 * x * tan(α)), wheel)
+        self.define("s_w", d_w * (s / d + self["inv"] - self["inv_w"]), wheel)
+        α_a = self.define("alpha_a", acos(d_b / d_a), wheel)
+        inv_a = self.define("inv_a", tan(α_a) - α_a, wheel)
+        s_a = self.define("s_a", d_a * (s / d + self["inv"] - inv_a), wheel)
+        self.define("tip", s_a / m, wheel)
 
     def enter_contact(self) -> None:
         """Contact ratio, line of action, and how much of each flank is in use."""
-        q, α, m = self.q, self.α, self.m
-        (z1, z2), α_w = self.both("z"), q["gears.alpha_w"]
+        α, m, α_w = self["alpha"], self["m"], self["alpha_w"]
+        z1, z2 = self.both("z")
         over = [tan(one) - tan(α_w) for one in self.both("alpha_a")]
-        ε = q.define("gears.epsilon", (z1 * over[0] + z2 * over[1]) / (2 * PI))
-        g = q.define("gears.g", q["gears.a_w"] * sin(α_w))
-        q.define("gears.g_a", ε * q["gears.p_b"])
-        d_b, α_a, x, d = (self.both(one) for one in ("d_b", "alpha_a", "x", "d"))
-        tips = [q.define(ids.gear("rho_a", i + 1), d_b[i] * tan(α_a[i]) / 2, scale=self.pair.m) for i in (0, 1)]
-        for i in (0, 1):
-            q.define(ids.gear("rho_p", i + 1), g - tips[1 - i], scale=self.pair.m)
-            grind = d[i] * sin(α) / 2 - (self.ha - x[i]) * m / sin(α)
-            q.define(ids.gear("rho_f", i + 1), grind, scale=self.pair.m)
+        ε = self.define("epsilon", (z1 * over[0] + z2 * over[1]) / (2 * PI))
+        g = self.define("g", self["a_w"] * sin(α_w))
+        self.define("g_a", ε * self["p_b"])
+        for wheel in WHEELS:
+            self.define("rho_a", self.of("d_b", wheel) * tan(self.of("alpha_a", wheel)) / 2, wheel)
+        for wheel in WHEELS:
+            self.define("rho_p", g - self.of("rho_a", 3 - wheel), wheel)
+            begun = self.of("d", wheel) * sin(α) / 2 - (self["ha"] - self.of("x", wheel)) * m / sin(α)
+            self.define("rho_f", begun, wheel)
 
     def enter_sliding(self) -> None:
-        q = self.q
-        share = q.give("gears.t", np.arange(POINTS) / (POINTS - 1))
-        start, end = q[ids.gear("rho_p", 1)], q[ids.gear("rho_a", 1)]
-        ρ1 = q.define(ids.gear("rho", 1), start + share * (end - start))
-        ρ2 = q.define(ids.gear("rho", 2), q["gears.g"] - ρ1)
-        u = q["gears.u"]
-        q.define(ids.gear("lambda", 1), 1 - ρ2 / (u * ρ1), scale=1.0)
-        q.define(ids.gear("lambda", 2), 1 - u * ρ1 / ρ2, scale=1.0)
+        t, u = self.give("t", np.arange(POINTS) / (POINTS - 1)), self["u"]
+        start, end = self.of("rho_p", 1), self.of("rho_a", 1)
+        ρ1 = self.define("rho", start + t * (end - start), 1)
+        ρ2 = self.define("rho", self["g"] - ρ1, 2)
+        self.define("lambda", 1 - ρ2 / (u * ρ1), 1)
+        self.define("lambda", 1 - u * ρ1 / ρ2, 2)
+
+
+def named(quantity: str, wheel: int) -> tuple[str, Symbol, str]:
+    """Id, symbol and kind of a quantity of the pair (0) or of a wheel."""
+    if not wheel:
+        return (f"gears.{quantity}", *PAIR[quantity])
+    symbol, kind = WHEEL[quantity]
+    return ids.gear(quantity, wheel), replace(symbol, sub=f"{symbol.sub}{wheel}"), kind
 
 
 # --- what is often done in place of it --------------------------------------------------------------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -196,11 +196,14 @@ class PairPage:
     def sliding_table(self) -> Table:
         ledger = self.case.printed
         columns = ("gears.t", *(ids.gear(one, wheel) for one in ("rho", "lambda") for wheel in WHEELS))
-        rows = [
+        rows: list[tuple[Inlines, ...]] = [
             ((Text(str(k)),), *((Value(ledger.number(id, k)),) for id in columns))
             for k in range(1, self.case.count + 1)
         ]
-        heads = ((Text(self.words["point"]),), *((InlineMath(ledger.symbol(id)),) for id in columns))
+        heads: tuple[Inlines, ...] = (
+            (Text(self.words["point"]),),
+            *((InlineMath(ledger.symbol(id)),) for id in columns),
+        )
         return self._table("sliding", SLIDING, heads, rows)
 
     @property
@@ -237,8 +240,12 @@ class PairPage:
 
     def figure(self, name: str) -> Figure:
         caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
-        drawn: Scene = {"mesh": mesh, "region": region, "sliding": lambda case: sliding(case).scene}[name](self.case)
-        return Figure((drawn,), caption, f"fig.{name}")
+        drawings: Mapping[str, Callable[[SolvedPair], Scene]] = {
+            "mesh": mesh,
+            "region": region,
+            "sliding": lambda case: sliding(case).scene,
+        }
+        return Figure((drawings[name](self.case),), caption, f"fig.{name}")
 
 
 def case_ends(case: SolvedPair) -> tuple[int, int]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen.gears.involute import Rack, Wheel
-from reportgen.gears.pair import Pair, PairLimits
+from reportgen.gears.pair import GearPair, PairLimits
 from tests.lanes import matrix
 
 FINE = 1e-9
@@ -23,20 +23,21 @@ RACKS = [
 HUNDREDS = 10
 
 
-def random_pairs(seed: int, count: int) -> list[Pair]:
+def random_pairs(seed: int, count: int) -> list[GearPair]:
     """Pairs that can run: neither undercut nor pointed, without interference, with ε of at least 1.05."""
-    rng, found = np.random.default_rng(seed), []
+    rng = np.random.default_rng(seed)
+    found: list[GearPair] = []
     while len(found) < count:
         z1 = int(rng.integers(8, 50))
         z2 = int(rng.integers(z1, 120))
         rack, m = RACKS[rng.integers(len(RACKS))], float(rng.uniform(1, 20)) * 1e-3
-        pair = Pair(rack, m, (z1, z2), rng.uniform(-0.5, 1.0, 2))
+        pair = GearPair(rack, m, (z1, z2), rng.uniform(-0.5, 1.0, 2))
         if all(np.all(margin >= 0) for margin in pair.margins(PairLimits(epsilon=1.05, tip=0.05))):
             found.append(pair)
     return found
 
 
-def gaps(pair: Pair, turned: float) -> tuple[float, complex, complex]:
+def gaps(pair: GearPair, turned: float) -> tuple[float, complex, complex]:
     """The least gap between the meshing flanks when wheel 1 is turned, where it is, and the normal there.
 
     Wheel 1 about 0, wheel 2 about a_w; with no turn a tooth of wheel 1 points at a space of wheel 2.
@@ -82,13 +83,13 @@ def inside(rack: Rack, m: float, at: np.ndarray) -> np.ndarray:
 
     def to(start: complex, way: complex) -> np.ndarray:
         share = np.clip(((folded - start) * np.conj(way)).real / abs(way) ** 2, 0, 1)
-        return np.abs(folded - start - share * way)
+        return np.asarray(np.abs(folded - start - share * way))
 
     edge = np.minimum(to(centre, up), to(centre.conjugate().imag * -1j, centre.real + 0j) if centre.real else np.inf)
     # Beyond both edges a point is in the body of the tooth.
     height = folded.imag - centre.imag
     body = (height > 0) & (folded.real < centre.real + height * math.tan(rack.alpha))
-    return np.where(body, -edge, edge) - ρ
+    return np.asarray(np.where(body, -edge, edge) - ρ)
 
 
 @pytest.mark.parametrize(

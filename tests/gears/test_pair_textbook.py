@@ -9,14 +9,14 @@ import pytest
 
 from reportgen.formula.evaluation import arcinv, inv
 from reportgen.gears.involute import Rack
-from reportgen.gears.pair import Pair, PairLimits, balanced, least_shifts, least_sliding, sum_for
+from reportgen.gears.pair import GearPair, PairLimits, balanced, least_shifts, least_sliding, sum_for
 
 MM = 1e-3
 ISO = Rack(math.radians(20))
 
 
-def pair(m: float, teeth: tuple[int, int], *shifts: float) -> Pair:
-    return Pair(ISO, m * MM, teeth, np.array(shifts))
+def pair(m: float, teeth: tuple[int, int], *shifts: float) -> GearPair:
+    return GearPair(ISO, m * MM, teeth, np.array(shifts))
 
 
 def test_a_printed_pair_with_a_given_centre_distance() -> None:
