@@ -25,8 +25,11 @@ SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
 
-SHOWN = ROOT / "assignments" / "plane-motion" / "17.yaml"
-"""The exercise that the README shows."""
+SHOWN = {
+    "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
+    "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
+}
+"""The files that the README shows of kinds which have a folder of files."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
 MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
@@ -58,7 +61,7 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity")
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.mesh")
 """The figure that shows a machine, or the system of an exercise."""
 
 
@@ -131,7 +134,7 @@ def main() -> None:
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
     for kind in kinds():
-        file = next(iter(sorted(SAMPLE.parent.glob(f"{kind}-*.yaml"))), SHOWN)
+        file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]
         save(page, kind, SCHEME_DPI, drawn(page))
 

@@ -159,14 +159,6 @@ def chart(
     return plotted(series, x_label, y_label, turn=turn, levels=levels, half=half, area=area).scene
 
 
-def level_lines(x: Vertices, y: Vertices, values: Vertices, level: float) -> list[NDArray[np.complex128]]:
-    """The lines x + iy on which values [Y, X] over two axes have a level; where there is no value there is no line."""
-    from contourpy import LineType, contour_generator
-
-    made = contour_generator(x, y, np.ma.masked_invalid(values), line_type=LineType.Separate)
-    return [np.asarray(line)[:, 0] + 1j * np.asarray(line)[:, 1] for line in made.lines(level)]
-
-
 def plotted(
     series: Sequence[PlottedCurve],
     x_label: Content,

@@ -9,7 +9,7 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Plotted, PlottedCurve, level_lines, plotted
+from reportgen.drawing.charts import Plotted, PlottedCurve, plotted
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.gears.involute import Complexes, Floats
@@ -278,6 +278,14 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
         label(complex(-7, frame.imag), Symbol("x", "2"), gap=1.0, prefer=(math.pi,)),
     ]
     return finish(Canvas(tuple(items), tuple(requests)), margin=2.0)
+
+
+def level_lines(x: Floats, y: Floats, values: Floats, level: float) -> list[Complexes]:
+    """The lines x + iy on which values [Y, X] over two axes have a level; where there is no value there is no line."""
+    from contourpy import contour_generator
+
+    made = contour_generator(x, y, np.ma.masked_invalid(values), line_type="Separate")
+    return [np.asarray(line) @ (1, 1j) for line in made.lines(level)]
 
 
 def _at(pair: GearPair, x1: Floats, x2: Floats) -> GearPair:
