@@ -1,4 +1,4 @@
-"""Draw the pictures of the README: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
+"""Draw the pictures of README and docs: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
 
 `make pictures` runs this in the project's folder; the pictures go to `docs/`.  The machine in motion is drawn by
 chromium, and left as it is where there is none.
@@ -27,9 +27,10 @@ CAPTION = ". Velocity plan at"
 
 SHOWN = {
     "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
+    "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
 }
-"""The files that the README shows of kinds which have a folder of files."""
+"""What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
 MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
@@ -44,6 +45,8 @@ MARGIN = 72.0
 
 AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
+BELOW = {"cam": 8.0}
+"""More room below what has labels there (pt)."""
 
 
 def document(file: Path) -> Document:
@@ -61,8 +64,8 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity", "fig.mesh")
-"""The figure that shows a machine, or the system of an exercise."""
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh")
+"""The figure that shows a machine, the system of an exercise, a cam, or gears in mesh."""
 
 
 def scheme_alone(report: Document) -> Document:
@@ -136,7 +139,7 @@ def main() -> None:
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]
-        save(page, kind, SCHEME_DPI, drawn(page))
+        save(page, kind, SCHEME_DPI, drawn(page) + pymupdf.Rect(0, 0, 0, BELOW.get(kind, 0.0)))
 
 
 if __name__ == "__main__":

@@ -5,62 +5,53 @@ The second sheet has nothing but the profile 1:1 on layers of its own, as a mach
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import math
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.cam.diagrams import law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.profile import Cam
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing.sheet import ENLARGED, DrawingSheet
-from reportgen.sheets.columns import Plate, in_columns, titled, true_size
+from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.sheet import ENLARGED, DrawingSheet, PlacedScene, lettered
+from reportgen.sheets import on_sheets
+from reportgen.sheets.packing import DrawingPlate
 
-USUAL_SIZES = ("A2", "A1", "A0")
 CHORD = 1e-6
 """How far the polyline of the profile may lie from the curve (m)."""
-LARGER = {"A3": 0.7, "A2": 1.0, "A1": 1.4, "A0": 2.0}
-"""How many times as large plates are on a sheet as on one of size A2."""
+MARGIN = 15.0
+"""White around the profile that is cut (mm)."""
 TURN = 1.2
-"""There the turn of the diagrams is so many times as long as in a report,"""
+"""A turn of the diagrams is so many times as long as in a report,"""
 LIMITS_ROOM, PROFILE_ROOM = 58 + 50j, 86 + 92j
 """and diagrams of limits and profiles fill no more than this (mm) before they are enlarged as all figures of sheets."""
-PROFILES = (2.0, 1.6, 1.25, 1.0, 0.75)
-"""So many times as large profiles are tried."""
+AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
 
 
 def drawing_sheets(case: SolvedCam, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
-    """The sheet of a size, else of the file's, else of the least that has room, and the profile in true size.
-
-    Raises `SheetError` where the plates have no room.
-    """
-    wanted = size or case.assignment.report.sheets or ""
-
-    def drawn(paper: str) -> Iterator[Iterable[Plate]]:
-        return (_plates(case, LARGER[paper], share) for share in PROFILES)
-
-    title = str(case.words["cam"]["sheet"])
-    sheet = in_columns(case, title, (wanted,) if wanted else USUAL_SIZES, block, drawn, "cam_sheet")
-    return [sheet, true_size(contour(case.solution.cam))]
+    """The sheet of its plates, and the profile alone; raises `AssignmentError` as `on_sheets` does."""
+    return [*on_sheets(case, {"cam": list(_plates(case))}, size, block), _true_size(case.solution.cam)]
 
 
-def _plates(case: SolvedCam, larger: float, share: float) -> Iterator[Plate]:
-    """Name, layer and drawing of each plate, as they are set in columns; scales are round once plates are enlarged."""
-    captions = case.words["cam"]["captions"]
-    rooms = larger * LIMITS_ROOM, share * larger * PROFILE_ROOM
-    yield "law", "curves", titled(law_diagrams(case, larger * TURN / ENLARGED), str(captions["figure-law"]))
-    if not case.solution.cam.flat and case.solution.designed.least is not None:
-        yield "limits", "scheme", titled(limit_diagram(case, rooms[0], ENLARGED), str(captions["figure-limits"]))
-    yield (
-        "inversion",
-        "positions",
-        titled(inversion(case, rooms[1], True, ENLARGED), str(captions["figure-inversion"])),
-    )
-    yield "profile", "profile", titled(inversion(case, rooms[1], False, ENLARGED), str(captions["figure-profile"]))
-    if not case.solution.cam.flat:
-        chart = pressure_chart(case, half=larger <= 1.0)
-        yield "pressure", "curves", titled(chart.scene, str(captions["figure-pressure"]))
+def _plates(case: SolvedCam) -> Iterator[DrawingPlate]:
+    """Diagrams of the motion, of the limits and of the pressure angle, the construction of the profile, the cam."""
+    found = case.solution.designed
+    yield _plate(case, "law", "curves", law_diagrams(case, TURN / ENLARGED, ENLARGED))
+    if found.least is not None and not found.cam.flat:
+        yield _plate(case, "limits", "scheme", limit_diagram(case, LIMITS_ROOM, ENLARGED))
+    yield _plate(case, "inversion", "positions", inversion(case, "profile by inversion", PROFILE_ROOM, ENLARGED))
+    yield _plate(case, "profile", "profile", inversion(case, "cam", PROFILE_ROOM, ENLARGED))
+    if not found.cam.flat:
+        yield _plate(case, "pressure", "curves", pressure_chart(case, half=True).scene)
+
+
+def _plate(case: SolvedCam, name: str, layer: str, scene: Scene) -> DrawingPlate:
+    """A figure as sheets show it, scales round once it is enlarged; its name is the caption in the report."""
+    return DrawingPlate(str(case.words["cam"]["captions"][f"figure-{name}"]), (), layer, (lettered(scene),))
 
 
 # --- the profile that is cut ------------------------------------------------------------------------
@@ -83,3 +74,23 @@ def _sagitta(points: np.ndarray) -> float:
     # Corners that are meant turn by much.
     smooth = turned < 0.1
     return float((np.abs(chords) * np.tan(turned / 4) / 2)[smooth].max(initial=0.0))
+
+
+def _true_size(cam: Cam) -> DrawingSheet:
+    """The profile 1:1 with its axes, on paper as large as it needs."""
+    points = contour(cam) * MM
+    low = complex(points.real.min(), points.imag.min()) - MARGIN * (1 + 1j)
+    high = complex(points.real.max(), points.imag.max()) + MARGIN * (1 + 1j)
+    size = complex(math.ceil((high - low).real), math.ceil((high - low).imag))
+    shift = -low
+    axes: tuple[Item, ...] = (
+        Line(complex(0, shift.imag), complex(size.real, shift.imag), AXES),
+        Line(complex(shift.real, 0), complex(shift.real, size.imag), AXES),
+        Circle(shift, 1.0, Pen(0.25)),
+    )
+    profile = Polyline(tuple(complex(p) for p in points + shift), style.HEAVY, closed=True, smooth=True)
+    parts = (
+        PlacedScene("axes", "axes", Scene(size.real, size.imag, axes)),
+        PlacedScene("profile", "profile", Scene(size.real, size.imag, (profile,))),
+    )
+    return DrawingSheet("1:1", size.real, size.imag, parts)

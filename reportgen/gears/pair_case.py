@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.drawing import Circle, Content, Line, Polyline, Scene, style
+from reportgen.drawing import Circle, Content, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.film import (
     BarScale,
     Carried,
@@ -26,19 +26,19 @@ from reportgen.drawing.film import (
     Track,
     extent,
 )
-from reportgen.drawing.geometry import moved
-from reportgen.drawing.sheet import ENLARGED, GAP, DrawingSheet, grid
+from reportgen.drawing.sheet import ENLARGED, DrawingSheet, PlacedScene, grid, lettered
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
 from reportgen.gears import pair_views as views
 from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
-from reportgen.gears.pair_drawings import FLANK, FRAME, MESH_ROOM, centre, mesh, on_line, region, sliding, turned
+from reportgen.gears.pair_drawings import FLANK, centre, mesh, on_line, region, sliding, turned
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
 from reportgen.report import Document, InlineMath, Inlines, Value
 from reportgen.report.case import Key, Span
-from reportgen.sheets.columns import Plate, in_columns, titled, true_size
+from reportgen.sheets import on_sheets
+from reportgen.sheets.packing import DrawingPlate
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class PairCase(SolvedPair):
         """It has no speed."""
 
     def fault(self) -> str:
-        return next((f"gear-{name}" for name, *_ in self.chosen.broken()), "")
+        return "gear-limits" if any(self.chosen.broken()) else ""
 
     def document(self) -> Document:
         return self.bounded(views.report)
@@ -104,8 +104,11 @@ class PairCase(SolvedPair):
     def film(self) -> Film:
         return _film(self)
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        return _drawing_sheets(self, size, block)
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its plates on a sheet, and each wheel in true size; there are no sets of them to choose from."""
+        return [*on_sheets(self, {"pair": list(_plates(self))}, size, block), *(_true_size(self, i) for i in (0, 1))]
 
 
 # --- the page on which it turns ---------------------------------------------------------------------
@@ -186,41 +189,42 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
 
 # --- drawing sheets ---------------------------------------------------------------------------------
 
-USUAL_SIZES = ("A2", "A1", "A0")
-LARGER = {"A3": 0.7, "A2": 1.0, "A1": 1.4, "A0": 2.0}
-"""How many times as large plates are on a sheet as on one of size A2."""
-SHARES = (2.4, 2.0, 1.7, 1.4, 1.2, 1.0, 0.8)
-"""So many times as large meshes are tried."""
+SHEET_ROOM = 180 + 150j
+"""What the mesh may fill before it is enlarged as all figures of sheets (mm)."""
+SHIFTS = 72 + 64j
+"""The diagram of shifts, likewise."""
+MARGIN = 15.0
+"""White around a wheel in true size (mm)."""
+AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))
 
 
-def _drawing_sheets(case: PairCase, size: str, block: Path | None) -> list[DrawingSheet]:
-    """The pair with its tables and curves, and each wheel in true size.  Raises `SheetError` without room."""
-    wanted = size or case.assignment.report.sheets or ""
-
-    def drawn(paper: str) -> Iterator[Iterable[Plate]]:
-        return (_plates(case, LARGER[paper], share) for share in SHARES)
-
-    title = str(case.words["pair"]["sheet"])
-    sheet = in_columns(case, title, (wanted,) if wanted else USUAL_SIZES, block, drawn, "gear_sheet")
-    wheels = [true_size(case.gears.wheel(i).outline() * 1j, f"1:1 ({WHEELS[i]})") for i in (0, 1)]
-    return [sheet, *wheels]
-
-
-def _plates(case: PairCase, larger: float, share: float) -> Iterator[Plate]:
+def _plates(case: PairCase) -> Iterator[DrawingPlate]:
+    """The mesh, the curves, the tables."""
     captions, page = case.words["pair"]["captions"], views.PairPage(case)
-    room = share * larger * MESH_ROOM / ENLARGED
-    λ = titled(sliding(case, half=larger <= 1).scene, str(captions["figure-sliding"]))
-    shifts = titled(region(case, 0.6 * larger * FRAME), str(captions["figure-region"]))
-    yield "mesh", "profile", titled(mesh(case, room, ENLARGED), str(captions["figure-mesh"]))
-    yield "curves", "curves", _side_by_side(λ, shifts)
+    scenes = (
+        ("figure-mesh", "profile", mesh(case, SHEET_ROOM, ENLARGED)),
+        ("figure-sliding", "curves", sliding(case, half=True).scene),
+        ("figure-region", "scheme", region(case, SHIFTS)),
+    )
+    for name, layer, scene in scenes:
+        yield DrawingPlate(str(captions[name]), (), layer, (lettered(scene),))
     for name, table in (("pair", page.pair_table), ("checks", page.checks)):
         cells = [[_content(case, cell.inlines) for cell in row] for row in (*table.head, *table.rows)]
-        yield name, "tables", titled(grid(cells[:1], cells[1:]), str(captions[name]))
+        yield DrawingPlate(str(captions[name]), (), "tables", (lettered(grid(cells[:1], cells[1:])),))
 
 
-def _side_by_side(left: Scene, right: Scene) -> Scene:
-    items = (*left.items, *(moved(item, complex(left.width + GAP, 0)) for item in right.items))
-    return Scene(left.width + GAP + right.width, max(left.height, right.height), items)
+def _true_size(case: PairCase, number: int) -> DrawingSheet:
+    """A wheel 1:1 with its axes, a tooth upright, on paper as large as it needs."""
+    outline = case.gears.wheel(number).outline() * 1j * MM
+    half = math.ceil(float(np.abs(outline).max()) + MARGIN)
+    middle, size = half * (1 + 1j), 2.0 * half
+    axes = (Line(1j * half, size + 1j * half, AXES), Line(half + 0j, half + 1j * size, AXES))
+    profile = Polyline(tuple(outline + middle), style.HEAVY, closed=True, smooth=True)
+    parts = (
+        PlacedScene("axes", "axes", Scene(size, size, axes)),
+        PlacedScene("profile", "profile", Scene(size, size, (profile,))),
+    )
+    return DrawingSheet(f"1:1 ({WHEELS[number]})", size, size, parts)
 
 
 def _content(case: PairCase, inlines: Inlines) -> Content:

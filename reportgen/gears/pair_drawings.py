@@ -97,7 +97,7 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
         )
         outward = math.copysign(math.pi / 2, end.imag)
         requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), prefer=(outward,)))
-    note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM:.6g}"), None, "mm/mm")))
+    note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM / enlarged:.6g}"), None, "mm/mm")))
     a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.number("gears.a_w")))
     notes: list[Content] = [note, a_w]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
@@ -162,9 +162,9 @@ def _construction(pair: GearPair, number: int, at: float, items: list[Item], req
         if step:
             items.append(Line(complex((o + foot) * at), complex((o + end) * at), INVOLUTE))
         items.append(Circle(complex((o + foot) * at), 0.4, None, style.GRAY))
-        requests.append(
-            label(complex((o + foot) * at), str(step), size=style.SMALL, gap=0.5, prefer=(float(np.angle(-foot)),))
-        )
+        if step <= STEPS:
+            inward = float(np.angle(-foot))
+            requests.append(label(complex((o + foot) * at), str(step), size=style.SMALL, gap=0.5, prefer=(inward,)))
         items.append(Circle(complex((o + end) * at), 0.4, Pen(0.12), style.PAPER))
 
 
@@ -201,8 +201,8 @@ def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item
     requests.append(label(0j, Symbol("P"), gap=1.2))
     items.append(Line(-22 + 0j, 22 + 0j, style.CONSTRUCTION))
     angle = math.pi - float(pair.alpha_w)
-    items.append(Arc(0j, 18.0, angle, math.pi, style.DIMENSION))
-    requests.append(label(complex(18.0 * np.exp(1j * (angle + math.pi) / 2)), Symbol("α", "w"), gap=0.6))
+    items.append(Arc(0j, 20.0, angle, math.pi, style.DIMENSION))
+    requests.append(label(complex(20.0 * np.exp(1j * (angle + math.pi) / 2)), Symbol("α", "w"), gap=0.6))
 
 
 # --- the region of shifts ---------------------------------------------------------------------------
@@ -273,10 +273,8 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
     chosen = complex(paper(np.array([complex(*pair.x)]))[0])
     items.append(Circle(chosen, 1.0, None, style.RED))
     requests.append(label(chosen, "(", Symbol("x", "1"), "; ", Symbol("x", "2"), ")", gap=1.2))
-    requests += [
-        label(complex(frame.real, -5), Symbol("x", "1"), gap=1.0, prefer=(-math.pi / 2,)),
-        label(complex(-7, frame.imag), Symbol("x", "2"), gap=1.0, prefer=(math.pi,)),
-    ]
+    items.append(Label(complex(frame.real, -6), Symbol("x", "1"), "top-right"))
+    items.append(Label(complex(-9, frame.imag), Symbol("x", "2"), "top-right"))
     return finish(Canvas(tuple(items), tuple(requests)), margin=2.0)
 
 

@@ -21,7 +21,7 @@ from typing import ClassVar
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
-from reportgen.base.units import Language
+from reportgen.base.units import Language, by_power_of_ten
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
@@ -229,6 +229,8 @@ class _Blocks:
                 return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
+            case tree.Listing(lines):
+                return f"#listing({literal(chr(10).join(lines))})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
 
@@ -250,6 +252,8 @@ class _Blocks:
                 return f"#strong{self.content(of)}"
             case tree.InlineMath(expression, slashed):
                 return self.formula(expression, slashed)
+            case tree.Value(number) if by_power_of_ten(number.value, number.decimals):
+                return self.formula(number)
             case tree.Value(number):
                 shown = literal(written(number, self.language).text(NARROW))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"

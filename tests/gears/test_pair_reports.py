@@ -14,7 +14,7 @@ from reportgen import report as tree
 from reportgen.api import load
 from reportgen.base.words import sample
 from reportgen.cases import open_case, opened
-from reportgen.drawing import Polyline
+from reportgen.drawing import Label, Line, Polyline
 from reportgen.formula import Chain, Number, Symbol, ids, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.gears.pair_case import PairCase
@@ -140,13 +140,24 @@ def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
         points = np.array(outline.points)
         middle = (points.real.min() + points.real.max()) / 2 + 1j * (points.imag.min() + points.imag.max()) / 2
         assert 2 * np.abs(points - middle).max() == pytest.approx(tip * MM, rel=2e-2), wheel
-    mesh = next(part for part in sheet.parts if part.name == "mesh")
-    lines = [item for item in mesh.scene.items if isinstance(item, Polyline) and len(item.points) > 200]
-    assert len(lines) == 2
-    h = float(case.gears.d_a[0] - case.gears.d_f[0]) / 2 * MM
-    spread = max(np.ptp(np.array(line.points).imag) for line in lines)
-    assert spread > h
-    assert 30 <= 5 * h <= 50
+    drawn = [item for part in sheet.parts if part.layer == "profile" for item in part.scene.items]
+    (μ,) = [item.content.parts[1].shown for item in drawn if isinstance(item, Label) and is_scale(item.content)]
+    teeth = [np.array(item.points) for item in drawn if isinstance(item, Polyline) and len(item.points) > 300]
+    # Both halves of the line of centres begin at the pitch point.
+    starts = [item.start for item in drawn if isinstance(item, Line) and item.start.real == item.end.real]
+    pitch_point = max(starts, key=starts.count)
+    for points, side, d_w, d_a, d_f in zip(
+        teeth, (-1j, 1j), case.gears.d_w, case.gears.d_a, case.gears.d_f, strict=True
+    ):
+        radii = np.abs(points - pitch_point - side * d_w / 2 * MM / μ)
+        # As a ruler measures it: to a tenth of a millimetre of paper.
+        assert radii.max() == pytest.approx(d_a / 2 * MM / μ, abs=0.1)
+        assert radii.min() == pytest.approx(d_f / 2 * MM / μ, abs=0.1)
+        assert 30 <= np.ptp(radii) <= 50
+
+
+def is_scale(content: object) -> bool:
+    return isinstance(content, Chain) and isinstance(content.parts[0], Symbol) and content.parts[0].base == "μ"
 
 
 def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
