@@ -95,8 +95,7 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
         items.append(
             Circle(o, 0.7, None, style.BLACK) if abs(o) <= abs(end) else Arrow(end * 0.9, end, style.DIMENSION)
         )
-        outward = math.copysign(math.pi / 2, end.imag)
-        requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), prefer=(outward,)))
+        requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), gap=1.0, prefer=(0.0, math.pi)))
     note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM / enlarged:.6g}"), None, "mm/mm")))
     a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.number("gears.a_w")))
     notes: list[Content] = [note, a_w]
