@@ -10,6 +10,7 @@ import numpy as np
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.charts import Plotted, PlottedCurve, plotted
+from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.gears.involute import Complexes, Floats
@@ -28,6 +29,8 @@ STEPS = 4
 FLANK, LINE_OF_ACTION, ACTIVE = Pen(0.45), Pen(0.18, style.RED), Pen(0.7, style.RED)
 WORKING = Pen(0.9, style.BLUE)
 INVOLUTE = Pen(0.12, style.GRAY)
+BEYOND = 6.0
+"""Its construction is shown so far around the teeth (mm)."""
 CIRCLES = (
     ("d_a", style.THIN),
     ("d_w", Pen(0.2, style.BLUE, style.CHAIN)),
@@ -85,7 +88,7 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
     for number in (0, 1):
         _circles(case, number, at, (low, high), items, requests)
         items += [Polyline(tuple(points * at), FLANK) for points in outlines[number]]
-        _construction(pair, number, at, items, requests)
+        _construction(pair, number, at, (low, high), items, requests)
         items += _working_flank(pair, number, at_pitch, at)
     _line_of_action(pair, at, with_ends, items, requests)
     for number, end in enumerate((complex(0, low.imag - 8), complex(0, high.imag + 8))):
@@ -144,27 +147,32 @@ def _circles(
         )
 
 
-def _construction(pair: GearPair, number: int, at: float, items: list[Item], requests: list[Request]) -> None:
-    """The involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their ends."""
+def _construction(
+    pair: GearPair, number: int, at: float, box: tuple[complex, complex], items: list[Item], requests: list[Request]
+) -> None:
+    """The involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their ends.
+
+    Of a large wheel no more than lies in the box of the teeth.
+    """
+    low, high = box[0] - BEYOND * (1 + 1j), box[1] + BEYOND * (1 + 1j)
     o, r_b = centre(pair, number), float(pair.d_b[number]) / 2
     α_w = float(pair.alpha_w)
     to_n = (1j, -1j)[number] * np.exp(-1j * α_w)
     whole = r_b * math.tan(α_w)
     reach = math.sqrt(float(pair.d_a[number]) ** 2 / 4 - r_b**2)
-    for step in range(math.ceil(reach / whole * STEPS - 1e-9) + 1):
+    for step in range(math.floor(reach / whole * STEPS) + 1):
         rolled = whole * step / STEPS
         foot = to_n * np.exp(1j * (whole - rolled) / r_b) * r_b
         # The string that is unwound lies on the tangent, back to where the involute began on the base circle.
-        end = foot + foot / r_b * 1j * rolled
-        if rolled > reach:
-            continue
-        if step:
-            items.append(Line(complex((o + foot) * at), complex((o + end) * at), INVOLUTE))
-        items.append(Circle(complex((o + foot) * at), 0.4, None, style.GRAY))
-        if step <= STEPS:
-            inward = float(np.angle(-foot))
-            requests.append(label(complex((o + foot) * at), str(step), size=style.SMALL, gap=0.5, prefer=(inward,)))
-        items.append(Circle(complex((o + end) * at), 0.4, Pen(0.12), style.PAPER))
+        start, end = complex((o + foot) * at), complex((o + foot + foot / r_b * 1j * rolled) * at)
+        if step and (shown := clipped(start, end, low, high)):
+            items.append(Line(*shown, INVOLUTE))
+        if all(low.real <= p.real <= high.real and low.imag <= p.imag <= high.imag for p in (start, end)):
+            items.append(Circle(start, 0.4, None, style.GRAY))
+            items.append(Circle(end, 0.4, Pen(0.12), style.PAPER))
+            if step <= STEPS:
+                inward = float(np.angle(-foot))
+                requests.append(label(start, str(step), size=style.SMALL, gap=0.5, prefer=(inward,)))
 
 
 def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Iterator[Item]:

@@ -156,6 +156,20 @@ def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
         assert 30 <= np.ptp(radii) <= 50
 
 
+@pytest.mark.parametrize("parameters", ["m: 2 mm, z1: 100, z2: 250", "m: 10 mm, z1: 20, z2: 20, by: x_min"])
+def test_large_wheels_stay_on_the_page(parameters: str, tmp_path: Path) -> None:
+    path = tmp_path / "pair.yaml"
+    path.write_text(f"kind: gear-pair\nparameters: {{{parameters}}}\n", encoding="utf-8")
+    case = open_case(path, "en")
+    figures = [block for block in case.document().blocks if isinstance(block, tree.Figure)]
+    assert len(figures) == 3
+    for figure in figures:
+        for scene in figure.scenes:
+            assert scene.width <= 170
+            assert scene.height <= 240
+    assert case.sheets()
+
+
 def is_scale(content: object) -> bool:
     return isinstance(content, Chain) and isinstance(content.parts[0], Symbol) and content.parts[0].base == "μ"
 
