@@ -29,7 +29,9 @@ SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
 """A part of the text of the page of the Word file."""
 
 SHOWN = {
-    name: ROOT / "assignments" / name / file for name, file in (("plane-motion", "17.yaml"), ("cam", "roller-01.yaml"))
+    "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
+    "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
+    "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
@@ -65,8 +67,8 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion")
-"""The figure that shows a machine, the system of an exercise, or a cam."""
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion", "fig.mesh")
+"""The figure that shows a machine, the system of an exercise, a cam, or gears in mesh."""
 
 
 def scheme_alone(report: Document) -> Document:

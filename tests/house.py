@@ -257,15 +257,15 @@ def _called(call: ast.Call) -> str:
 
 
 LIMITS: Mapping[Callable[[House], Counted], int] = {
-    rooms: 21,
+    rooms: 22,
     floors: 11,
-    arrows: 110,
+    arrows: 118,
     arrows_back_up: 0,
     circles: 0,
-    modules: 182,
+    modules: 190,
     longest_module: 500,
-    lines_of_code: 37090,
-    template_files: 57,
+    lines_of_code: 38800,
+    template_files: 59,
     words_of_architecture: 1500,
     ids_by_f_string: 0,
     class_names_twice: 0,

@@ -244,6 +244,8 @@ tan: OfOne = partial(call, "tan")
 asin: OfOne = partial(call, "arcsin")
 acos: OfOne = partial(call, "arccos")
 atan: OfOne = partial(call, "arctan")
+inv: OfOne = partial(call, "inv")
+arcinv: OfOne = partial(call, "arcinv")
 
 
 def signed(sense: float, of: Expression) -> Expression:

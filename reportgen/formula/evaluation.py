@@ -91,6 +91,25 @@ def heading(vector: Value) -> Value:
     return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
 
 
+def inv(angle: Value) -> Value:
+    """The involute of an angle (rad): inv α = tan α − α."""
+    return np.tan(angle) - angle
+
+
+def arcinv(value: Value) -> Value:
+    """The angle α (rad) of which inv α is the value, `nan` below 0.
+
+    inv is convex and both α³/3 and tan α − π/2 lie below it, so Newton's way from the lesser of their angles goes down.
+    """
+    value = np.asarray(value, float)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        value = np.where(value < 0, np.nan, value)
+        angle = np.minimum(np.cbrt(3 * value), np.arctan(value + np.pi / 2))
+        for _ in range(8):
+            angle = np.where(angle > 0, angle - (inv(angle) - value) / np.tan(angle) ** 2, angle)
+    return angle
+
+
 FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "sin": np.sin,
     "cos": np.cos,
@@ -126,6 +145,8 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "branch": branch,
     "around": around,
     "amid": amid,
+    "inv": inv,
+    "arcinv": arcinv,
 }
 """What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
 

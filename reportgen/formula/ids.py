@@ -23,6 +23,7 @@ from functools import cached_property
 PLACES: Mapping[str, str] = {
     # links and the forces between them
     "link": r"\d+",
+    "wheel": r"\d",
     "number": r"\d+",
     "slider": r"\d|[A-Z][^.]*",
     "group": r"\d[\d,]*",
@@ -260,6 +261,10 @@ cam_scale = Name("cam.mu.{quantity}")
 cam_bend = Name("cam.m.{number}")
 cam_pitch = Name("cam.pitch.{axis}")
 cam_profile = Name("cam.profile.{axis}")
+
+# --- gears
+
+gear = Name("gears.{quantity}.{wheel}")
 
 # --- a word before the id of another quantity
 

@@ -37,6 +37,8 @@ RELATION, SUM, PRODUCT, QUOTIENT, MARKED, ATOM = range(6)
 PRIMES = "′″"
 NAMED = frozenset({"sin", "cos", "tan", "arcsin", "arccos", "arctan", "min", "max", "arg"})
 """Functions that typesetters know by name; any other prints its own name upright."""
+BARE = NAMED | {"inv", "arcinv"}
+"""Functions whose argument needs no parentheses."""
 UNSPACED = ("", "°", "%")
 """Units that follow their number without a space."""
 NARROW = "\N{NARROW NO-BREAK SPACE}"
@@ -206,7 +208,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
         return (MINUS, tight(term.of, PRODUCT)) if isinstance(term, Negative) else (PLUS, tight(term, PRODUCT))
 
     def applied(name: str, arguments: Sequence[Expression], exponent: Part | None) -> Function:
-        if len(arguments) == 1 and name in NAMED and level(arguments[0]) >= MARKED and not linear:
+        if len(arguments) == 1 and name in BARE and level(arguments[0]) >= MARKED and not linear:
             return Function(name, exponent, of(arguments[0]))
         # A comma is the decimal mark in Vietnamese.
         mark = Sign(";" if language == "vi" else ",", "separator")

@@ -64,6 +64,10 @@ KINDS: dict[str, QuantityKind] = {
     "graph value": QuantityKind("", decimals=5),
     "swing": QuantityKind("°", math.pi / 180, decimals=4),
     "arc": QuantityKind("rad", digits=6),
+    "gear length": QuantityKind("mm", 1e-3, decimals=3),
+    "gear number": QuantityKind("", decimals=4),
+    "gear angle": QuantityKind("°", math.pi / 180, decimals=4),
+    "involute": QuantityKind("", decimals=7),
     "length scale": QuantityKind("m/mm", 1e3, digits=6),
     "velocity scale": QuantityKind("m/(s·mm)", 1e3, digits=6),
     "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=6),
@@ -365,6 +369,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.cam_bend, "m", "cam length", _A, name="cam bend"),
     VocabularyRow(Name("cam.rho"), "ρ", "cam length", _A),
     VocabularyRow(Name("cam.rho.working"), "ρ", "cam length", _A, below="K"),
+    # gears: all are named on their sheet
+    VocabularyRow(ids.gear, name="gear {quantity}"),
     # the cycle
     VocabularyRow(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
     VocabularyRow(Name("W"), "W", "work"),
@@ -438,7 +444,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
         "plan": shown.sub.removeprefix("R"),
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
-    name = f"{found.name}.{parts['part']}" if found.letter and parts.get("part") else found.name
+    name = f"{found.name}.{parts['part']}" if found.letter and parts.get("part") else found.name.format(**parts)
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 

@@ -213,6 +213,10 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
             "follower": {name: value * MM for name, value in position.get("follower", {}).items()},
             "swing": dict(position.get("swing", {})),
             "profile": _profile(position),
+            "contact": {
+                name: value * MM if name.startswith("rho") else value
+                for name, value in position.get("contact", {}).items()
+            },
         }
         for name, row in rows.items():
             if row:

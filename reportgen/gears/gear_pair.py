@@ -1,0 +1,183 @@
+"""The kind `gear-pair`: its file, which pairs cannot be, and what of one is hardly meant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import TYPE_CHECKING, Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from reportgen.assignment.common import Part, of_parameters
+from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Whole, quantity
+from reportgen.base.errors import Finding
+from reportgen.base.units import MM, Given
+from reportgen.gears.involute import Rack
+from reportgen.gears.pair import Chosen, GearPair, NoPairError, PairLimits, choose
+
+if TYPE_CHECKING:
+    from reportgen.assignment import Assignment
+    from reportgen.gears.pair_case import PairCase
+
+TURNS = 1
+HAS_POSITIONS = False
+TOP = ("parameters",)
+FIND = "find"
+
+
+def case(assignment: Assignment) -> PairCase:
+    """The case of an assignment."""
+    from reportgen.gears.pair_case import PairCase
+
+    return PairCase(assignment)
+
+
+# --- the file -------------------------------------------------------------------------------------
+
+
+class SoughtDistance(Reader):
+    """A centre distance, or `find` (None)."""
+
+    given: Quantity = quantity("mm", least=1, below=1e5)
+
+    def read(self, value: object) -> Given | None:
+        return None if value == FIND else self.given.read(value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [{"const": FIND}, self.given.schema()]}
+
+
+Shift = Annotated[float, Decimal(Interval(least=-3, most=3))]
+Teeth = Annotated[int, Whole(5, 300)]
+
+
+class Shifts(Part):
+    """Both shifts; the second follows where the centre distance is given."""
+
+    x1: Shift
+    x2: Shift | None = None
+
+
+class LimitsOfPair(Part):
+    """What a pair is held to."""
+
+    epsilon: Annotated[float, Decimal(Interval(least=1, most=2))] = 1.2
+    tip: Annotated[float, Decimal(Interval(least=0, most=1))] = 0.25
+    sliding: Annotated[float, Decimal(Interval(least=0.1, most=20))] | None = None
+
+
+class Parameters(Part):
+    """A pair of external spur gears; `find` stands where shifts or the centre distance are sought."""
+
+    m: Annotated[Given, quantity("mm", least=0.1, most=100)]
+    z1: Teeth
+    z2: Teeth
+    shifts: Literal["find"] | Shifts = "find"
+    by: Literal["x_min", "equal-sliding"] = "equal-sliding"
+    a_w: Annotated[Given | None, SoughtDistance()] = None
+    alpha: Annotated[Given, quantity("deg", least=10, most=35)] = Given(math.radians(20), 20.0, "deg", "20 deg")
+    ha: Annotated[float, Decimal(Interval(least=0.3, most=1.5))] = 1.0
+    c: Annotated[float, Decimal(Interval(least=0.05, most=0.5))] = 0.25
+    limits: LimitsOfPair = Field(default_factory=LimitsOfPair)
+
+    @property
+    def chosen(self) -> Chosen:
+        """The pair, its shifts found; raises `NoPairError` where there are none."""
+        return _chosen(self)
+
+
+@lru_cache(maxsize=64)
+def _chosen(given: Parameters) -> Chosen:
+    told = given.shifts if isinstance(given.shifts, Shifts) else None
+    blank = GearPair(Rack(given.alpha.si, given.ha, given.c), given.m.si, (given.z1, given.z2), np.zeros(2))
+    limits = PairLimits(given.limits.epsilon, given.limits.tip, given.limits.sliding)
+    rule = "given" if told else given.by
+    a_w = None if given.a_w is None else given.a_w.si
+    return choose(blank, limits, rule, a_w, None if told is None else (told.x1, told.x2))
+
+
+# --- what cannot be -------------------------------------------------------------------------------
+
+
+def _keys(given: Parameters) -> Iterator[Finding]:
+    """Two of both shifts and the centre distance are given at most, and a rule only for shifts that are sought."""
+    if isinstance(given.shifts, Shifts):
+        if given.a_w is None and given.shifts.x2 is None:
+            yield Finding("missing-key", (*TOP, "shifts", "x2"), {"key": "x2"})
+        if given.a_w is not None and given.shifts.x2 is not None:
+            yield Finding("gear-twice", (*TOP, "shifts", "x2"), at="key")
+        if "by" in given.model_fields_set:
+            yield Finding("gear-idle-by", (*TOP, "by"), at="key")
+    rack = Rack(given.alpha.si, given.ha, given.c)
+    if rack.land < 0:
+        # The rounding may be as large as what is left of the tip.
+        room = math.pi / 4 - given.ha * math.tan(rack.alpha)
+        most = room * (1 - math.sin(rack.alpha)) / math.cos(rack.alpha)
+        told = {"c": f"{given.c:g}", "most": f"{math.floor(most * 1000) / 1000:g}"}
+        yield Finding("gear-rack" if most >= 0.05 else "gear-rack-pointed", (*TOP, "c"), told)
+
+
+def _mesh(given: Parameters) -> Iterator[Finding]:
+    """A pair that can be drawn: its base circles apart, its teeth not beyond their point, contact between N₁ and N₂."""
+    key = "shifts" if isinstance(given.shifts, Shifts) else "by" if given.a_w is None else "a_w"
+    where = (*TOP, key) if key in given.model_fields_set else TOP
+    try:
+        pair = given.chosen.pair
+    except NoPairError as error:
+        at = (*TOP, "a_w") if given.a_w is not None else where
+        base = f"{pair_base(given) * MM:.3f}"
+        yield Finding(
+            error.code, at, {"base": base, "epsilon": f"{given.limits.epsilon:g}", "tip": f"{given.limits.tip:g}"}
+        )
+        return
+    if not np.isfinite(pair.alpha_w) or pair.alpha_w <= 0:
+        yield Finding("gear-no-mesh", where, {"sum": f"{pair.x.sum():g}"})
+        return
+    for i in (0, 1):
+        told = {"wheel": str(i + 1), "x": f"{pair.x[i]:.4g}"}
+        if pair.d_f[i] <= 0 or pair.d_a[i] <= pair.d_f[i]:
+            yield Finding("gear-no-teeth", where, told)
+        elif not pair.s_a[i] >= 0:
+            yield Finding("gear-beyond-point", where, told)
+        elif pair.rho_p[i] <= 0:
+            yield Finding("gear-beyond-line", where, told | {"mate": str(2 - i), "x_min": f"{pair.x_min[i]:.3f}"})
+
+
+def pair_base(given: Parameters) -> float:
+    """The sum of the base radii (m), which the centre distance passes."""
+    return given.m.si * (given.z1 + given.z2) / 2 * math.cos(given.alpha.si)
+
+
+def check(given: Parameters) -> Iterator[Finding]:
+    """Keys first, then what the pair comes to."""
+    found = list(_keys(given))
+    yield from found or _mesh(given)
+
+
+CHECKS = (of_parameters(check),)
+
+
+# --- what is hardly meant -------------------------------------------------------------------------
+
+
+def physics(assignment: Assignment) -> Iterator[Finding]:
+    """Undercut, thin tips, interference, too small a contact ratio, too much sliding: by how much, and what helps."""
+    given: Parameters = assignment.parameters
+    shifts = (*TOP, "shifts") if "shifts" in given.model_fields_set else TOP
+    for name, wheel, actual, limit in given.chosen.broken():
+        # Radii of curvature are lengths (m).
+        scale = MM if name == "interference" else 1.0
+        told = {
+            "wheel": str(wheel),
+            "mate": str(3 - wheel),
+            "is": f"{actual * scale:.3f}",
+            "limit": f"{limit * scale:.3f}",
+        }
+        at = {1: ("x1",), 2: ("x2",)}.get(wheel, ()) if isinstance(given.shifts, Shifts) and name == "undercut" else ()
+        at = at if at and getattr(given.shifts, at[0]) is not None else ()
+        yield Finding(f"gear-{name}", (*shifts, *at), told)
+
+
+WARNINGS = (physics,)

@@ -1,0 +1,154 @@
+"""A spur wheel as a rack cuts it: its circles, the involute flank, and the fillet that the rack's rounded tip leaves.
+
+Points are complex, in metres, about the wheel's centre; the middle of a tooth lies on the real axis.  The rack's datum
+line runs x m outside the reference circle, on which its pitch line rolls without slip: whatever point of the rack cuts,
+its normal passes through the pitch point.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.formula.evaluation import inv
+
+Floats = np.ndarray
+Complexes = np.ndarray
+
+CHORD = 1e-6
+"""How far a polyline of a profile may lie from it (m)."""
+SPREAD, CURVED = 1.5, 6.0
+"""A fillet turns by less than this (rad), and its radius of curvature is less than so many modules."""
+
+
+def crossing(function: Callable[[float], float], low: float, high: float) -> float:
+    """Where a function that is below 0 at `low` and above at `high` is 0, to the last bit: the interval is halved."""
+    while low != (middle := (low + high) / 2) and middle != high:
+        low, high = (middle, high) if function(middle) < 0 else (low, middle)
+    return middle
+
+
+@dataclass(frozen=True)
+class Rack:
+    """The basic rack: profile angle (rad), addendum and bottom clearance as multiples of the module."""
+
+    alpha: float
+    ha: float = 1.0
+    c: float = 0.25
+
+    @property
+    def rounding(self) -> float:
+        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α), which ends where the addendum does."""
+        return self.c / (1 - math.sin(self.alpha))
+
+    @property
+    def land(self) -> float:
+        """Half the flat of its tip; negative where the rounding has no room."""
+        return math.pi / 4 - self.ha * math.tan(self.alpha) - self.rounding * math.cos(self.alpha)
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """A wheel of `z` teeth of module `m` (m), cut by a rack shifted by x m, its tips turned to the radius `r_a` (m)."""
+
+    rack: Rack
+    m: float
+    z: int
+    x: float
+    r_a: float
+
+    @property
+    def r(self) -> float:
+        return self.m * self.z / 2
+
+    @property
+    def r_b(self) -> float:
+        return self.r * math.cos(self.rack.alpha)
+
+    @property
+    def r_f(self) -> float:
+        return self.r - self.m * (self.rack.ha + self.rack.c - self.x)
+
+    @property
+    def pitch(self) -> float:
+        """The angle of a tooth with its space."""
+        return 2 * math.pi / self.z
+
+    # --- the flank
+
+    def half_angle(self, r: Floats) -> Floats:
+        """Half the angle of a tooth at radii [...]: s/d + inv α − inv α_r."""
+        α, x = self.rack.alpha, self.x
+        reference = (math.pi / 2 + 2 * x * math.tan(α)) / self.z
+        at = np.arccos(np.minimum(self.r_b / np.asarray(r), 1.0))
+        return np.asarray(reference + inv(α) - inv(at))
+
+    def flank(self, r: Floats) -> Complexes:
+        """Points of the flank on the left of the tooth at radii [...]."""
+        return np.asarray(r * np.exp(1j * self.half_angle(r)))
+
+    # --- the fillet
+
+    def fillet(self, ψ: Floats) -> Complexes:
+        """Points that the rack's rounding cuts where its outward normal has the direction ψ, from −π/2 to −α.
+
+        The normal through the centre of the rounding, y below the pitch line, passes through the pitch point:
+        their distance is y/sin ψ.
+        """
+        m, r, ρ = self.m, self.r, self.m * self.rack.rounding
+        y = m * (self.x - self.rack.ha - self.rack.c) + ρ
+        distance = y / np.sin(ψ)
+        rolled = distance * np.cos(ψ) - m * self.rack.land
+        cut = 1j * r + (distance + ρ) * np.exp(1j * np.asarray(ψ))
+        # From the middle of a space, up, to the middle of a tooth, on the real axis.
+        return np.asarray(cut * np.exp(1j * (rolled / r + self.pitch / 2 - math.pi / 2)))
+
+    @cached_property
+    def join(self) -> tuple[float, float]:
+        """Where fillet and flank meet: the direction ψ and the radius; they touch unless the tooth is undercut."""
+        α, m = self.rack.alpha, self.m
+        along = self.r * math.sin(α) - (self.rack.ha - self.x) * m / math.sin(α)
+        if along >= 0:
+            return -α, math.hypot(self.r_b, along)
+
+        def beyond(ψ: float) -> float:
+            cut = complex(self.fillet(np.array(ψ)))
+            return float(np.angle(cut) - self.half_angle(np.array(abs(cut))))
+
+        base = crossing(lambda ψ: abs(complex(self.fillet(np.array(ψ)))) - self.r_b, -math.pi / 2, -α)
+        ψ = crossing(beyond, base, -α)
+        return ψ, float(abs(self.fillet(np.array(ψ))))
+
+    @property
+    def undercut(self) -> bool:
+        return self.join[0] != -self.rack.alpha
+
+    # --- a tooth, the wheel
+
+    def side(self, chord: float = CHORD) -> tuple[Complexes, Complexes]:
+        """The fillet from the root circle, and the flank from there to the tip, no chord farther than `chord` off."""
+        ψ, start = self.join
+        steps = math.ceil(SPREAD * math.sqrt(CURVED * self.m / (8 * chord)))
+        fillet = self.fillet(np.linspace(-math.pi / 2, ψ, steps + 1))
+        # Even steps of the angle of roll: ds = ρ dt, and a chord is ρ dt²/8 off.
+        low, high = (math.sqrt(max(r**2 - self.r_b**2, 0.0)) / self.r_b for r in (start, self.r_a))
+        steps = math.ceil((high - low) / math.sqrt(8 * chord / (self.r_b * high)))
+        return fillet, self.flank(self.r_b * np.hypot(1.0, np.linspace(low, high, steps + 1)))
+
+    def tooth(self, chord: float = CHORD) -> Complexes:
+        """A tooth clockwise, from the middle of the space on its left to that on its right."""
+        fillet, flank = self.side(chord)
+        steps = max(math.ceil(self.pitch * math.sqrt(self.r_a / (8 * chord)) / 2), 2)
+        root = self.r_f * np.exp(1j * np.linspace(self.pitch / 2, np.angle(fillet[0]), steps))
+        tip = self.r_a * np.exp(1j * np.linspace(np.angle(flank[-1]), 0.0, steps))
+        left = np.concatenate((root[:-1], fillet[:-1], flank[:-1], tip))
+        return np.concatenate((left, left[-2::-1].conjugate()))
+
+    def outline(self, chord: float = CHORD) -> Complexes:
+        """All teeth, clockwise, as a closed polyline."""
+        turns = np.exp(-1j * self.pitch * np.arange(self.z))
+        return np.asarray((turns[:, None] * self.tooth(chord)[:-1]).ravel())

@@ -1,0 +1,241 @@
+"""A gear pair as a case: its documents, key, results, the page on which it turns, and its drawing sheets."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen.base.units import MM
+from reportgen.drawing import Circle, Content, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.film import (
+    BarScale,
+    Carried,
+    Errors,
+    Film,
+    MomentValue,
+    MovingItem,
+    MovingName,
+    Stage,
+    Still,
+    Track,
+    extent,
+)
+from reportgen.drawing.sheet import ENLARGED, DrawingSheet, PlacedScene, grid, lettered
+from reportgen.formula import Symbol, ids, vocabulary
+from reportgen.formula.plain import formula
+from reportgen.formula.sheet import Family
+from reportgen.gears import pair_views as views
+from reportgen.gears.involute import Floats
+from reportgen.gears.pair import GearPair
+from reportgen.gears.pair_drawings import FLANK, centre, mesh, on_line, region, sliding, turned
+from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.report import Document, InlineMath, Inlines, Value
+from reportgen.report.case import Key, Span
+from reportgen.sheets import on_sheets
+from reportgen.sheets.packing import DrawingPlate
+
+
+@dataclass(frozen=True)
+class PairCase(SolvedPair):
+    """A gear pair, as a `Case`."""
+
+    @property
+    def families(self) -> Mapping[str, Family]:
+        return self.ledger.families
+
+    @property
+    def positions_of_a_turn(self) -> int:
+        return self.count
+
+    @property
+    def balance(self) -> None:
+        """It has no forces."""
+
+    @property
+    def speed(self) -> None:
+        """It has no speed."""
+
+    def fault(self) -> str:
+        return "gear-limits" if any(self.chosen.broken()) else ""
+
+    def document(self) -> Document:
+        return self.bounded(views.report)
+
+    def key(self) -> Key:
+        from reportgen.marking.key import make_key
+
+        labels = tuple(map(str, range(1, self.count + 1)))
+        return make_key(self, self.ledger, self.printed, Span(labels, self.count, self.worked), self._sense)
+
+    def _sense(self, id: str) -> str:
+        family = self.ledger[id]
+        return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
+
+    def task(self, key: Key, by_section: bool = False) -> Document:
+        return self.bounded(partial(views.task, key=key, by_section=by_section))
+
+    def results(self) -> dict[str, Any]:
+        """The pair and its wheels, then contact and sliding along the active path, from its beginning on."""
+        from reportgen.marking.results import results
+
+        ledger = self.ledger
+        own = sorted({parts["quantity"] for id in ledger.families if (parts := ids.gear.read(id))})
+        single = [one for one in own if len(ledger[ids.gear(one, 1)].values) == 1]
+        wheels = [{one: float(ledger[ids.gear(one, wheel)].values[0]) for one in single} for wheel in WHEELS]
+        pair = {
+            id.removeprefix("gears."): float(family.values[0])
+            for id, family in ledger.families.items()
+            if not ids.gear.read(id) and len(family.values) == 1
+        }
+        along = ("rho.1", "rho.2", "lambda.1", "lambda.2")
+        positions = [
+            {"number": k + 1, "contact": {one: float(ledger[f"gears.{one}"].values[k]) for one in along}}
+            for k in range(self.count)
+        ]
+        broken = [{"check": name, "wheel": wheel} for name, wheel, _, _ in self.chosen.broken()]
+        return results(self, positions, pair=pair, wheels=wheels, broken=broken)
+
+    def film(self) -> Film:
+        return _film(self)
+
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its plates on a sheet, and each wheel in true size; there are no sets of them to choose from."""
+        return [*on_sheets(self, {"pair": list(_plates(self))}, size, block), *(_true_size(self, i) for i in (0, 1))]
+
+
+# --- the page on which it turns ---------------------------------------------------------------------
+
+SAMPLES = 720
+FILM_ROOM = 120 + 110j
+"""What both wheels may fill (mm)."""
+NEAR_ROOM, PITCHES = 90.0, 4.0
+"""The mesh from near: so wide (mm), with so many pitches across."""
+SHARP = 0.02
+"""How far their polylines may be off there (mm)."""
+
+
+def _film(case: PairCase) -> Film:
+    """Both wheels through a turn of wheel 1, from contact at the pitch point, and their mesh from near."""
+    pair = case.gears
+    φ = np.linspace(0, 2 * math.pi, SAMPLES + 1)
+    size = complex(pair.d_a.max(), float(pair.a_w) + pair.d_a.sum() / 2) * MM
+    at = MM / max(size.real / FILM_ROOM.real, size.imag / FILM_ROOM.imag)
+    whole, touching = _moving(pair, φ, at)
+    low, high = extent(whole)
+    near = NEAR_ROOM / (PITCHES * math.pi * pair.m)
+    half = NEAR_ROOM / 2 * (1 + 0.8j)
+    stages = [Stage("pair", case.title, tuple(whole), low=low, high=high, scales=(BarScale(1 / at, "segment"),))]
+    if near > at:
+        close, _ = _moving(pair, φ, near)
+        scale = BarScale(1 / near, "segment")
+        stages.append(
+            Stage("mesh", str(case.words["pair"]["near"]), tuple(close), low=-half, high=half, scales=(scale,))
+        )
+    ratio = pair.teeth[0] / pair.teeth[1]
+    return Film(
+        knots=np.degrees(φ),
+        turns=1,
+        span=0.0,
+        positions=(("1", 0.0),),
+        shown=0,
+        stages=tuple(stages),
+        charts=(),
+        values=(
+            MomentValue(Symbol("φ", "2"), "°", Track(np.degrees(ratio * φ)), 2),
+            MomentValue(str(case.words["pair"]["touching"]), "", Track(touching), 0),
+        ),
+        # Angles and the way along the line of action are straight over a turn: nothing is lost between samples.
+        errors=Errors(SHARP, float(pair.d_w[0]) / 2 * at, 0.0),
+    )
+
+
+def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Floats]:
+    """Wheels, line of action and points of contact, so many mm of paper a metre; and how many pairs touch."""
+    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    ratio = pair.teeth[0] / pair.teeth[1]
+    items: list[MovingItem] = []
+    for number, turns in ((0, φ), (1, -ratio * φ)):
+        o, wheel = centre(pair, number) * at, pair.wheel(number)
+        mark = Line(0j, 0.8 * wheel.r_f * at + 0j, style.THIN)
+        body = Polyline(tuple(wheel.outline(SHARP / at) * at), FLANK, closed=True, fill=style.TINT)
+        place = Track(np.array([o]))
+        items += [
+            Carried((body, mark), place, Track(turned(pair, number, at_pitch) + turns)),
+            Still((Circle(o, float(pair.d_w[number]) / 2 * at, style.THIN), *style.pivot(o))),
+            MovingName(Symbol("O", str(number + 1)), place, (Track(np.array([o - 5j])),), 1.6),
+        ]
+    ends = [on_line(pair, rolled) * at for rolled in (0.0, float(pair.path))]
+    items.append(Still((Line(ends[0], ends[1], style.NORMAL),)))
+    start, end = float(pair.rho_p[0]), float(pair.rho_a[0])
+    slots = math.ceil(float(pair.epsilon))
+    touching = np.zeros(φ.size)
+    for slot in range(slots):
+        # Each of so many teeth is in contact on the active path, and out of it for the rest of its period.
+        along = np.mod(float(pair.d_b[0]) / 2 * φ + at_pitch - start + slot * pair.p_b, slots * pair.p_b)
+        touching += along <= end - start
+        places = np.array([on_line(pair, start + one) * at for one in along])
+        shown = Track(np.where(along <= end - start, places, complex(np.nan, np.nan)))
+        items.append(Carried((Circle(0j, 0.8, None, style.RED),), shown))
+    return items, touching
+
+
+# --- drawing sheets ---------------------------------------------------------------------------------
+
+SHEET_ROOM = 180 + 150j
+"""What the mesh may fill before it is enlarged as all figures of sheets (mm)."""
+SHIFTS = 72 + 64j
+"""The diagram of shifts, likewise."""
+MARGIN = 15.0
+"""White around a wheel in true size (mm)."""
+AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))
+
+
+def _plates(case: PairCase) -> Iterator[DrawingPlate]:
+    """The mesh, the curves, the tables."""
+    captions, page = case.words["pair"]["captions"], views.PairPage(case)
+    scenes = (
+        ("figure-mesh", "profile", mesh(case, SHEET_ROOM, ENLARGED)),
+        ("figure-sliding", "curves", sliding(case, half=True).scene),
+        ("figure-region", "scheme", region(case, SHIFTS)),
+    )
+    for name, layer, scene in scenes:
+        yield DrawingPlate(str(captions[name]), (), layer, (lettered(scene),))
+    for name, table in (("pair", page.pair_table), ("checks", page.checks)):
+        cells = [[_content(case, cell.inlines) for cell in row] for row in (*table.head, *table.rows)]
+        yield DrawingPlate(str(captions[name]), (), "tables", (lettered(grid(cells[:1], cells[1:])),))
+
+
+def _true_size(case: PairCase, number: int) -> DrawingSheet:
+    """A wheel 1:1 with its axes, a tooth upright, on paper as large as it needs."""
+    outline = case.gears.wheel(number).outline() * 1j * MM
+    half = math.ceil(float(np.abs(outline).max()) + MARGIN)
+    middle, size = half * (1 + 1j), 2.0 * half
+    axes = (Line(1j * half, size + 1j * half, AXES), Line(half + 0j, half + 1j * size, AXES))
+    profile = Polyline(tuple(outline + middle), style.HEAVY, closed=True, smooth=True)
+    parts = (
+        PlacedScene("axes", "axes", Scene(size, size, axes)),
+        PlacedScene("profile", "profile", Scene(size, size, (profile,))),
+    )
+    return DrawingSheet(f"1:1 ({WHEELS[number]})", size, size, parts)
+
+
+def _content(case: PairCase, inlines: Inlines) -> Content:
+    """What stands in a cell, as a label has it."""
+    match inlines:
+        case (InlineMath(expression),):
+            return expression
+        case (Value(number),):
+            return number
+        case _:
+            return "".join(
+                formula(one.number, case.assignment.language) if isinstance(one, Value) else getattr(one, "text", "")
+                for one in inlines
+            )

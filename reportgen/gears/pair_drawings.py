@@ -1,0 +1,344 @@
+"""Drawings of a gear pair: teeth in mesh true to scale, the region of shifts, specific sliding."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from reportgen.base.units import MM, nice_up
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.charts import Plotted, PlottedCurve, plotted
+from reportgen.drawing.geometry import clipped
+from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.gears.involute import Complexes, Floats
+from reportgen.gears.pair import GearPair
+from reportgen.gears.pair_solution import WHEELS, SolvedPair
+
+MESH_ROOM = 150 + 168j
+"""What the drawing of the mesh may fill on a page (mm)."""
+SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
+HIGHEST, LEAST_WITH_ENDS = 50.0, 20.0
+"""A tooth is no higher on paper (mm), and both ends of the line of action are shown where it is at least so high."""
+SHOWN = (-1, 0, 1)
+"""The teeth of each wheel that are drawn, from the one whose flank touches at the pitch point."""
+STEPS = 4
+"""The involutes are constructed by so many points."""
+FLANK, LINE_OF_ACTION, ACTIVE = Pen(0.45), Pen(0.18, style.RED), Pen(0.7, style.RED)
+WORKING = Pen(0.9, style.BLUE)
+INVOLUTE = Pen(0.12, style.GRAY)
+BEYOND = 6.0
+"""Its construction is shown so far around the teeth (mm)."""
+CIRCLES = (
+    ("d_a", style.THIN),
+    ("d_w", Pen(0.2, style.BLUE, style.CHAIN)),
+    ("d", style.AXIS),
+    ("d_b", Pen(0.18, style.GRAY, style.DASHED)),
+    ("d_f", style.THIN),
+)
+LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
+
+
+# --- the mesh -------------------------------------------------------------------------------------
+
+
+def turned(pair: GearPair, number: int, rolled: float) -> float:
+    """By how much a wheel (0 or 1) is turned, whose middle tooth touches where wheel 1's flank has rolled so far (m).
+
+    Wheel 1 stands below, wheel 2 above it; wheel 1 turns anticlockwise and drives with its left flanks.
+    """
+    first, second = pair.wheel(0), pair.wheel(1)
+    base = float(first.half_angle(np.array(first.r_b)))
+    angle = rolled / first.r_b - float(pair.alpha_w) - base
+    if number == 0:
+        return math.pi / 2 + angle
+    return -math.pi / 2 - second.pitch / 2 - angle * first.z / second.z
+
+
+def centre(pair: GearPair, number: int) -> complex:
+    """The centre of a wheel, the pitch point at 0."""
+    return (-1j, 1j)[number] * float(pair.d_w[number]) / 2
+
+
+def on_line(pair: GearPair, rolled: float) -> complex:
+    """The point of the line of action so far (m) from N₁, the pitch point at 0."""
+    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair.alpha_w))))
+
+
+def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> Scene:
+    """Three teeth of each wheel touching at the pitch point, built as by hand."""
+    pair = case.gears
+    ends = [on_line(pair, 0.0), on_line(pair, float(pair.path))]
+    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
+    drawn = np.concatenate([points for teeth in outlines for points in teeth])
+    height = float(case.ledger["gears.h"].values[0])
+    scale = _fitting([*drawn, *ends], room, enlarged)
+    with_ends = height / scale * enlarged >= LEAST_WITH_ENDS
+    if not with_ends:
+        scale = _fitting(list(drawn), room, enlarged)
+    scale = max(scale, nice_up(height * MM / HIGHEST, SCALES) * enlarged / MM)
+    at = 1 / scale
+    low, high = _corners(np.append(drawn, ends) * at if with_ends else drawn * at)
+    items: list[Item] = []
+    requests: list[Request] = []
+    for number in (0, 1):
+        _circles(case, number, at, (low, high), items, requests)
+        items += [Polyline(tuple(points * at), FLANK) for points in outlines[number]]
+        _construction(pair, number, at, (low, high), items, requests)
+        items += _working_flank(pair, number, at_pitch, at)
+    _line_of_action(pair, at, with_ends, items, requests)
+    for number, end in enumerate((complex(0, low.imag - 8), complex(0, high.imag + 8))):
+        # The centres are farther away than the drawing reaches, or end the line of centres.
+        o = centre(pair, number) * at
+        items.append(Line(0j, min(o, end, key=abs), style.AXIS))
+        items.append(
+            Circle(o, 0.7, None, style.BLACK) if abs(o) <= abs(end) else Arrow(end * 0.9, end, style.DIMENSION)
+        )
+        requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), gap=1.0, prefer=(0.0, math.pi)))
+    note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM / enlarged:.6g}"), None, "mm/mm")))
+    a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.number("gears.a_w")))
+    notes: list[Content] = [note, a_w]
+    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+
+
+def _fitting(points: Sequence[complex], room: complex, enlarged: float) -> float:
+    """The scale (m per mm of paper) at which points (m) fit a room (mm), round once it is enlarged."""
+    low, high = _corners(np.array(points) * MM)
+    size = high - low
+    return nice_up(max(size.real / room.real, size.imag / room.imag) / enlarged, SCALES) * enlarged / MM
+
+
+def _corners(points: Complexes) -> tuple[complex, complex]:
+    return complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
+
+
+def _teeth(pair: GearPair, number: int, rolled: float) -> Iterator[Complexes]:
+    """Three teeth of a wheel from space to space, as one line."""
+    wheel = pair.wheel(number)
+    tooth = wheel.tooth()
+    turns = [np.exp(1j * (turned(pair, number, rolled) - k * wheel.pitch)) for k in SHOWN]
+    yield centre(pair, number) + np.concatenate([tooth * turn for turn in turns])
+
+
+def _circles(
+    case: SolvedPair, number: int, at: float, box: tuple[complex, complex], items: list[Item], requests: list[Request]
+) -> None:
+    """The five circles as far as the drawing reaches, each named at its ends."""
+    pair, middle = case.gears, (math.pi / 2, -math.pi / 2)[number]
+    o = centre(pair, number) * at
+    half = max(abs(box[0].real), abs(box[1].real)) + 3.0
+    taken: list[float] = []
+    for name, pen in CIRCLES:
+        radius = float(getattr(pair, name)[number]) / 2 * at
+        if any(abs(radius - other) < 0.01 for other in taken):
+            continue
+        taken.append(radius)
+        reach = min(math.asin(min(half / radius, 1.0)), 2.2 * math.pi / pair.teeth[number] * 1.25)
+        items.append(Arc(o, radius, middle - reach, middle + reach, pen))
+        places = [
+            o + radius * np.exp(1j * (middle + side * reach * share)) for share in (1.0, 0.97) for side in (-1, 1)
+        ]
+        requests.append(
+            label([complex(place) for place in places], Symbol("r", f"{LETTERS[name]}{number + 1}"), gap=0.5)
+        )
+
+
+def _construction(
+    pair: GearPair, number: int, at: float, box: tuple[complex, complex], items: list[Item], requests: list[Request]
+) -> None:
+    """The involute through the pitch point: equal arcs of the base circle, laid off on the tangents at their ends.
+
+    Of a large wheel no more than lies in the box of the teeth.
+    """
+    low, high = box[0] - BEYOND * (1 + 1j), box[1] + BEYOND * (1 + 1j)
+    o, r_b = centre(pair, number), float(pair.d_b[number]) / 2
+    α_w = float(pair.alpha_w)
+    to_n = (1j, -1j)[number] * np.exp(-1j * α_w)
+    whole = r_b * math.tan(α_w)
+    reach = math.sqrt(float(pair.d_a[number]) ** 2 / 4 - r_b**2)
+    for step in range(math.floor(reach / whole * STEPS) + 1):
+        rolled = whole * step / STEPS
+        foot = to_n * np.exp(1j * (whole - rolled) / r_b) * r_b
+        # The string that is unwound lies on the tangent, back to where the involute began on the base circle.
+        start, end = complex((o + foot) * at), complex((o + foot + foot / r_b * 1j * rolled) * at)
+        if step and (shown := clipped(start, end, low, high)):
+            items.append(Line(*shown, INVOLUTE))
+        if all(low.real <= p.real <= high.real and low.imag <= p.imag <= high.imag for p in (start, end)):
+            items.append(Circle(start, 0.4, None, style.GRAY))
+            items.append(Circle(end, 0.4, Pen(0.12), style.PAPER))
+            if step <= STEPS:
+                inward = float(np.angle(-foot))
+                requests.append(label(start, str(step), size=style.SMALL, gap=0.5, prefer=(inward,)))
+
+
+def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Iterator[Item]:
+    """The part of the touching flank that is in use, and the arc of contact on the working circle."""
+    wheel, o = pair.wheel(number), centre(pair, number)
+    r = np.hypot(wheel.r_b, np.linspace(float(pair.rho_p[number]), float(pair.rho_a[number]), 60))
+    flank = wheel.flank(r) * np.exp(1j * turned(pair, number, rolled))
+    yield Polyline(tuple((o + flank) * at), WORKING)
+    pitch_point = float(np.angle(-o))
+    rolled_here = wheel.r_b * math.tan(float(pair.alpha_w))
+    before, after = ((rolled_here - float(rho[number])) / wheel.r_b for rho in (pair.rho_a, pair.rho_p))
+    radius = float(pair.d_w[number]) / 2 * at
+    yield Arc(o * at, radius, pitch_point - before, pitch_point - after, Pen(0.6, style.BLUE))
+
+
+def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item], requests: list[Request]) -> None:
+    starts = {"N1": 0.0, "B2": float(pair.rho_p[0]), "B1": float(pair.rho_a[0]), "N2": float(pair.path)}
+    points = {name: on_line(pair, rolled) * at for name, rolled in starts.items()}
+    shown = ("N1", "N2") if with_ends else ("B2", "B1")
+    way = points["B1"] - points["B2"]
+    way /= abs(way)
+    items.append(Line(points[shown[0]] - 6 * way, points[shown[1]] + 6 * way, LINE_OF_ACTION))
+    items.append(Line(points["B2"], points["B1"], ACTIVE))
+    for name, point in points.items():
+        if with_ends or name[0] == "B":
+            items.append(Circle(point, 0.7, None, style.RED))
+            requests.append(label(point, Symbol(name[0], name[1]), gap=1.0))
+    if with_ends:
+        for number, name in enumerate(("N1", "N2")):
+            foot = points[name] - centre(pair, number) * at
+            items.append(Line(points[name], points[name] - foot / abs(foot) * 8, style.CONSTRUCTION))
+    items.append(Circle(0j, 0.7, None, style.BLACK))
+    requests.append(label(0j, Symbol("P"), gap=1.2))
+    items.append(Line(-22 + 0j, 22 + 0j, style.CONSTRUCTION))
+    angle = math.pi - float(pair.alpha_w)
+    items.append(Arc(0j, 20.0, angle, math.pi, style.DIMENSION))
+    requests.append(label(complex(20.0 * np.exp(1j * (angle + math.pi) / 2)), Symbol("α", "w"), gap=0.6))
+
+
+# --- the region of shifts ---------------------------------------------------------------------------
+
+GRID = 241
+FRAME = 112 + 100j
+"""The diagram without its text (mm)."""
+LONG = 15.0
+"""A line of a limit is named from this length on (mm)."""
+AROUND = 0.15
+"""White around the region (modules)."""
+OUTER = (-1.5, 3.0)
+"""Shifts beyond are not looked at."""
+HARD, SOFT = Pen(0.45), Pen(0.25, style.BLUE, style.DASHED)
+ALIKE = Pen(0.25, style.RED, style.CHAIN)
+
+
+def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
+    """The shifts of both wheels that the limits leave, with the chosen ones."""
+    pair, limits = case.gears, case.chosen.limits
+    axes = np.linspace(*OUTER, 451)
+    allowed = _bounds(_at(pair, axes, axes)).min(axis=0) >= 0
+    wide = [axes[allowed.any(axis=side)] if allowed.any() else np.zeros(1) for side in (1, 0)]
+    low, high = (
+        [float(pick(np.append(inside, x))) + side * AROUND for inside, x in zip(wide, pair.x, strict=True)]
+        for pick, side in ((np.min, -1), (np.max, 1))
+    )
+    x1, x2 = (np.linspace(start, stop, GRID) for start, stop in zip(low, high, strict=True))
+    per = (frame.real / (high[0] - low[0]), frame.imag / (high[1] - low[1]))
+    grid = _at(pair, x1, x2)
+
+    def paper(place: Complexes) -> Complexes:
+        return np.asarray((place.real - low[0]) * per[0] + 1j * (place.imag - low[1]) * per[1])
+
+    items: list[Item] = []
+    requests: list[Request] = []
+    with np.errstate(invalid="ignore", divide="ignore"):
+        undercut, tips, meet = (
+            grid.x - grid.x_min,
+            grid.s_a / grid.m,
+            (grid.rho_p - np.maximum(grid.rho_f, 0.0)) / grid.m,
+        )
+        balance = np.where((grid.rho_p > 0).all(axis=0), grid.sliding[0] - grid.sliding[1], np.nan)
+        ε = grid.epsilon
+    lines: list[tuple[Floats, float, Pen, tuple[Content, ...]]] = []
+    for i in WHEELS:
+        tip = Symbol("s", f"a{i}")
+        lines += [
+            (undercut[i - 1], 0.0, HARD, (Symbol("x", f"min{i}"),)),
+            (tips[i - 1], 0.0, HARD, (tip, " = 0")),
+            (meet[i - 1], 0.0, HARD, (Symbol("ρ", f"p{i}"), " = ", Symbol("ρ", f"f{i}"))),
+        ]
+        if limits.tip:
+            lines.append((tips[i - 1], limits.tip, SOFT, (tip, " = ", Number(limits.tip, None), " ", Symbol("m"))))
+    lines.append((ε, 1.0, HARD, (Symbol("ε", "α"), " = 1")))
+    if limits.epsilon > 1:
+        lines.append((ε, limits.epsilon, SOFT, (Symbol("ε", "α"), " = ", Number(limits.epsilon, None))))
+    lines.append((balance, 0.0, ALIKE, (Symbol("λ", "1"), " = ", Symbol("λ", "2"))))
+    for values, level, pen, name in lines:
+        pieces = [paper(piece) for piece in level_lines(x1, x2, values.T, level)]
+        items += [Polyline(tuple(piece), pen) for piece in pieces if piece.size > 1]
+        for piece in pieces:
+            if float(np.abs(np.diff(piece)).sum()) >= LONG:
+                places = [complex(piece[int(share * (piece.size - 1))]) for share in (0.9, 0.75, 0.5, 0.25, 0.1)]
+                requests.append(label(places, *name, gap=0.6, size=style.SMALL))
+    items.append(Polyline((0j, frame.real + 0j, frame, frame.imag * 1j), Pen(0.25), closed=True))
+    items += _ticks(low, high, per)
+    chosen = complex(paper(np.array([complex(*pair.x)]))[0])
+    items.append(Circle(chosen, 1.0, None, style.RED))
+    requests.append(label(chosen, "(", Symbol("x", "1"), "; ", Symbol("x", "2"), ")", gap=1.2))
+    items.append(Label(complex(frame.real, -6), Symbol("x", "1"), "top-right"))
+    items.append(Label(complex(-9, frame.imag), Symbol("x", "2"), "top-right"))
+    return finish(Canvas(tuple(items), tuple(requests)), margin=2.0)
+
+
+def level_lines(x: Floats, y: Floats, values: Floats, level: float) -> list[Complexes]:
+    """The lines x + iy on which values [Y, X] over two axes have a level; where there is no value there is no line."""
+    from contourpy import contour_generator
+
+    made = contour_generator(x, y, np.ma.masked_invalid(values), line_type="Separate")
+    return [np.asarray(line) @ (1, 1j) for line in made.lines(level)]
+
+
+def _at(pair: GearPair, x1: Floats, x2: Floats) -> GearPair:
+    """The pairs of all shifts of two axes, the first axis that of x₁."""
+    return GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(x1, x2, indexing="ij")))
+
+
+def _bounds(grid: GearPair) -> Floats:
+    """The hard limits over a grid: without undercut, not pointed, no interference, ε ≥ 1; −1 where there is no pair."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        found = [
+            *(grid.x - grid.x_min),
+            *(grid.s_a / grid.m),
+            *((grid.rho_p - np.maximum(grid.rho_f, 0.0)) / grid.m),
+            grid.epsilon - 1,
+        ]
+    return np.asarray(np.nan_to_num(np.array(found), nan=-1.0))
+
+
+def _ticks(low: Sequence[float], high: Sequence[float], per: tuple[float, float]) -> Iterator[Item]:
+    for side in (0, 1):
+        step = nice_up((high[side] - low[side]) / 9, (1.0, 2.0, 5.0))
+        for k in range(math.ceil(low[side] / step), math.floor(high[side] / step) + 1):
+            along = (k * step - low[side]) * per[side]
+            start, way = (complex(along, 0), 1j) if side == 0 else (complex(0, along), 1 + 0j)
+            far = (high[1 - side] - low[1 - side]) * per[1 - side]
+            yield Line(start, start + way * far, Pen(0.08, style.PALE if k else style.BLACK))
+            text = Number(k * step, max(-math.floor(math.log10(step)), 0))
+            yield Label(start - way, text, "top" if side == 0 else "right", style.SMALL)
+
+
+# --- sliding --------------------------------------------------------------------------------------
+
+DEEPEST = 4.0
+"""λ is drawn down to so much below 0."""
+
+
+def sliding(case: SolvedPair, half: bool = False) -> Plotted:
+    """λ₁ and λ₂ over the distance from N₁; the marks are the ends of the active path."""
+    pair = case.gears
+    g, start, end = float(pair.path), float(pair.rho_p[0]), float(pair.rho_a[0])
+    ρ1 = np.unique(np.concatenate((np.linspace(0, g, 801)[1:-1], [start, end])))
+    u = pair.teeth[1] / pair.teeth[0]
+    curves = []
+    for wheel, λ in zip(WHEELS, (1 - (g - ρ1) / (u * ρ1), 1 - u * ρ1 / (g - ρ1)), strict=True):
+        least = max(DEEPEST, 1.2 * float(-pair.sliding.min()))
+        shown = np.where(λ >= -least, λ, np.nan)
+        marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
+        curves.append(PlottedCurve(case.ledger.symbol(ids.gear("lambda", wheel)), ρ1 * MM, shown, marks))
+    across = Chain((case.ledger.symbol(ids.gear("rho", 1)),), "mm")
+    return plotted(curves, across, Chain((Symbol("λ"),), ""), turn=False, half=half)

@@ -1,0 +1,258 @@
+"""A gear pair as its report and its task show it: what the templates name, tables, worked lines, figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from reportgen.drawing import Scene
+from reportgen.formula import Number, Symbol, ids, vocabulary
+from reportgen.gears.pair_drawings import mesh, region, sliding
+from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Contents,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    PageBreak,
+    Section,
+    Table,
+    Text,
+    Value,
+    Words,
+    listed,
+)
+from reportgen.report.case import Key
+from reportgen.report.numbering import number
+from reportgen.report.prose import Prose
+
+SECTIONS = ("given", "shifts", "mesh", "wheels", "contact", "sliding", "region", "checks", "drawing", "conclusion")
+SHORT = frozenset({"region"})
+"""The sections, and what templates ask for by `full`, that a short report goes without."""
+DATA = (95.0, 25.0, 40.0)
+PAIR = (68.0, 22.0, 35.0, 35.0)
+CHECKS = (70.0, 18.0, 28.0, 26.0, 18.0)
+SLIDING = (16.0, 28.0, 28.0, 28.0, 28.0, 28.0)
+SHARED = ("alpha_w", "a_w", "y", "dy", "h", "p", "p_b", "epsilon", "g", "g_a")
+"""What the table of the pair has for both wheels,"""
+OWN = ("x", "d", "d_b", "d_w", "d_a", "d_f", "h_a", "s", "s_w", "s_a", "alpha_a", "rho_p", "rho_a")
+"""and for each of them."""
+MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
+WHEEL = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
+
+
+def report(case: SolvedPair) -> Document:
+    """The finished, numbered report."""
+    page, words, assignment = PairPage(case), case.words, case.assignment
+    prose, full = Prose(case.places), assignment.report.extent == "full"
+    names = page.names()
+    blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
+    for section in SECTIONS:
+        if full or section not in SHORT:
+            blocks += prose.render(f"pair-{section}", names)
+    return number(
+        Document(
+            language=assignment.language,
+            title=f"{words['cover']['title']} – {case.title}",
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words.among(words["document"]),
+            blocks=tuple(blocks),
+            close=not full,
+        )
+    )
+
+
+def task(case: SolvedPair, key: Key, by_section: bool = False) -> Document:
+    """The student's handout: the given data and the empty answer sheet."""
+    from reportgen.marking.paper import empty_sheet, task_paper
+
+    names = {
+        **PairPage(case).names(),
+        "answer_tables": empty_sheet(key, by_section),
+        "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
+    }
+    title = (Section(1, (Text(case.words["pair"]["task"].format(title=case.title)),), numbered=False),)
+    return task_paper(case, key, title, Prose(case.places).render("pair-task", names))
+
+
+@dataclass(frozen=True)
+class PairPage:
+    """A gear pair as templates name it."""
+
+    case: SolvedPair
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        found: Mapping[str, Any] = self.case.words["pair"]
+        return found
+
+    def names(self) -> dict[str, Any]:
+        case, chosen = self.case, self.case.chosen
+        return {
+            "words": case.words,
+            "title": case.title,
+            "variant": case.assignment.variant,
+            "full": case.assignment.report.extent == "full",
+            "rule": chosen.rule,
+            "follows": chosen.follows,
+            "iso": math.isclose(chosen.pair.rack.alpha, math.radians(20))
+            and (chosen.pair.rack.ha, chosen.pair.rack.c) == (1.0, 0.25),
+            "zero": not chosen.pair.x.any(),
+            "standard": abs(float(chosen.pair.x.sum())) < 1e-9,
+            "wheels": WHEELS,
+            "worked": case.worked,
+            "count": case.count,
+            "mesh_ids": [f"gears.{one}" for one in MESH],
+            "wheel_ids": lambda wheel: [ids.gear(one, wheel) for one in WHEEL],
+            "of": ids.gear,
+            "data": self.data,
+            "pair_table": self.pair_table,
+            "sliding_table": self.sliding_table,
+            "checks": self.checks,
+            "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
+            "known": lambda id: id in case.ledger,
+            "symbol": case.printed.symbol,
+            "value": lambda id, k=None: Value(case.printed.number(id, k)),
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "figure": self.figure,
+        }
+
+    # --- symbols and lines
+
+    def math(self, text: str) -> Symbol:
+        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
+        if text in self.case.printed:
+            return self.case.printed.symbol(text)
+        base, _, sub = text.partition("_")
+        return vocabulary.in_language(Symbol(base, sub), self.case.words["symbols"])
+
+    def quantity(self, id: str, k: int | None = None) -> Inlines:
+        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
+
+    def lines(self, quantities: Iterable[str], k: int | None = None) -> Equation:
+        """Worked lines of those of the quantities that follow from others, as they follow from one another."""
+        ledger = self.case.printed
+        wanted = set(quantities)
+        defined = [id for id, family in ledger.families.items() if id in wanted and family.definition is not None]
+        return Equation(tuple(ledger.chain(id, k) for id in defined))
+
+    # --- tables
+
+    def _table(
+        self, name: str, widths: tuple[float, ...], heads: Iterable[Inlines], rows: Iterable[tuple[Inlines, ...]]
+    ) -> Table:
+        columns = (Column(widths[0], "left"), *(Column(width) for width in widths[1:]))
+        caption = Prose(self.case.places).inlines(self.words["captions"][name])
+        body = tuple(tuple(Cell(one) for one in row) for row in rows)
+        return Table(columns, (tuple(Cell(one) for one in heads),), body, caption, f"tab.{name}")
+
+    def _said(self, id: str) -> Inlines:
+        """What a quantity is, in words; that of a wheel goes for both."""
+        from reportgen.marking.key import phrase
+
+        text = phrase(id, self.case.ledger, self.case.words)
+        return (Text(text[:1].upper() + text[1:]),)
+
+    @property
+    def data(self) -> Table:
+        """The data with their names, symbols and values; shifts that were found are left out."""
+        ledger, heads = self.case.printed, self.case.words["table"]
+        sought = {ids.gear("x", wheel) for wheel in WHEELS} if self.case.chosen.rule != "given" else set()
+        rows = [
+            ((Text(str(name)),), (InlineMath(ledger.symbol(id)),), (Value(ledger.number(id)),))
+            for id, name in self.case.words["given"].items()
+            if id in ledger and id not in sought and ledger[id].definition is None
+        ]
+        return self._table("data", DATA, ((Text(heads[key]),) for key in ("quantity", "symbol", "value")), rows)
+
+    @property
+    def pair_table(self) -> Table:
+        ledger, words = self.case.printed, self.words
+        rows: list[tuple[Inlines, ...]] = []
+        for one in OWN:
+            symbol = vocabulary.in_language(
+                _without_number(ledger.symbol(ids.gear(one, 1))), self.case.words["symbols"]
+            )
+            both = tuple((Value(ledger.number(ids.gear(one, wheel))),) for wheel in WHEELS)
+            rows.append(((Text(words["own"][one]),), (InlineMath(symbol),), *both))
+        for one in SHARED:
+            id = f"gears.{one}"
+            rows.append((self._said(id), (InlineMath(ledger.symbol(id)),), (Value(ledger.number(id)),), (Text("–"),)))
+        heads = ((Text(text),) for text in words["pair_head"])
+        return self._table("pair", PAIR, heads, rows)
+
+    @property
+    def sliding_table(self) -> Table:
+        ledger = self.case.printed
+        columns = ("gears.t", *(ids.gear(one, wheel) for one in ("rho", "lambda") for wheel in WHEELS))
+        rows: list[tuple[Inlines, ...]] = [
+            ((Text(str(k)),), *((Value(ledger.number(id, k)),) for id in columns))
+            for k in range(1, self.case.count + 1)
+        ]
+        heads: tuple[Inlines, ...] = (
+            (Text(self.words["point"]),),
+            *((InlineMath(ledger.symbol(id)),) for id in columns),
+        )
+        return self._table("sliding", SLIDING, heads, rows)
+
+    @property
+    def checks(self) -> Table:
+        """What is required of each wheel and of the pair, what there is, and whether it holds."""
+        words, ledger, chosen = self.words["checks"], self.case.printed, self.case.chosen
+        broken = {(name, wheel) for name, wheel, _, _ in chosen.broken()}
+        rows: list[tuple[Inlines, ...]] = []
+
+        def row(name: str, wheel: int, sign: str, limit: Number, actual: str | Number) -> None:
+            text = str(words[name]).format(wheel=wheel)
+            shown = ledger.number(actual) if isinstance(actual, str) else actual
+            holds = words["no"] if (name, wheel) in broken else words["yes"]
+            symbol: Inlines = (InlineMath(ledger.symbol(actual)),) if isinstance(actual, str) else (Text("|λ|"),)
+            rows.append(((Text(text),), symbol, (Text(sign), Value(limit)), (Value(shown),), (Text(str(holds)),)))
+
+        for wheel in WHEELS:
+            row("undercut", wheel, "≥ ", ledger.number(ids.gear("x_min", wheel)), ids.gear("x", wheel))
+        for wheel in WHEELS:
+            row("tip", wheel, "≥ ", ledger.number("gears.limit.tip"), ids.gear("tip", wheel))
+        for wheel in WHEELS:
+            begun = ledger.number(ids.gear("rho_f", wheel))
+            limit = begun if begun.value > 0 else Number(0.0, 0, "mm")
+            row("interference", wheel, "≥ ", limit, ids.gear("rho_p", wheel))
+        row("epsilon", 0, "≥ ", ledger.number("gears.limit.epsilon"), "gears.epsilon")
+        if chosen.limits.sliding is not None:
+            for wheel, end in zip(WHEELS, case_ends(self.case), strict=True):
+                number_ = ledger.number(ids.gear("lambda", wheel), end)
+                shown = Number(-number_.shown, number_.decimals)
+                row("sliding", wheel, "≤ ", ledger.number("gears.limit.sliding"), shown)
+        return self._table("checks", CHECKS, ((Text(str(one)),) for one in words["head"]), rows)
+
+    # --- figures
+
+    def figure(self, name: str) -> Figure:
+        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
+        drawings: Mapping[str, Callable[[SolvedPair], Scene]] = {
+            "mesh": mesh,
+            "region": region,
+            "sliding": lambda case: sliding(case).scene,
+        }
+        return Figure((drawings[name](self.case),), caption, f"fig.{name}")
+
+
+def case_ends(case: SolvedPair) -> tuple[int, int]:
+    """The points of the path at which the feet of wheel 1 and of wheel 2 are in contact."""
+    return case.worked[0], case.worked[-1]
+
+
+def _without_number(symbol: Symbol) -> Symbol:
+    """The symbol of a quantity of either wheel."""
+    return Symbol(symbol.base, symbol.sub.rstrip("12"), symbol.sup)

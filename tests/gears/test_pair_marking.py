@@ -1,0 +1,162 @@
+"""A class of twelve with drawn gear pairs: task, key, marking, mistakes by name; wrong files and their faults."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pymupdf
+import pytest
+
+from reportgen import api, catalogue
+from reportgen.base.units import write
+from reportgen.cases import open_case
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.variants import make_variants
+from reportgen.formula.evaluation import evaluate
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import MarkingScheme, Policy, marking_scheme
+from reportgen.marking.mistakes import Mistake
+from tests.marking import demo, students
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
+STUDENTS = 12
+PARAMETERS = "parameters: {m: [3 mm, 4 mm, 5 mm], z1: {from: 12, to: 16, step: 1}, z2: {from: 28, to: 40, step: 1}}\n"
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of twelve variants, by modules and numbers of teeth."""
+    folder = tmp_path_factory.mktemp("gears")
+    (folder / "spec.yaml").write_text(f"kind: gear-pair\nreport: {{language: en}}\n{PARAMETERS}", encoding="utf-8")
+    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
+    (folder / "roster.csv").write_text(roster, encoding="utf-8")
+    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
+    assert len(made.files) == STUDENTS
+    return folder
+
+
+def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
+    """A mistake of that name in some quantities, as the case knows it."""
+    changes = {}
+    for id in where:
+        for called, definition in scheme.pitfalls.changed.get(id, ()):
+            if called == name:
+                changes[id] = lambda _, values, made=definition: np.atleast_1d(evaluate(made, values))
+    assert changes, name
+    return Mistake(name, where[0], changes)
+
+
+@pytest.fixture(scope="module")
+def graded(drawn: Path) -> Graded:
+    """Right sheets; the first student forgets the tip shortening and goes on from that."""
+    (drawn / "sheets").mkdir()
+    for path in sorted((drawn / "variants").glob("S*.yaml")):
+        scheme = marking_scheme(open_case(path))
+        slip = named(scheme, "gear-truncation", "gears.h_a.1") if path.stem == "S01" else None
+        sheet = students.written(scheme, students.worked_out(scheme, slip))
+        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
+    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+
+
+def test_right_sheets_get_all_marks_and_a_slip_costs_few(graded: Graded) -> None:
+    assert graded.problems == ()
+    full = {marking.key.id for marking in graded.markings if marking.points == marking.out_of}
+    assert full == {f"S{number:02d}" for number in range(2, STUDENTS + 1)}
+    slipped = next(one for one in graded.markings if one.key.id == "S01")
+    assert {cell.id for cell in slipped.first_errors} == {"gears.h_a.1"}
+    assert {cell.mistake for cell in slipped.first_errors} == {"gear-truncation"}
+    assert slipped.out_of - slipped.points == len(slipped.first_errors)
+
+
+def test_the_task_holds_no_answer(drawn: Path) -> None:
+    """None of the numbers asked for that have four figures stands in it; in the key each of them does."""
+    file = drawn / "variants" / "S02.yaml"
+    task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
+    texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
+    rows = open_case(file, "en").key().asked
+    shown = [
+        write(abs(float(row.printed[row.at(k)])), row.decimals, "en")
+        for row in rows
+        for k in row.positions
+        if row.decimals is not None
+    ]
+    telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
+    assert len(telling) > 30
+    assert [text for text in telling if text in texts[0]] == []
+    assert [text for text in telling if text not in texts[1]] == []
+
+
+MISTAKES = [
+    ("pair-equal-sliding", "gear-degrees", ("gears.inv",)),
+    ("pair-equal-sliding", "gear-degrees", ("gears.inv_a.1",)),
+    ("pair-centre-distance", "gear-degrees", ("gears.inv_w",)),
+    ("pair-equal-sliding", "gear-shift-sign", ("gears.d_f.1",)),
+    ("pair-equal-sliding", "gear-shift-sign", ("gears.s.2",)),
+    ("pair-equal-sliding", "gear-base-circle", ("gears.alpha_a.1",)),
+    ("pair-equal-sliding", "gear-truncation", ("gears.h_a.1", "gears.h_a.2")),
+    ("pair-equal-sliding", "gear-standard-angle", ("gears.epsilon",)),
+    ("pair-equal-sliding", "gear-ratio", ("gears.lambda.1", "gears.lambda.2")),
+]
+
+
+@pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
+def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
+    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
+    first = mark(scheme, sheet).first_errors
+    assert first
+    assert {cell.mistake for cell in first} == {mistake}
+    assert {cell.id for cell in first} <= set(where)
+
+
+def test_mistakes_have_words_in_both_languages() -> None:
+    for language in ("vi", "en"):
+        case = open_case(FOLDER / "pair-equal-sliding.yaml", language)
+        for name in {name for many in case.pitfalls.changed.values() for name, _ in many}:
+            assert "{symbol}" in case.words["mistakes"][name]
+            assert case.words["mistake_names"][name]
+
+
+# --- wrong files ------------------------------------------------------------------------------------
+
+FAULTS = [
+    ("m: 4 mm, z1: 13, z2: 36, shifts: {x1: 0.5}", "3:44 missing-key"),
+    ("m: 4 mm, z1: 13, z2: 36, shifts: {x1: 0.5, x2: 0.4}, a_w: 100 mm", "3:54 gear-twice"),
+    ("m: 4 mm, z1: 13, z2: 36, shifts: {x1: 0.5, x2: 0.4}, by: x_min", "3:64 gear-idle-by"),
+    ("m: 4 mm, z1: 13, z2: 36, a_w: 80 mm", "3:43 gear-too-near"),
+    ("m: 4 mm, z1: 13, z2: 36, alpha: 25 deg", "3:14 gear-rack"),
+    ("m: 4 mm, z1: 5, z2: 5, limits: {epsilon: 1.9}", "3:14 gear-no-shifts"),
+    ("m: 4 mm, z1: 13, z2: 36, shifts: {x1: 2, x2: 0}", "3:44 gear-beyond-point"),
+    ("m: 4 mm, z1: 8, z2: 90, shifts: {x1: -0.4, x2: 0}", "3:43 gear-beyond-line"),
+    ("m: 4 mm, z1: 4, z2: 36", "3:27 out-of-range"),
+]
+WARNINGS = [
+    ("m: 4 mm, z1: 13, z2: 36, shifts: {x1: 0.1, x2: 0}", ["gear-undercut"]),
+    ("m: 4 mm, z1: 10, z2: 40, shifts: {x1: 0.8, x2: 0.1}", ["gear-epsilon", "gear-tip"]),
+    ("m: 4 mm, z1: 14, z2: 80, shifts: {x1: 0.2, x2: -0.2}, limits: {sliding: 2}", ["gear-sliding"]),
+]
+
+
+def told(text: str, tmp_path: Path, language: str) -> list[tuple[str, str, str]]:
+    path = tmp_path / "pair.yaml"
+    path.write_text(f"kind: gear-pair\nreport: {{language: {language}}}\nparameters: {{{text}}}\n", encoding="utf-8")
+    found = catalogue.examine(path)
+    return [(f"{one.mark.line}:{one.mark.column}", one.code, f"{one.message} {one.hint}") for one in found]
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize(("text", "fault"), FAULTS)
+def test_a_wrong_file_lists_its_faults(text: str, fault: str, language: str, tmp_path: Path) -> None:
+    found = told(text, tmp_path, language)
+    assert [code for _, code, _ in found] == [fault.split()[1]]
+    assert [one for one in found if "{" in one[2] or "nan" in one[2]] == []
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize(("text", "codes"), WARNINGS)
+def test_what_is_hardly_meant_is_said(text: str, codes: list[str], language: str, tmp_path: Path) -> None:
+    found = told(text, tmp_path, language)
+    assert set(codes) <= {code for _, code, _ in found}
+    assert [one for one in found if "{" in one[2] or "nan" in one[2]] == []
