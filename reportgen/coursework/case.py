@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
-from reportgen.coursework.booklet import PartReport, booklet
+from reportgen.coursework.booklet import PartReport, booklet, task_of
 from reportgen.coursework.film import joined
 from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.film import Film
@@ -241,8 +241,6 @@ class Coursework:
         return replace(machine, rows=tuple(rows), parts=tuple(parts))
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.coursework.booklet import task_of
-
         (_, first), *others = key.pages
         papers = [
             PartReport(member.name, member.title, member.case.task(page, by_section), tuple(self._taken(member)), ())
