@@ -1,0 +1,1 @@
+"""Gears: the involute pair and the planetary train."""
