@@ -1,0 +1,245 @@
+"""Drawings of a planetary train true to scale: two views of its scheme, and the triangles of velocities."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+from reportgen.base.units import MM, nice_up
+from reportgen.drawing import Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.gears.train import ALPHA
+from reportgen.gears.train_solution import OTHER, SolvedTrain
+
+FRONT = 80.0
+"""What the scheme seen along its axis may fill on a page (mm)."""
+SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
+WHEEL = Pen(0.4)
+SATELLITE = Pen(0.4, style.BLUE)
+CARRIER = Pen(0.5, style.RED)
+RIM, BESIDE = 2.6, 0.45
+"""Half the width of a rim in the view from the side, and from a reference line to the rim that stands for it (mm)."""
+STEP = 13.0
+"""From one plane of wheels to the next, and to the carrier (mm)."""
+SHAFT = 14.0
+LEG = 4.0
+BEYOND = 6.0
+"""What lines of the triangles go on beyond their ends (mm)."""
+APART = 16.0
+"""White between the triangles and the plan of angular velocities (mm)."""
+
+
+def radii(case: SolvedTrain) -> dict[str, float]:
+    """Reference radii of the wheels, and of the circle of the satellites' axes as H (m)."""
+    given, z = case.given, case.train.teeth
+    m, m2 = given.m.si, given.second_module.si
+    first, _ = case.scheme.signs
+    sizes = {"1": m * z.one, "2": m * z.two, OTHER: m2 * z.other, "3": m2 * z.three, "H": m * (z.one - first * z.two)}
+    return {wheel: size / 2 for wheel, size in sizes.items()}
+
+
+def scale_note(scale: float, sub: str = "l", unit: str = "mm/mm") -> Chain:
+    """The scale of a drawing: what a millimetre of paper stands for."""
+    return Chain((Symbol("μ", sub), Number(float(f"{scale:.6g}"), None, unit)))
+
+
+def scheme_scale(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) -> float:
+    """What a millimetre of paper stands for (mm), round once it is enlarged."""
+    r = radii(case)
+    reach = 2 * max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
+    return nice_up(reach * MM / room / enlarged, SCALES) * enlarged
+
+
+# --- two views of the scheme ------------------------------------------------------------------------------
+
+
+def scheme_views(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) -> Scene:
+    """Along the axis and from the side, on one height."""
+    scale = scheme_scale(case, room, enlarged)
+    r = {wheel: size * MM / scale for wheel, size in radii(case).items()}
+    reach = max(r["H"] + max(r["2"], r[OTHER]), r["1"], r["3"])
+    front, named = _along(case, r)
+    side, beside = _from_side(case, r, complex(reach + 36.0, 0))
+    items = (*front, *side)
+    return finish(Canvas(items, (*named, *beside)), notes=(scale_note(scale),), margin=2.0)
+
+
+def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
+    """Reference circles, the satellites evenly around, the first above the axis."""
+    k, single = case.given.k, case.scheme.single
+    places = [r["H"] * cmath.rect(1, math.pi / 2 + number * math.tau / k) for number in range(k)]
+    items: list[Item] = [Circle(0j, r["H"], style.AXIS)]
+    items += [Circle(0j, r[wheel], WHEEL) for wheel in ("1", "3")]
+    for place in places:
+        items += [Circle(place, r[wheel], SATELLITE) for wheel in dict.fromkeys(("2", "2" if single else OTHER))]
+        items += [Line(0j, place, CARRIER), style.joint(place)]
+    items.append(style.joint(0j))
+    ring = max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
+    # Wheel 3 stands still.
+    items += style.ground(complex(-5, -r["3"] - LEG), complex(5, -r["3"] - LEG), -1)
+    items.append(Line(complex(0, -r["3"]), complex(0, -r["3"] - LEG), WHEEL))
+    items += [Line(complex(-ring - 4, 0), complex(ring + 4, 0), style.AXIS)]
+    requests = [
+        label(0j, Symbol("O"), gap=1.8, prefer=(-0.5, -2.6)),
+        label(places[0], Symbol("B"), gap=1.8, prefer=(0.5, 2.6)),
+        label([r["1"] * cmath.rect(1, φ) for φ in (-0.6, -2.5, 0.2, 2.9)], "1", gap=0.8),
+        label([places[0] + r["2"] * cmath.rect(1, φ) for φ in (0.4, 2.7, 1.2)], "2", gap=0.8),
+        label([r["3"] * cmath.rect(1, φ) for φ in (-1.0, -2.1, 0.3, 2.8)], "3", gap=0.8),
+        label([places[0] * share for share in (0.6, 0.5, 0.7)], "H", gap=0.8),
+    ]
+    if not single:
+        spots = [places[0] + r[OTHER] * cmath.rect(1, φ) for φ in (-0.4, -2.7, 0.8, 2.3)]
+        requests.append(label(spots, Symbol("2", sup="′"), gap=0.8))
+    return items, requests
+
+
+def _from_side(case: SolvedTrain, r: dict[str, float], at: complex) -> tuple[list[Item], list[Request]]:
+    """The axis level, each wheel a line with its rims; one of the satellites, above the axis."""
+    first, last = at, at + (0 if case.scheme.single else STEP)
+    carrier = last + STEP
+    B = complex(0, r["H"])
+    start, end = first - SHAFT, carrier + SHAFT
+    inner1, inner3 = case.scheme.inner
+    items: list[Item] = [Line(start - 4, end + 4, style.AXIS)]
+    items += [*_wheel(first, r["1"], WHEEL, inner1, first - STEP / 2 if inner1 else first)]
+    items += [*_wheel(first + B, r["2"], SATELLITE)]
+    if not case.scheme.single:
+        items += [*_wheel(last + B, r[OTHER], SATELLITE)]
+    items += [*_fixed(last, r["3"], inner3)]
+    items += [Line(start, first - (STEP / 2 if inner1 else 0), WHEEL)]
+    items += [
+        Line(first + B - 3, carrier + B, SATELLITE),
+        Line(carrier + B, carrier, CARRIER),
+        Line(carrier, end, CARRIER),
+    ]
+    for place in (start + SHAFT / 3, end - SHAFT / 3):
+        items += _bearing(place)
+    tops = {"1": first, "3": last}
+    requests = [
+        label([tops["1"] - 1j * r["1"] * share for share in (0.7, 0.5, 0.9)], "1", gap=0.8),
+        label([first + B + 1j * r["2"] * share for share in (0.6, 0.4, 0.8)], "2", gap=0.8, prefer=(math.pi, 0.0)),
+        label([tops["3"] - 1j * (r["3"] + LEG / 2), tops["3"] - 1j * r["3"]], "3", gap=1.0),
+        label([carrier + B * share for share in (0.5, 0.35, 0.65)], "H", gap=0.8, prefer=(0.0,)),
+        label(first + B - 3, Symbol("B"), gap=0.8, prefer=(math.pi, 2.6)),
+        label(start, Symbol("O"), gap=0.8, prefer=(2.6, -2.6)),
+    ]
+    if not case.scheme.single:
+        spots = [last + B + 1j * r[OTHER] * share for share in (0.6, 0.4, 0.8)]
+        requests.append(label(spots, Symbol("2", sup="′"), gap=0.8, prefer=(0.0, math.pi)))
+    return items, requests
+
+
+def _wheel(at: complex, r: float, pen: Pen, inner: bool = False, disc: complex = 0j) -> Iterator[Item]:
+    """A wheel from the side; of an inner one the disc stands aside and the rims lie outside the reference line."""
+    if not inner:
+        yield Line(at - 1j * r, at + 1j * r, pen)
+    for up in (1j, -1j):
+        rim = at + up * (r + (BESIDE if inner else -BESIDE))
+        yield Line(rim - RIM, rim + RIM, pen)
+        if inner:
+            yield Polyline((disc, disc + up * (r + BESIDE + 2), rim + up * 2, rim), pen)
+
+
+def _fixed(at: complex, r: float, inner: bool) -> Iterator[Item]:
+    """Wheel 3, held by the ground below it, and an inner one above it, too."""
+    yield from _wheel(at, r, WHEEL) if not inner else ()
+    for up in (1j, -1j) if inner else (-1j,):
+        rim = at + up * (r + (BESIDE if inner else -BESIDE))
+        if inner:
+            yield Line(rim - RIM, rim + RIM, WHEEL)
+        foot = at + up * (r + LEG)
+        yield Line(rim, foot, WHEEL)
+        yield from style.ground(foot - 4, foot + 4, 1 if up.imag > 0 else -1)
+
+
+def _bearing(at: complex) -> Iterator[Item]:
+    for up in (1j, -1j):
+        wall = at + up * 1.1
+        yield from style.ground(wall - 2.5, wall + 2.5, 1 if up.imag > 0 else -1)
+
+
+# --- triangles of velocities --------------------------------------------------------------------------------
+
+
+def velocity_triangles(case: SolvedTrain) -> Scene:
+    """Velocities at the distances of their points from the axis; below, the plan of angular velocities.
+
+    A velocity points to the right where it turns anticlockwise about an axis below it.  In the plan each ray from the
+    pole K is parallel to the line of its body and cuts off its angular velocity from the foot of K, which is that of
+    wheel 3.
+    """
+    ledger = case.ledger
+
+    def mm(id: str) -> float:
+        return float(ledger[id].values[0]) * MM
+
+    p1, p3, pH = (mm(ids.train_on_paper(wheel)) for wheel in ("1", "3", "H"))
+    Aa, Bb, h = mm(ids.train_velocity_line("A")), mm(ids.train_velocity_line("B")), mm("train.pole")
+    slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
+    A, P, B = complex(0, p1), complex(0, p3), complex(0, pH)
+    a, b = A + Aa, B + Bb
+    top = max(p1, p3, pH) + BEYOND
+    items: list[Item] = [Line(-8j, complex(0, top), style.AXIS)]
+    for start, end, pen in ((0j, a, WHEEL), (0j, b, CARRIER)):
+        items.append(Line(start, end, pen))
+    ends = sorted((a, b, P), key=lambda one: one.imag)
+    items.append(Line(ends[0], ends[-1], SATELLITE))
+    items += [Arrow(A, a, style.VISIBLE, name="Aa"), Arrow(B, b, style.VISIBLE, name="Bb")]
+    items += [style.point(one) for one in (0j, A, B, P)]
+    side = math.pi if Aa > 0 else 0.0
+    requests = [
+        label(0j, Symbol("O"), gap=1.0, prefer=(side,)),
+        label(A, Symbol("A"), gap=1.0, prefer=(side,)),
+        label(B, Symbol("B"), gap=1.0, prefer=(math.pi if Bb > 0 else 0.0,)),
+        label(P, Symbol("P"), gap=1.0, prefer=(math.pi if Bb > 0 else 0.0,)),
+        label(a, Symbol("a"), gap=1.0, prefer=(0.0 if Aa > 0 else math.pi,)),
+        label(b, Symbol("b"), gap=1.0, prefer=(0.0 if Bb > 0 else math.pi,)),
+        label([a * share for share in (0.55, 0.4, 0.7)], "1", gap=0.8),
+        label([b * share for share in (0.55, 0.4, 0.7)], "H", gap=0.8),
+        label(
+            [(one + other) / 2 for one, other in sorted(pairwise(ends), key=lambda pair: -abs(pair[1] - pair[0]))], "2"
+        ),
+    ]
+    # The plan of angular velocities below: K stands under the level line of all ends.
+    K = complex(0, -APART - h)
+    level = K + 1j * h
+    tips = {wheel: level + h * slope for wheel, slope in slopes.items()}
+    low, high = min(0.0, *(tip.real for tip in tips.values())), max(0.0, *(tip.real for tip in tips.values()))
+    items += [
+        Line(level + low - BEYOND, level + high + BEYOND, style.VISIBLE),
+        Line(K, level, style.AXIS),
+        style.point(K),
+        *(style.point(tip) for tip in (level, *tips.values())),
+    ]
+    for wheel, pen in (("1", WHEEL), ("2", SATELLITE), ("H", CARRIER)):
+        items.append(Arrow(K, tips[wheel], pen, 0.0, name=f"s{wheel}"))
+        requests.append(label(tips[wheel], wheel, gap=1.0, prefer=(math.pi / 2,)))
+    requests += [
+        label(level, "3", gap=1.0, prefer=(math.pi / 2,)),
+        label(K, Symbol("K"), gap=1.0, prefer=(-math.pi / 2,)),
+        label([K + 0.5j * h, K + 0.35j * h, K + 0.7j * h], Symbol("h"), gap=0.6, prefer=(math.pi, 0.0)),
+    ]
+    printed = case.printed
+    notes: tuple[Content, ...] = tuple(
+        Chain((printed.symbol(id), printed.number(id))) for id in ("train.mu.l", "train.mu.v", "train.mu.omega")
+    )
+    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+
+
+# --- wheels that turn -----------------------------------------------------------------------------------------
+
+
+def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
+    """A wheel with straight flanks (mm), its first tooth to the right: what shows how teeth stand, not their form."""
+    m = 2 * radius / teeth
+    steps = ((-1.25, 1), (1.0, 1), (1.0, -1), (-1.25, -1))
+    points = []
+    for number in range(teeth):
+        for height, side in steps:
+            half = (math.pi / 4 - height * math.tan(ALPHA)) * m
+            r = radius - height * m if inner else radius + height * m
+            points.append(cmath.rect(r, number * math.tau / teeth - side * half / r))
+    return Polyline(tuple(points), Pen(0.2), closed=True, fill=None if inner else style.TINT)
