@@ -37,7 +37,7 @@ CONDITIONS = ("ratio", "interference", "neighbours", "assembly")
 
 
 @dataclass(frozen=True, slots=True)
-class Scheme:
+class TrainScheme:
     """Which of the two wheels that mesh with satellites are inner ones; a `single` satellite meshes with both."""
 
     inner: tuple[bool, bool]
@@ -56,11 +56,11 @@ class Scheme:
         return -first * second
 
 
-SCHEMES: Mapping[str, Scheme] = {
-    "single": Scheme((False, True), single=True),
-    "double": Scheme((False, True)),
-    "double-outer": Scheme((False, False)),
-    "double-inner": Scheme((True, True)),
+SCHEMES: Mapping[str, TrainScheme] = {
+    "single": TrainScheme((False, True), single=True),
+    "double": TrainScheme((False, True)),
+    "double-outer": TrainScheme((False, False)),
+    "double-inner": TrainScheme((True, True)),
 }
 
 
@@ -86,7 +86,7 @@ class Demand:
     modules: Fraction = Fraction(1)
 
     @property
-    def of(self) -> Scheme:
+    def of(self) -> TrainScheme:
         return SCHEMES[self.scheme]
 
 
@@ -103,11 +103,6 @@ class Train:
         """u₁H with wheel 3 at rest."""
         z = self.teeth
         return 1 + SCHEMES[self.scheme].sign * Fraction(z.two * z.three, z.one * z.other)
-
-    def omega(self, carrier: float, wheel: float) -> tuple[float, float]:
-        """The angular velocities of wheel 1 and of the satellites, of a carrier that turns (Willis)."""
-        first, _ = SCHEMES[self.scheme].signs
-        return wheel, carrier + first * (wheel - carrier) * self.teeth.one / self.teeth.two
 
     def turns(self, satellites: int) -> int | None:
         """P of u₁H z₁ (1 + kP)/k, the least that makes it whole; None where no P does."""
@@ -137,20 +132,20 @@ def _columns(sets: Wholes) -> tuple[Wholes, Wholes, Wholes, Wholes]:
 Columns = tuple[Wholes, Wholes, Wholes, Wholes]
 
 
-def ratios(scheme: Scheme, z: Columns) -> NDArray[np.float64]:
+def ratios(scheme: TrainScheme, z: Columns) -> NDArray[np.float64]:
     z1, z2, z2p, z3 = z
     found: NDArray[np.float64] = 1 + scheme.sign * (z2 * z3) / (z1 * z2p)
     return found
 
 
-def axis(scheme: Scheme, z: Columns) -> Wholes:
+def axis(scheme: TrainScheme, z: Columns) -> Wholes:
     """Twice the distance between the axes of wheel 1 and satellite 2, in modules."""
     first, _ = scheme.signs
     found: Wholes = np.abs(z[0] - first * z[1])
     return found
 
 
-def _interference(scheme: Scheme, z: Columns) -> Flags:
+def _interference(scheme: TrainScheme, z: Columns) -> Flags:
     """Outer wheels are not undercut; inner wheels have more teeth than their satellites by the usual number."""
     holds = (z[1] >= LEAST_OUTER) & (z[2] >= LEAST_OUTER)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
@@ -158,13 +153,13 @@ def _interference(scheme: Scheme, z: Columns) -> Flags:
     return holds
 
 
-def _neighbours(scheme: Scheme, z: Columns, k: int, modules: Fraction) -> Flags:
+def _neighbours(scheme: TrainScheme, z: Columns, k: int, modules: Fraction) -> Flags:
     """The tips of satellites beside each other leave a gap: (z + 2)/(z₁ ± z₂) < sin(π/k) of both wheels of them."""
     room = math.sin(math.pi / k) * axis(scheme, z)
     return (z[1] + 2 < room) & ((z[2] + 2) / float(modules) < room)
 
 
-def _assembly(scheme: Scheme, z: Columns, k: int) -> Flags:
+def _assembly(scheme: TrainScheme, z: Columns, k: int) -> Flags:
     """u₁H z₁ (1 + kP)/k is whole for some whole P: just when in lowest terms u₁H z₁/k has no factor of k below."""
     z1, z2, z2p, z3 = z
     below = k * z2p // np.gcd(z1 * z2p + scheme.sign * z2 * z3, k * z2p)
@@ -172,7 +167,7 @@ def _assembly(scheme: Scheme, z: Columns, k: int) -> Flags:
     return holds
 
 
-def unshifted(scheme: Scheme, z: Columns) -> Flags:
+def unshifted(scheme: TrainScheme, z: Columns) -> Flags:
     """Whether wheels without profile shift mesh inside: no tip beyond an involute, no tips that meet elsewhere.
 
     The tip circle of the inner wheel passes the point where the line of action touches the satellite's base circle,
@@ -230,7 +225,7 @@ def coaxial(demand: Demand) -> Iterator[Wholes]:
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
+class TrainChoice:
     """All tooth numbers [N, 4] that a demand finds, by size; how many are left after each condition."""
 
     demand: Demand
@@ -260,7 +255,7 @@ def _train(demand: Demand, row: Wholes) -> Train:
     return Train(demand.scheme, Teeth(*map(int, row)), demand.modules)
 
 
-def sizes(scheme: Scheme, z: Columns, modules: Fraction) -> NDArray[np.float64]:
+def sizes(scheme: TrainScheme, z: Columns, modules: Fraction) -> NDArray[np.float64]:
     """The circle that the satellites' reference circles touch from inside, in modules m₂; an inner wheel lies on it."""
     m = float(modules)
     found: NDArray[np.float64] = axis(scheme, z) * m + np.maximum(z[1] * m, z[2])
@@ -276,7 +271,7 @@ def in_order(demand: Demand, sets: Wholes) -> Wholes:
 
 
 @lru_cache(maxsize=256)
-def choice(demand: Demand) -> Choice:
+def choice(demand: Demand) -> TrainChoice:
     """All trains that fulfil a demand."""
     kept: list[Wholes] = []
     left = dict.fromkeys(CONDITIONS, 0)
@@ -299,7 +294,7 @@ def choice(demand: Demand) -> Choice:
             nearest = min(nearest, (float(off.min()), sound[off.argmin()]), key=lambda one: one[0])
     found = in_order(demand, np.concatenate(kept))
     refused = {name: in_order(demand, np.concatenate(rows)) for name, rows in misses.items()}
-    return Choice(
+    return TrainChoice(
         demand,
         found,
         unshifted(demand.of, _columns(found)),

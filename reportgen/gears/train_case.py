@@ -1,38 +1,356 @@
-"""A planetary train as a case: what every output of it is made of; its page and its drawing sheet."""
+"""A planetary train as a case: its report and its task with their tables and lines, its key, its results."""
 
 from __future__ import annotations
 
-import cmath
-import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from reportgen.drawing import Circle, Line, Pen, style
-from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
+from reportgen.base.units import MM
+from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.formula import ids, vocabulary
+from reportgen.formula import Chain, Expression, Number, Product, Symbol, ids, signed, vocabulary
 from reportgen.formula.sheet import Family
-from reportgen.formula.vocabulary import KINDS
-from reportgen.gears import train_views
-from reportgen.gears.train import Train, turned
-from reportgen.gears.train_drawings import radii, toothed
-from reportgen.gears.train_solution import OTHER, SolvedTrain
-from reportgen.report import Document
+from reportgen.gears import train_drawings
+from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train, sizes
+from reportgen.gears.train_drawings import scheme_views, velocity_triangles
+from reportgen.gears.train_solution import OTHER, SolvedTrain, term_of
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Contents,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    PageBreak,
+    Section,
+    Table,
+    Text,
+    Value,
+    Words,
+    listed,
+)
 from reportgen.report.case import Key
+from reportgen.report.numbering import number
+from reportgen.report.prose import Prose
 
-if TYPE_CHECKING:
-    from reportgen.drawing import Item
-
-SAMPLES = 360
-FILMED = 110.0
-"""What the wheels may fill on a page (mm)."""
+SECTIONS = ("given", "ratio", "conditions", "candidates", "choice", "checks", "total", "scheme", "rates")
+LATER = ("triangles", "efficiency", "conclusion")
+SHORT = frozenset({"triangles"})
+"""The sections that a short report goes without."""
+ROWS, SHORT_ROWS = 15, 6
+"""So many of the tooth numbers found stand in the table."""
+DATA = (82.0, 20.0, 58.0)
+CHECKS = (62.0, 34.0, 40.0, 24.0)
 SHOWN_SETS = 500
 """So many of the tooth numbers that are found stand in the results."""
+RATES = (40.0, 40.0, 40.0, 40.0)
+
+
+def report(case: SolvedTrain) -> Document:
+    """The finished, numbered report."""
+    page, words, assignment = TrainPage(case), case.words, case.assignment
+    prose, full = Prose(case.places), assignment.report.extent == "full"
+    names = page.names()
+    found: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
+    for section in (*SECTIONS, *LATER):
+        if page.has(section) and (full or section not in SHORT):
+            found += prose.render(f"train-{section}", names)
+    return number(
+        Document(
+            language=assignment.language,
+            title=f"{words['cover']['title']} – {case.title}",
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words.among(words["document"]),
+            blocks=tuple(found),
+            close=not full,
+        )
+    )
+
+
+def task(case: SolvedTrain, key: Key, by_section: bool = False) -> Document:
+    """The student's handout: the given data and the empty answer sheet."""
+    from reportgen.marking.paper import empty_sheet, task_paper
+
+    names = {**TrainPage(case).names(), "answer_tables": empty_sheet(key, by_section)}
+    title = (Section(1, (Text(case.words["train"]["task"].format(title=case.title)),), numbered=False),)
+    return task_paper(case, key, title, Prose(case.places).render("train-task", names))
+
+
+@dataclass(frozen=True)
+class TrainPage:
+    """A planetary train as templates name it."""
+
+    case: SolvedTrain
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        found: Mapping[str, Any] = self.case.words["train"]
+        return found
+
+    def has(self, section: str) -> bool:
+        given = self.case.given
+        return {"total": bool(given.before or given.behind), "efficiency": given.efficiency is not None}.get(
+            section, True
+        )
+
+    def names(self) -> dict[str, Any]:
+        case, given, choice = self.case, self.case.given, self.case.choice
+        rows = len(given.before) + len(given.behind)
+        return {
+            "words": case.words,
+            "title": case.title,
+            "full": case.assignment.report.extent == "full",
+            "scheme": given.scheme,
+            "single": case.scheme.single,
+            "two_modules": case.train.modules != 1,
+            "by_carrier": given.by_carrier,
+            "by_speed": given.u is None,
+            "exact": not given.tolerance.si,
+            "met": abs(case.printed["train.off"].at(1)) == 0,
+            "inner": case.scheme.inner,
+            "rows": rows,
+            "rows_before": len(given.before),
+            "rows_behind": len(given.behind),
+            "row_ratios": [id for id in case.ledger.families if id in ids.train_row_ratio],
+            "teeth": [ids.train_teeth(wheel) for wheel in self.wheels],
+            "rates": [id for id in case.ledger.families if id in ids.train_omega],
+            "readings": [id for id in case.ledger.families if id in ids.train_read],
+            "segments": [ids.train_segment(wheel) for wheel in ("1", "2", "H")],
+            "with_efficiency": given.efficiency is not None,
+            "self_locking": given.efficiency is not None and case.ledger[ids.train_efficiency("train")].at(1) <= 0,
+            "limits": given.z,
+            "tolerance": Value(Number(given.tolerance.si * 100, None, "%")),
+            "left": choice.left,
+            "found": len(choice.sets),
+            "first": choice.first + 1,
+            "free": bool(choice.free[choice.first]),
+            "before_it": choice.first,
+            "possible": listed(Text(str(k)) for k in case.train.satellites),
+            "relation": self.relation,
+            "coaxial": self.coaxial,
+            "room": self.room,
+            "assembly": self.assembly,
+            "data": self.data,
+            "candidates": self.candidates,
+            "shown": min(self.rows, len(choice.sets)),
+            "checks": self.checks,
+            "rates_table": self.rates_table,
+            "known": lambda id: id in case.ledger,
+            "value": lambda id: Value(case.printed.number(id)),
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "figure": self.figure,
+        }
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        return ("1", "2", "3") if self.case.scheme.single else ("1", "2", OTHER, "3")
+
+    @property
+    def rows(self) -> int:
+        return ROWS if self.case.assignment.report.extent == "full" else SHORT_ROWS
+
+    # --- symbols and lines
+
+    def math(self, text: str) -> Symbol:
+        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
+        if text in self.case.printed:
+            return self.case.printed.symbol(text)
+        base, _, sub = text.partition("_")
+        return vocabulary.in_language(Symbol(base, sub.replace("2p", OTHER)), self.case.words["symbols"])
+
+    def quantity(self, id: str) -> Inlines:
+        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id))
+
+    def lines(self, quantities: Iterable[str]) -> Equation:
+        """Worked lines of those of the quantities that the ledger has."""
+        return Equation(tuple(self.case.printed.chain(id) for id in quantities if id in self.case.printed))
+
+    @property
+    def _z(self) -> dict[str, Any]:
+        z = {wheel: Symbol("z", wheel) for wheel in ("1", "2", OTHER, "3")}
+        return z | {OTHER: z["2"]} if self.case.scheme.single else z
+
+    @property
+    def relation(self) -> Equation:
+        """The formula of Willis, and the ratio with wheel 3 at rest."""
+        ω = {wheel: Symbol("ω", wheel) for wheel in "123H"}
+        u0, u, scheme = Symbol("u", "13", "(H)"), Symbol("u", "1H"), self.case.scheme
+        term = term_of(scheme, self._z)
+        willis = Chain((u0, (ω["1"] - ω["H"]) / (ω["3"] - ω["H"]), signed(-scheme.sign, term)))
+        return Equation((willis, Chain((u, ω["1"] / ω["H"], 1 - u0, 1 + signed(scheme.sign, term)))))
+
+    @property
+    def coaxial(self) -> Equation:
+        z, (first, second) = self._z, self.case.scheme.signs
+        near: Expression = z["1"] + signed(-first, z["2"])
+        far: Expression = z["3"] + signed(-second, z[OTHER])
+        if self.case.train.modules != 1:
+            near, far = Symbol("m") * near, Symbol("m", "2") * far
+        return Equation((Chain((near, far)),))
+
+    @property
+    def room(self) -> Equation:
+        """Both sides of the condition of neighbours by their symbols."""
+        return Equation(tuple(self._formula(id) for id in ("train.gap", "train.room")))
+
+    @property
+    def assembly(self) -> Equation:
+        k, P, N, z, u = Symbol("k"), Symbol("P"), Symbol("N"), self._z, Symbol("u", "1H")
+        if self.case.scheme.single:
+            return Equation((Chain((N, u * z["1"] / k, (z["1"] + z["3"]) / k)),))
+        return Equation((Chain((N, Product((u, z["1"], 1 + k * P)) / k)),))
+
+    def _formula(self, id: str) -> Chain:
+        return Chain(self.case.printed.chain(id).parts[:2])
+
+    # --- tables
+
+    def _table(
+        self, name: str, head: Iterable[Inlines], rows: Iterable[Iterable[Inlines]], widths: Iterable[Column]
+    ) -> Table:
+        caption = Prose(self.case.places).inlines(self.words["captions"][name])
+        cells = tuple(tuple(map(Cell, row)) for row in rows)
+        return Table(tuple(widths), (tuple(map(Cell, head)),), cells, caption, f"tab.{name}")
+
+    @property
+    def data(self) -> Table:
+        """The data with their names, symbols and values."""
+        case, heads = self.case, self.case.words["table"]
+        rows: list[tuple[Inlines, ...]] = []
+        for key in ("scheme", "drives"):
+            choice = self.words["choices"][key]
+            rows.append(((Text(choice["name"]),), (Text("–"),), (Text(choice[getattr(case.given, key)]),)))
+        for id, name in case.words["given"].items():
+            if id in case.printed and (id != "train.u" or case.given.u) and (id != "train.n.out" or case.given.n_out):
+                number = case.printed.number(id)
+                rows.append(((Text(str(name)),), (InlineMath(case.printed.symbol(id)),), (Value(number),)))
+        for i, (a, b) in enumerate((*case.given.before, *case.given.behind)):
+            key = "row_before" if i < len(case.given.before) else "row_behind"
+            symbols = InlineMath(Symbol("z", str(4 + 2 * i))), Text(", "), InlineMath(Symbol("z", str(5 + 2 * i)))
+            rows.append(((Text(self.words[key]),), symbols, (Text(f"{a}, {b}"),)))
+        limits = f"{case.given.z.from_} … {case.given.z.to}"
+        rows.append(((Text(self.words["limits"]),), (InlineMath(Symbol("z")),), (Text(limits),)))
+        tolerance = Number(float(f"{case.given.tolerance.si * 100:.6g}"), None, "%")
+        rows.append(((Text(self.words["tolerance"]),), (InlineMath(Symbol("Δu")),), (Value(tolerance),)))
+        head = [(Text(heads[key]),) for key in ("quantity", "symbol", "value")]
+        return self._table("data", head, rows, (Column(DATA[0], "left"), Column(DATA[1]), Column(DATA[2])))
+
+    @property
+    def candidates(self) -> Table:
+        """The smallest of the tooth numbers found, up to the chosen ones at least, with what decides."""
+        case, choice, words = self.case, self.case.choice, self.words["candidates"]
+        m2 = case.given.second_module.si
+        columns = [choice.sets[:, i] for i in range(4)]
+        across = sizes(case.scheme, (columns[0], columns[1], columns[2], columns[3]), case.train.modules) * m2 * MM
+        shown = [*range(min(self.rows, len(choice.sets)))]
+        if choice.first not in shown:
+            shown.append(choice.first)
+        rows: list[list[Inlines]] = []
+        for n in shown:
+            train = choice.train(n)
+            u = case.given.of_input(float(train.ratio))
+            off = (u - case.given.wanted) / case.given.wanted * 100
+            z = train.teeth
+            wheels = (z.one, z.two, z.three) if case.scheme.single else z
+            mark = words["yes" if choice.free[n] else "no"] + (f" {words['chosen']}" if n == choice.first else "")
+            rows.append(
+                [
+                    (Text(str(n + 1)),),
+                    *((Text(str(one)),) for one in wheels),
+                    (Value(_short(u, 4)),),
+                    (Value(_short(off, 2)),),
+                    (Value(_short(float(across[n]), 2)),),
+                    (Text(mark),),
+                ]
+            )
+        symbol = Symbol("u", "H1" if case.given.by_carrier else "1H")
+        head: list[Inlines] = [
+            (Text("№"),),
+            *((InlineMath(Symbol("z", wheel)),) for wheel in self.wheels),
+            (InlineMath(symbol),),
+            (InlineMath(Symbol("Δu")), Text(", %")),
+            (InlineMath(Symbol("D")), Text(", mm")),
+            (Text(words["unshifted"]),),
+        ]
+        widths = (Column(10), *(Column(14),) * len(self.wheels), Column(22), Column(18), Column(22), Column(32))
+        return self._table("candidates", head, rows, widths)
+
+    @property
+    def checks(self) -> Table:
+        """What is required, what there is, and whether it holds."""
+        case, words, z = self.case, self.words["checks"], self.case.train.teeth
+        ledger = case.printed
+        rows: list[tuple[Inlines, ...]] = []
+
+        def row(name: str, wanted: Inlines, actual: Inlines, holds: bool = True) -> None:
+            rows.append(((Text(words[name]),), wanted, actual, (Text(words["yes" if holds else "no"]),)))
+
+        def of(id: str) -> Value:
+            return Value(ledger.number(id))
+
+        def bare(id: str) -> Value:
+            number = ledger.number(id)
+            return Value(Number(number.value, number.decimals))
+
+        row("coaxial", (InlineMath(ledger.symbol("train.a.1")), Text(" = "), InlineMath(ledger.symbol("train.a.2"))),
+            (of("train.a.1"), Text(" = "), of("train.a.2")))  # fmt: skip
+        row("neighbours", (Text("< "), of("train.room")), (of("train.gap"),))
+        row("assembly", (Text(words["whole"]),), (InlineMath(ledger.symbol("train.N")), Text(" = "), of("train.N")))
+        outer = [z.two, z.other] + [
+            wheel for wheel, inner in zip((z.one, z.three), case.scheme.inner, strict=True) if not inner
+        ]
+        row("outer", (Text(f"≥ {LEAST_OUTER}"),), (Text(str(min(outer))),))
+        for name, inner, wheel, satellite in zip(
+            ("first", "second"), case.scheme.inner, (z.one, z.three), (z.two, z.other), strict=True
+        ):
+            if inner:
+                row(name, (Text(f"≥ {LEAST_DIFFERENCE}"),), (Text(f"{wheel} − {satellite} = {wheel - satellite}"),))
+        if any(case.scheme.inner):
+            free = bool(case.choice.free[case.choice.first])
+            row("unshifted", (Text("–"),), (Text(words["free" if free else "shift"]),), free)
+        widths = (Column(CHECKS[0], "left"), *(Column(one) for one in CHECKS[1:]))
+        return self._table("checks", [(Text(one),) for one in words["head"]], rows, widths)
+
+    @property
+    def rates_table(self) -> Table:
+        """Angular velocities by Willis and as they are read off, with the difference."""
+        ledger = self.case.printed
+        rows: list[list[Inlines]] = []
+        for wheel in ("1", "2", "H"):
+            by, read = (ledger.number(id(wheel)) for id in (ids.train_omega, ids.train_read))
+            off = (read.shown - by.shown) / by.shown * 100
+            numbers = (Value(Number(one.value, one.decimals)) for one in (by, read))
+            rows.append([(InlineMath(Symbol("ω", wheel)),), *((one,) for one in numbers), (Value(Number(off, 2)),)])
+        head = [(Text(one),) for one in self.words["rates"]]
+        return self._table("rates", head, rows, map(Column, RATES))
+
+    # --- figures
+
+    def figure(self, name: str) -> Figure:
+        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
+        scene = scheme_views(self.case) if name == "scheme" else velocity_triangles(self.case)
+        return Figure((scene,), caption, f"fig.{name}")
+
+
+def _short(value: float, decimals: int) -> Number:
+    """A number as it is where it has few decimals, else rounded."""
+    short = round(value, decimals)
+    return Number(short + 0.0, None) if np.isclose(value, short, rtol=1e-12, atol=1e-12) else Number(value, decimals)
+
+
+# --- the case --------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -55,7 +373,7 @@ class TrainCase(SolvedTrain):
         return "" if self.choice.free[self.choice.first] else "train-shift"
 
     def document(self) -> Document:
-        return self.bounded(train_views.report)
+        return self.bounded(report)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -67,7 +385,7 @@ class TrainCase(SolvedTrain):
         return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        return self.bounded(partial(train_views.task, key=key, by_section=by_section))
+        return self.bounded(partial(task, key=key, by_section=by_section))
 
     def results(self) -> dict[str, Any]:
         """All tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their rates."""
@@ -85,80 +403,11 @@ class TrainCase(SolvedTrain):
             sets=sets,
         )
 
-    # --- the page
-
     def film(self) -> Film:
-        """One turn of the carrier, however many the wheels make of it."""
-        knots = np.linspace(0, math.tau, SAMPLES + 1)
-        stage = self._stage(knots)
-        a = radii(self)["H"] * self._at
-        sagitta = a * (1 - math.cos(math.pi / SAMPLES))
-        return Film(
-            knots=np.degrees(knots),
-            turns=1,
-            span=0.0,
-            positions=(("1", 0.0),),
-            shown=0,
-            stages=(stage,),
-            charts=(),
-            values=tuple(self._values()),
-            errors=Errors(sagitta, a, 0.0),
-        )
-
-    @property
-    def _at(self) -> float:
-        """Millimetres of the drawing for a metre."""
-        r = radii(self)
-        return FILMED / 2 / max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
-
-    def _stage(self, knots: np.ndarray) -> Stage:
-        train, r, at = self.train, radii(self), self._at
-        z, (inner1, inner3) = train.teeth, self.scheme.inner
-        sense = math.copysign(1, self.ledger[ids.train_omega("H")].at(1))
-        θ = sense * knots
-        one, satellite = train.omega(1.0, float(train.ratio))
-        still, placed = turned(train, self.given.k)
-        items: list[MovingItem] = []
-        centre = Track(np.zeros(1, complex))
-
-        def marked(teeth: int, wheel: str, inner: bool = False) -> tuple[Item, ...]:
-            radius = r[wheel] * at
-            pen = Pen(0.35, style.RED)
-            mark = Line(complex(radius * (1 if inner else 0.25), 0), complex(radius * (1.08 if inner else 0.8), 0), pen)
-            rim = (Circle(0j, radius * 1.08 + 2, style.VISIBLE),) if inner else ()
-            return (*rim, toothed(teeth, radius, inner), mark)
-
-        fixed = Track(np.array([still]))
-        items += [Carried(marked(z.three, "3", True), centre, fixed)] * inner3
-        items += [Carried(marked(z.one, "1", True), centre, Track(one * θ))] * inner1
-        for number, ψ in enumerate(placed):
-            assert ψ is not None, "it can be assembled"
-            γ = number * math.tau / self.given.k
-            place = Track(r["H"] * at * np.exp(1j * (γ + θ)))
-            wheels = [("2", z.two)] if self.scheme.single else [("2", z.two), (OTHER, z.other)]
-            # The larger wheel is drawn below the smaller one.
-            for wheel, teeth in sorted(wheels, key=lambda pair: -r[pair[0]]):
-                items.append(Carried(marked(teeth, wheel), place, Track(ψ + satellite * θ)))
-        for inner, wheel, teeth, angle in ((inner3, "3", z.three, fixed), (inner1, "1", z.one, Track(one * θ))):
-            if not inner:
-                items.append(Carried(marked(teeth, wheel), centre, angle))
-        arms = [r["H"] * at * cmath.rect(1, number * math.tau / self.given.k) for number in range(self.given.k)]
-        arm = tuple(part for tip in arms for part in (Line(0j, tip, Pen(0.6, style.RED)), style.joint(tip)))
-        items += [Carried((*arm, style.joint(0j)), centre, Track(θ))]
-        low, high = extent(items)
-        return Stage("train", self.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),))
-
-    def _values(self) -> Iterator[MomentValue]:
-        for id in self.ledger.families:
-            if id in ids.train_omega:
-                number = self.printed.number(id)
-                shown = self.ledger[id].at(1) / KINDS["angular velocity"].scale
-                yield MomentValue(self.ledger.symbol(id), number.unit, Track(np.array([shown])), number.decimals or 2)
-
-    # --- sheets
+        return train_drawings.film(self)
 
     def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        return train_views.drawing_sheets(self, size, block)
+        return train_drawings.drawing_sheets(self, size, block)
 
 
 def _told(train: Train) -> dict[str, Any]:

@@ -1,22 +1,30 @@
-"""Drawings of a planetary train true to scale: two views of its scheme, and the triangles of velocities."""
+"""Drawings of a planetary train true to scale: its scheme, its triangles of velocities, its page, its sheet."""
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
+from pathlib import Path
 
+import numpy as np
+
+from reportgen.base.errors import SheetError
 from reportgen.base.units import MM, nice_up
+from reportgen.base.words import word
 from reportgen.drawing import Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
 from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.sheet import ENLARGED, GAP, DrawingSheet, PlacedScene, Room, headed, lettered
 from reportgen.formula import Chain, Number, Symbol, ids
-from reportgen.gears.train import ALPHA
-from reportgen.gears.train_solution import OTHER, SolvedTrain
+from reportgen.formula.vocabulary import KINDS
+from reportgen.gears.train import ALPHA, turned
+from reportgen.gears.train_solution import OTHER, STEPS, SolvedTrain
+from reportgen.sheets.frame import DEFAULT, SIZES, blocks, fields_of, frame_scene, read_block, room
 
 FRONT = 80.0
 """What the scheme seen along its axis may fill on a page (mm)."""
-SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
 WHEEL = Pen(0.4)
 SATELLITE = Pen(0.4, style.BLUE)
 CARRIER = Pen(0.5, style.RED)
@@ -30,6 +38,12 @@ BEYOND = 6.0
 """What lines of the triangles go on beyond their ends (mm)."""
 APART = 16.0
 """White between the triangles and the plan of angular velocities (mm)."""
+SAMPLES = 360
+FILMED = 110.0
+"""What the wheels may fill on a page (mm)."""
+USUAL_SIZES = ("A3", "A2", "A1")
+LARGER = {"A3": 0.75, "A2": 1.1, "A1": 1.6, "A0": 2.2}
+"""How many times as large as in a report the scheme is drawn on a sheet."""
 
 
 def radii(case: SolvedTrain) -> dict[str, float]:
@@ -50,7 +64,7 @@ def scheme_scale(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) 
     """What a millimetre of paper stands for (mm), round once it is enlarged."""
     r = radii(case)
     reach = 2 * max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
-    return nice_up(reach * MM / room / enlarged, SCALES) * enlarged
+    return nice_up(reach * MM / room / enlarged, STEPS) * enlarged
 
 
 # --- two views of the scheme ------------------------------------------------------------------------------
@@ -176,8 +190,8 @@ def velocity_triangles(case: SolvedTrain) -> Scene:
     def mm(id: str) -> float:
         return float(ledger[id].values[0]) * MM
 
-    p1, p3, pH = (mm(ids.train_on_paper(wheel)) for wheel in ("1", "3", "H"))
-    Aa, Bb, h = mm(ids.train_velocity_line("A")), mm(ids.train_velocity_line("B")), mm("train.pole")
+    p1, p3, pH = (mm(ids.train_line(line)) for line in ("OA", "OP", "OB"))
+    Aa, Bb, h = mm(ids.train_line("A")), mm(ids.train_line("B")), mm("train.pole")
     slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
     A, P, B = complex(0, p1), complex(0, p3), complex(0, pH)
     a, b = A + Aa, B + Bb
@@ -243,3 +257,117 @@ def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
             r = radius - height * m if inner else radius + height * m
             points.append(cmath.rect(r, number * math.tau / teeth - side * half / r))
     return Polyline(tuple(points), Pen(0.2), closed=True, fill=None if inner else style.TINT)
+
+
+def film(case: SolvedTrain) -> Film:
+    """One turn of the carrier, however many the wheels make of it."""
+    knots = np.linspace(0, math.tau, SAMPLES + 1)
+    stage = _stage(case, knots)
+    a = radii(case)["H"] * _at(case)
+    sagitta = a * (1 - math.cos(math.pi / SAMPLES))
+    return Film(
+        knots=np.degrees(knots),
+        turns=1,
+        span=0.0,
+        positions=(("1", 0.0),),
+        shown=0,
+        stages=(stage,),
+        charts=(),
+        values=tuple(_values(case)),
+        errors=Errors(sagitta, a, 0.0),
+    )
+
+
+def _at(case: SolvedTrain) -> float:
+    """Millimetres of the drawing for a metre."""
+    r = radii(case)
+    return FILMED / 2 / max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
+
+
+def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
+    train, r, at = case.train, radii(case), _at(case)
+    z, (inner1, inner3) = train.teeth, case.scheme.inner
+    ω1, ω2, ωH = (float(case.ledger[ids.train_omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
+    θ = math.copysign(1, ωH) * knots
+    one, satellite = ω1 / ωH, ω2 / ωH
+    still, placed = turned(train, case.given.k)
+    items: list[MovingItem] = []
+    centre = Track(np.zeros(1, complex))
+
+    def marked(teeth: int, wheel: str, inner: bool = False) -> tuple[Item, ...]:
+        radius = r[wheel] * at
+        pen = Pen(0.35, style.RED)
+        mark = Line(complex(radius * (1 if inner else 0.25), 0), complex(radius * (1.08 if inner else 0.8), 0), pen)
+        rim = (Circle(0j, radius * 1.08 + 2, style.VISIBLE),) if inner else ()
+        return (*rim, toothed(teeth, radius, inner), mark)
+
+    fixed = Track(np.array([still]))
+    items += [Carried(marked(z.three, "3", True), centre, fixed)] * inner3
+    items += [Carried(marked(z.one, "1", True), centre, Track(one * θ))] * inner1
+    for number, ψ in enumerate(placed):
+        assert ψ is not None, "it can be assembled"
+        γ = number * math.tau / case.given.k
+        place = Track(r["H"] * at * np.exp(1j * (γ + θ)))
+        wheels = [("2", z.two)] if case.scheme.single else [("2", z.two), (OTHER, z.other)]
+        # The larger wheel is drawn below the smaller one.
+        for wheel, teeth in sorted(wheels, key=lambda pair: -r[pair[0]]):
+            items.append(Carried(marked(teeth, wheel), place, Track(ψ + satellite * θ)))
+    for inner, wheel, teeth, angle in ((inner3, "3", z.three, fixed), (inner1, "1", z.one, Track(one * θ))):
+        if not inner:
+            items.append(Carried(marked(teeth, wheel), centre, angle))
+    arms = [r["H"] * at * cmath.rect(1, number * math.tau / case.given.k) for number in range(case.given.k)]
+    arm = tuple(part for tip in arms for part in (Line(0j, tip, Pen(0.6, style.RED)), style.joint(tip)))
+    items += [Carried((*arm, style.joint(0j)), centre, Track(θ))]
+    low, high = extent(items)
+    return Stage("train", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),))
+
+
+def _values(case: SolvedTrain) -> Iterator[MomentValue]:
+    for id in case.ledger.families:
+        if id in ids.train_omega:
+            number = case.printed.number(id)
+            shown = case.ledger[id].at(1) / KINDS["angular velocity"].scale
+            yield MomentValue(case.ledger.symbol(id), number.unit, Track(np.array([shown])), number.decimals or 2)
+
+
+# --- the drawing sheet ------------------------------------------------------------------------------------
+
+
+def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
+    """The sheet of a size, else of the file's, else of the least that has room; raises `SheetError` where none has."""
+    language, captions = case.assignment.language, case.words["train"]["captions"]
+    frame = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
+    wanted = size or case.assignment.report.sheets or ""
+    for paper in (wanted,) if wanted else USUAL_SIZES:
+        space = room(paper, frame.margins, frame.size)
+        plates = (
+            ("scheme", "scheme", scheme_views(case, FRONT * LARGER[paper], ENLARGED)),
+            ("triangles", "plans", velocity_triangles(case)),
+        )
+        titled = [(name, layer, headed(lettered(one), captions[f"figure-{name}"], "")) for name, layer, one in plates]
+        if not (parts := _beside(titled, space)):
+            continue
+        title = {"title": str(case.words["train"]["sheet"]), "sheet": "1", "sheets": "1", "format": paper}
+        fields = fields_of(case) | title
+        corner = complex(space.high.real - frame.size[0], space.low.imag)
+        own = (
+            PlacedScene("frame", "frame", frame_scene(paper, frame.margins, frame.note(fields))),
+            PlacedScene("title block", "frame", frame.scene(fields), corner),
+        )
+        return [DrawingSheet(paper, *SIZES[paper], (*own, *parts))]
+    raise SheetError(word("train_sheet", language, size=paper))
+
+
+def _beside(plates: Iterable[tuple[str, str, Scene]], space: Room) -> list[PlacedScene]:
+    """The plates in a row from the upper left, above the title block where it is in their way; none without room."""
+    parts: list[PlacedScene] = []
+    left = space.low.real + GAP
+    for name, layer, scene in plates:
+        right = left + scene.width
+        floor = space.low.imag + (space.block.imag if right > space.high.real - space.block.real else 0.0) + GAP
+        at = complex(left, space.high.imag - GAP - scene.height)
+        if right > space.high.real - GAP or at.imag < floor:
+            return []
+        parts.append(PlacedScene(name, layer, scene, at))
+        left = right + GAP
+    return parts

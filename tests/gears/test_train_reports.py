@@ -108,7 +108,7 @@ def test_the_triangles_measure_as_they_say(name: str) -> None:
 
     for place in "AB":
         drawn = (arrows[f"{place}{place.lower()}"].end - arrows[f"{place}{place.lower()}"].start).real
-        assert drawn == pytest.approx(shown(ids.train_velocity_line(place)), abs=0.01)
+        assert drawn == pytest.approx(shown(ids.train_line(place)), abs=0.01)
     step = shown("train.mu.omega") * 0.01
     lines = [item for item in velocity_triangles(case).items if isinstance(item, Line)]
     for wheel in ("1", "2", "H"):
