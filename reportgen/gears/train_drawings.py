@@ -13,7 +13,7 @@ import numpy as np
 from reportgen.base.errors import SheetError
 from reportgen.base.units import MM, nice_up
 from reportgen.base.words import word
-from reportgen.drawing import Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import Arrow, Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.sheet import ENLARGED, GAP, DrawingSheet, PlacedScene, Room, headed, lettered
@@ -42,8 +42,8 @@ SAMPLES = 360
 FILMED = 110.0
 """What the wheels may fill on a page (mm)."""
 USUAL_SIZES = ("A3", "A2", "A1")
-LARGER = {"A3": 0.75, "A2": 1.1, "A1": 1.6, "A0": 2.2}
-"""How many times as large as in a report the scheme is drawn on a sheet."""
+LARGER = (2.0, 1.6, 1.25, 1.0, 0.75, 0.6)
+"""So many times as large as in a report the drawings are tried on a sheet; triangles stay 2:1 or 1:1."""
 
 
 def radii(case: SolvedTrain) -> dict[str, float]:
@@ -178,8 +178,10 @@ def _bearing(at: complex) -> Iterator[Item]:
 # --- triangles of velocities --------------------------------------------------------------------------------
 
 
-def velocity_triangles(case: SolvedTrain) -> Scene:
+def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
     """Velocities at the distances of their points from the axis; below, the plan of angular velocities.
+
+    All is drawn so many `times` as large as the ledger has it.
 
     A velocity points to the right where it turns anticlockwise about an axis below it.  In the plan each ray from the
     pole K is parallel to the line of its body and cuts off its angular velocity from the foot of K, which is that of
@@ -188,7 +190,7 @@ def velocity_triangles(case: SolvedTrain) -> Scene:
     ledger = case.ledger
 
     def mm(id: str) -> float:
-        return float(ledger[id].values[0]) * MM
+        return float(ledger[id].values[0]) * MM * times
 
     p1, p3, pH = (mm(ids.train_line(line)) for line in ("OA", "OP", "OB"))
     Aa, Bb, h = mm(ids.train_line("A")), mm(ids.train_line("B")), mm("train.pole")
@@ -236,10 +238,9 @@ def velocity_triangles(case: SolvedTrain) -> Scene:
         label(K, Symbol("K"), gap=1.0, prefer=(-math.pi / 2,)),
         label([K + 0.5j * h, K + 0.35j * h, K + 0.7j * h], Symbol("h"), gap=0.6, prefer=(math.pi, 0.0)),
     ]
-    printed = case.printed
-    notes: tuple[Content, ...] = tuple(
-        Chain((printed.symbol(id), printed.number(id))) for id in ("train.mu.l", "train.mu.v", "train.mu.omega")
-    )
+    units = {"l": "mm/mm", "v": "mm/(s·mm)", "omega": "rad/(s·mm)"}
+    scales = {of: case.printed.number(ids.train_scale(of)).value / times for of in units}
+    notes = tuple(scale_note(scales[of], case.ledger.symbol(ids.train_scale(of)).sub, units[of]) for of in units)
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
@@ -256,7 +257,7 @@ def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
             half = (math.pi / 4 - height * math.tan(ALPHA)) * m
             r = radius - height * m if inner else radius + height * m
             points.append(cmath.rect(r, number * math.tau / teeth - side * half / r))
-    return Polyline(tuple(points), Pen(0.2), closed=True, fill=None if inner else style.TINT)
+    return Polyline(tuple(points), Pen(0.2), closed=True)
 
 
 def film(case: SolvedTrain) -> Film:
@@ -335,17 +336,13 @@ def _values(case: SolvedTrain) -> Iterator[MomentValue]:
 
 def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
     """The sheet of a size, else of the file's, else of the least that has room; raises `SheetError` where none has."""
-    language, captions = case.assignment.language, case.words["train"]["captions"]
+    language = case.assignment.language
     frame = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
     wanted = size or case.assignment.report.sheets or ""
     for paper in (wanted,) if wanted else USUAL_SIZES:
         space = room(paper, frame.margins, frame.size)
-        plates = (
-            ("scheme", "scheme", scheme_views(case, FRONT * LARGER[paper], ENLARGED)),
-            ("triangles", "plans", velocity_triangles(case)),
-        )
-        titled = [(name, layer, headed(lettered(one), captions[f"figure-{name}"], "")) for name, layer, one in plates]
-        if not (parts := _beside(titled, space)):
+        parts = next(filter(None, (_beside(_plates(case, larger), space) for larger in LARGER)), None)
+        if parts is None:
             continue
         title = {"title": str(case.words["train"]["sheet"]), "sheet": "1", "sheets": "1", "format": paper}
         fields = fields_of(case) | title
@@ -356,6 +353,16 @@ def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None)
         )
         return [DrawingSheet(paper, *SIZES[paper], (*own, *parts))]
     raise SheetError(word("train_sheet", language, size=paper))
+
+
+def _plates(case: SolvedTrain, larger: float) -> Iterator[tuple[str, str, Scene]]:
+    """Name, layer and drawing of each plate; scales are round once plates are enlarged."""
+    drawn = (
+        ("scheme", "scheme", scheme_views(case, FRONT * larger, ENLARGED)),
+        ("triangles", "plans", velocity_triangles(case, (2.0 if larger > 1 else 1.0) / ENLARGED)),
+    )
+    for name, layer, scene in drawn:
+        yield name, layer, headed(lettered(scene), str(case.words["train"]["captions"][f"figure-{name}"]), "")
 
 
 def _beside(plates: Iterable[tuple[str, str, Scene]], space: Room) -> list[PlacedScene]:
