@@ -13,7 +13,7 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.formula import Chain, Expression, Number, Product, Symbol, ids, signed, vocabulary
+from reportgen.formula import Chain, Number, Product, Symbol, ids, signed, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.gears import train_drawings
 from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train, sizes
@@ -105,50 +105,36 @@ class TrainPage:
 
     def names(self) -> dict[str, Any]:
         case, given, choice = self.case, self.case.given, self.case.choice
-        rows = len(given.before) + len(given.behind)
+        families, written = case.ledger.families, case.printed
         return {
             "words": case.words,
-            "title": case.title,
-            "full": case.assignment.report.extent == "full",
-            "scheme": given.scheme,
+            "given": given,
+            "choice": choice,
             "single": case.scheme.single,
-            "two_modules": case.train.modules != 1,
-            "by_carrier": given.by_carrier,
-            "by_speed": given.u is None,
-            "exact": not given.tolerance.si,
-            "met": abs(case.printed["train.off"].at(1)) == 0,
             "inner": case.scheme.inner,
-            "rows": rows,
-            "rows_before": len(given.before),
-            "rows_behind": len(given.behind),
-            "row_ratios": [id for id in case.ledger.families if id in ids.train_row_ratio],
-            "teeth": [ids.train_teeth(wheel) for wheel in self.wheels],
-            "rates": [id for id in case.ledger.families if id in ids.train_omega],
-            "readings": [id for id in case.ledger.families if id in ids.train_read],
-            "segments": [ids.train_segment(wheel) for wheel in ("1", "2", "H")],
-            "with_efficiency": given.efficiency is not None,
-            "self_locking": given.efficiency is not None and case.ledger[ids.train_efficiency("train")].at(1) <= 0,
-            "limits": given.z,
-            "tolerance": Value(Number(given.tolerance.si * 100, None, "%")),
-            "left": choice.left,
-            "found": len(choice.sets),
-            "first": choice.first + 1,
+            "met": written["train.off"].at(1) == 0,
             "free": bool(choice.free[choice.first]),
-            "before_it": choice.first,
+            "rows": len(given.before) + len(given.behind),
+            "row_ratios": [id for id in families if id in ids.train_row_ratio],
+            "teeth": [ids.train_teeth(wheel) for wheel in self.wheels],
+            "rates": [id for id in families if id in ids.train_omega],
+            "readings": [id for id in families if id in ids.train_read],
+            "segments": [id for id in families if id in ids.train_segment],
+            "self_locking": given.efficiency is not None and written[ids.train_efficiency("train")].at(1) <= 0,
+            "tolerance": Value(self._share(given.tolerance.si)),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
-            "relation": self.relation,
-            "coaxial": self.coaxial,
-            "room": self.room,
-            "assembly": self.assembly,
-            "data": self.data,
-            "candidates": self.candidates,
             "shown": min(self.rows, len(choice.sets)),
+            "data": self.data,
+            "relation": self.relation,
+            "assembly": self.assembly,
+            "candidates": self.candidates,
             "checks": self.checks,
             "rates_table": self.rates_table,
-            "known": lambda id: id in case.ledger,
-            "value": lambda id: Value(case.printed.number(id)),
-            "quantity": self.quantity,
-            "lines": self.lines,
+            "known": lambda id: id in written,
+            "value": lambda id: Value(written.number(id)),
+            "quantity": lambda id: (InlineMath(written.symbol(id)), Text(" = "), Value(written.number(id))),
+            "lines": lambda quantities: Equation(tuple(written.chain(id) for id in quantities if id in written)),
+            "formulas": lambda quantities: Equation(tuple(Chain(written.chain(id).parts[:2]) for id in quantities)),
             "math": self.math,
             "figure": self.figure,
         }
@@ -170,13 +156,6 @@ class TrainPage:
         base, _, sub = text.partition("_")
         return vocabulary.in_language(Symbol(base, sub.replace("2p", OTHER)), self.case.words["symbols"])
 
-    def quantity(self, id: str) -> Inlines:
-        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id))
-
-    def lines(self, quantities: Iterable[str]) -> Equation:
-        """Worked lines of those of the quantities that the ledger has."""
-        return Equation(tuple(self.case.printed.chain(id) for id in quantities if id in self.case.printed))
-
     @property
     def _z(self) -> dict[str, Any]:
         z = {wheel: Symbol("z", wheel) for wheel in ("1", "2", OTHER, "3")}
@@ -192,28 +171,15 @@ class TrainPage:
         return Equation((willis, Chain((u, ω["1"] / ω["H"], 1 - u0, 1 + signed(scheme.sign, term)))))
 
     @property
-    def coaxial(self) -> Equation:
-        z, (first, second) = self._z, self.case.scheme.signs
-        near: Expression = z["1"] + signed(-first, z["2"])
-        far: Expression = z["3"] + signed(-second, z[OTHER])
-        if self.case.train.modules != 1:
-            near, far = Symbol("m") * near, Symbol("m", "2") * far
-        return Equation((Chain((near, far)),))
-
-    @property
-    def room(self) -> Equation:
-        """Both sides of the condition of neighbours by their symbols."""
-        return Equation(tuple(self._formula(id) for id in ("train.gap", "train.room")))
-
-    @property
     def assembly(self) -> Equation:
         k, P, N, z, u = Symbol("k"), Symbol("P"), Symbol("N"), self._z, Symbol("u", "1H")
         if self.case.scheme.single:
             return Equation((Chain((N, u * z["1"] / k, (z["1"] + z["3"]) / k)),))
         return Equation((Chain((N, Product((u, z["1"], 1 + k * P)) / k)),))
 
-    def _formula(self, id: str) -> Chain:
-        return Chain(self.case.printed.chain(id).parts[:2])
+    @staticmethod
+    def _share(of: float) -> Number:
+        return Number(float(f"{of * 100:.6g}"), None, "%")
 
     # --- tables
 
@@ -242,8 +208,8 @@ class TrainPage:
             rows.append(((Text(self.words[key]),), symbols, (Text(f"{a}, {b}"),)))
         limits = f"{case.given.z.from_} … {case.given.z.to}"
         rows.append(((Text(self.words["limits"]),), (InlineMath(Symbol("z")),), (Text(limits),)))
-        tolerance = Number(float(f"{case.given.tolerance.si * 100:.6g}"), None, "%")
-        rows.append(((Text(self.words["tolerance"]),), (InlineMath(Symbol("Δu")),), (Value(tolerance),)))
+        tolerance = Value(self._share(case.given.tolerance.si))
+        rows.append(((Text(self.words["tolerance"]),), (InlineMath(Symbol("Δu")),), (tolerance,)))
         head = [(Text(heads[key]),) for key in ("quantity", "symbol", "value")]
         return self._table("data", head, rows, (Column(DATA[0], "left"), Column(DATA[1]), Column(DATA[2])))
 

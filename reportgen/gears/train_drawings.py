@@ -55,16 +55,14 @@ def radii(case: SolvedTrain) -> dict[str, float]:
     return {wheel: size / 2 for wheel, size in sizes.items()}
 
 
+def outermost(r: dict[str, float]) -> float:
+    """How far wheels reach from the axis, by their reference circles."""
+    return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
+
+
 def scale_note(scale: float, sub: str = "l", unit: str = "mm/mm") -> Chain:
     """The scale of a drawing: what a millimetre of paper stands for."""
     return Chain((Symbol("μ", sub), Number(float(f"{scale:.6g}"), None, unit)))
-
-
-def scheme_scale(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) -> float:
-    """What a millimetre of paper stands for (mm), round once it is enlarged."""
-    r = radii(case)
-    reach = 2 * max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
-    return nice_up(reach * MM / room / enlarged, STEPS) * enlarged
 
 
 # --- two views of the scheme ------------------------------------------------------------------------------
@@ -72,13 +70,12 @@ def scheme_scale(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) 
 
 def scheme_views(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) -> Scene:
     """Along the axis and from the side, on one height."""
-    scale = scheme_scale(case, room, enlarged)
+    # The scale is round once the drawing is enlarged.
+    scale = nice_up(2 * outermost(radii(case)) * MM / room / enlarged, STEPS) * enlarged
     r = {wheel: size * MM / scale for wheel, size in radii(case).items()}
-    reach = max(r["H"] + max(r["2"], r[OTHER]), r["1"], r["3"])
     front, named = _along(case, r)
-    side, beside = _from_side(case, r, complex(reach + 36.0, 0))
-    items = (*front, *side)
-    return finish(Canvas(items, (*named, *beside)), notes=(scale_note(scale),), margin=2.0)
+    side, beside = _from_side(case, r, complex(outermost(r) + 36.0, 0))
+    return finish(Canvas((*front, *side), (*named, *beside)), notes=(scale_note(scale),), margin=2.0)
 
 
 def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
@@ -91,11 +88,8 @@ def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Req
         items += [Circle(place, r[wheel], SATELLITE) for wheel in dict.fromkeys(("2", "2" if single else OTHER))]
         items += [Line(0j, place, CARRIER), style.joint(place)]
     items.append(style.joint(0j))
-    ring = max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
-    # Wheel 3 stands still.
-    items += style.ground(complex(-5, -r["3"] - LEG), complex(5, -r["3"] - LEG), -1)
-    items.append(Line(complex(0, -r["3"]), complex(0, -r["3"] - LEG), WHEEL))
-    items += [Line(complex(-ring - 4, 0), complex(ring + 4, 0), style.AXIS)]
+    ring = outermost(r)
+    items += [*_held(-1j * r["3"]), Line(complex(-ring - 4, 0), complex(ring + 4, 0), style.AXIS)]
     requests = [
         label(0j, Symbol("O"), gap=1.8, prefer=(-0.5, -2.6)),
         label(places[0], Symbol("B"), gap=1.8, prefer=(0.5, 2.6)),
@@ -130,12 +124,12 @@ def _from_side(case: SolvedTrain, r: dict[str, float], at: complex) -> tuple[lis
         Line(carrier, end, CARRIER),
     ]
     for place in (start + SHAFT / 3, end - SHAFT / 3):
-        items += _bearing(place)
-    tops = {"1": first, "3": last}
+        for up in (1j, -1j):
+            items += style.ground(place + 1.1 * up - 2.5, place + 1.1 * up + 2.5, round(up.imag))
     requests = [
-        label([tops["1"] - 1j * r["1"] * share for share in (0.7, 0.5, 0.9)], "1", gap=0.8),
+        label([first - 1j * r["1"] * share for share in (0.7, 0.5, 0.9)], "1", gap=0.8),
         label([first + B + 1j * r["2"] * share for share in (0.6, 0.4, 0.8)], "2", gap=0.8, prefer=(math.pi, 0.0)),
-        label([tops["3"] - 1j * (r["3"] + LEG / 2), tops["3"] - 1j * r["3"]], "3", gap=1.0),
+        label([last - 1j * (r["3"] + LEG / 2), last - 1j * r["3"]], "3", gap=1.0),
         label([carrier + B * share for share in (0.5, 0.35, 0.65)], "H", gap=0.8, prefer=(0.0,)),
         label(first + B - 3, Symbol("B"), gap=0.8, prefer=(math.pi, 2.6)),
         label(start, Symbol("O"), gap=0.8, prefer=(2.6, -2.6)),
@@ -159,20 +153,19 @@ def _wheel(at: complex, r: float, pen: Pen, inner: bool = False, disc: complex =
 
 def _fixed(at: complex, r: float, inner: bool) -> Iterator[Item]:
     """Wheel 3, held by the ground below it, and an inner one above it, too."""
-    yield from _wheel(at, r, WHEEL) if not inner else ()
+    if not inner:
+        yield from _wheel(at, r, WHEEL)
     for up in (1j, -1j) if inner else (-1j,):
         rim = at + up * (r + (BESIDE if inner else -BESIDE))
-        if inner:
-            yield Line(rim - RIM, rim + RIM, WHEEL)
-        foot = at + up * (r + LEG)
-        yield Line(rim, foot, WHEEL)
-        yield from style.ground(foot - 4, foot + 4, 1 if up.imag > 0 else -1)
+        yield Line(rim - RIM, rim + RIM, WHEEL)
+        yield from _held(rim, up)
 
 
-def _bearing(at: complex) -> Iterator[Item]:
-    for up in (1j, -1j):
-        wall = at + up * 1.1
-        yield from style.ground(wall - 2.5, wall + 2.5, 1 if up.imag > 0 else -1)
+def _held(rim: complex, up: complex = -1j) -> Iterator[Item]:
+    """What holds the rim of wheel 3, which stands still."""
+    foot = rim + up * LEG
+    yield Line(rim, foot, WHEEL)
+    yield from style.ground(foot - 4, foot + 4, round(up.imag))
 
 
 # --- triangles of velocities --------------------------------------------------------------------------------
@@ -183,9 +176,8 @@ def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
 
     All is drawn so many `times` as large as the ledger has it.
 
-    A velocity points to the right where it turns anticlockwise about an axis below it.  In the plan each ray from the
-    pole K is parallel to the line of its body and cuts off its angular velocity from the foot of K, which is that of
-    wheel 3.
+    A velocity in the sense of the driving shaft points to the right.  In the plan each ray from the pole K is parallel
+    to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
     """
     ledger = case.ledger
 
@@ -197,35 +189,26 @@ def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
     slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
     A, P, B = complex(0, p1), complex(0, p3), complex(0, pH)
     a, b = A + Aa, B + Bb
-    top = max(p1, p3, pH) + BEYOND
-    items: list[Item] = [Line(-8j, complex(0, top), style.AXIS)]
-    for start, end, pen in ((0j, a, WHEEL), (0j, b, CARRIER)):
-        items.append(Line(start, end, pen))
     ends = sorted((a, b, P), key=lambda one: one.imag)
-    items.append(Line(ends[0], ends[-1], SATELLITE))
+    items: list[Item] = [Line(-8j, complex(0, max(p1, p3, pH) + BEYOND), style.AXIS)]
+    items += [Line(0j, a, WHEEL), Line(0j, b, CARRIER), Line(ends[0], ends[-1], SATELLITE)]
     items += [Arrow(A, a, style.VISIBLE, name="Aa"), Arrow(B, b, style.VISIBLE, name="Bb")]
     items += [style.point(one) for one in (0j, A, B, P)]
-    side = math.pi if Aa > 0 else 0.0
+    left = {"O": Aa > 0, "A": Aa > 0, "B": Bb > 0, "P": Bb > 0, "a": Aa < 0, "b": Bb < 0}
     requests = [
-        label(0j, Symbol("O"), gap=1.0, prefer=(side,)),
-        label(A, Symbol("A"), gap=1.0, prefer=(side,)),
-        label(B, Symbol("B"), gap=1.0, prefer=(math.pi if Bb > 0 else 0.0,)),
-        label(P, Symbol("P"), gap=1.0, prefer=(math.pi if Bb > 0 else 0.0,)),
-        label(a, Symbol("a"), gap=1.0, prefer=(0.0 if Aa > 0 else math.pi,)),
-        label(b, Symbol("b"), gap=1.0, prefer=(0.0 if Bb > 0 else math.pi,)),
-        label([a * share for share in (0.55, 0.4, 0.7)], "1", gap=0.8),
-        label([b * share for share in (0.55, 0.4, 0.7)], "H", gap=0.8),
-        label(
-            [(one + other) / 2 for one, other in sorted(pairwise(ends), key=lambda pair: -abs(pair[1] - pair[0]))], "2"
-        ),
+        label(at, Symbol(name), gap=1.0, prefer=(math.pi if left[name] else 0.0,))
+        for at, name in ((0j, "O"), (A, "A"), (B, "B"), (P, "P"), (a, "a"), (b, "b"))
     ]
+    requests += [label([end * share for share in (0.55, 0.4, 0.7)], name) for end, name in ((a, "1"), (b, "H"))]
+    parts = sorted(pairwise(ends), key=lambda pair: -abs(pair[1] - pair[0]))
+    requests.append(label([(one + other) / 2 for one, other in parts], "2"))
     # The plan of angular velocities below: K stands under the level line of all ends.
     K = complex(0, -APART - h)
     level = K + 1j * h
     tips = {wheel: level + h * slope for wheel, slope in slopes.items()}
-    low, high = min(0.0, *(tip.real for tip in tips.values())), max(0.0, *(tip.real for tip in tips.values()))
+    reach = [0.0, *(tip.real for tip in tips.values())]
     items += [
-        Line(level + low - BEYOND, level + high + BEYOND, style.VISIBLE),
+        Line(level + min(reach) - BEYOND, level + max(reach) + BEYOND, style.VISIBLE),
         Line(K, level, style.AXIS),
         style.point(K),
         *(style.point(tip) for tip in (level, *tips.values())),
@@ -263,26 +246,23 @@ def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
 def film(case: SolvedTrain) -> Film:
     """One turn of the carrier, however many the wheels make of it."""
     knots = np.linspace(0, math.tau, SAMPLES + 1)
-    stage = _stage(case, knots)
     a = radii(case)["H"] * _at(case)
-    sagitta = a * (1 - math.cos(math.pi / SAMPLES))
     return Film(
         knots=np.degrees(knots),
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
         shown=0,
-        stages=(stage,),
+        stages=(_stage(case, knots),),
         charts=(),
         values=tuple(_values(case)),
-        errors=Errors(sagitta, a, 0.0),
+        errors=Errors(a * (1 - math.cos(math.pi / SAMPLES)), a, 0.0),
     )
 
 
 def _at(case: SolvedTrain) -> float:
     """Millimetres of the drawing for a metre."""
-    r = radii(case)
-    return FILMED / 2 / max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
+    return FILMED / 2 / outermost(radii(case))
 
 
 def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
@@ -292,33 +272,29 @@ def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
     θ = math.copysign(1, ωH) * knots
     one, satellite = ω1 / ωH, ω2 / ωH
     still, placed = turned(train, case.given.k)
-    items: list[MovingItem] = []
-    centre = Track(np.zeros(1, complex))
+    centre, red = Track(np.zeros(1, complex)), Pen(0.35, style.RED)
 
-    def marked(teeth: int, wheel: str, inner: bool = False) -> tuple[Item, ...]:
+    def marked(wheel: str, teeth: int, inner: bool) -> tuple[Item, ...]:
+        """A wheel with a mark that shows how it turns; an inner one has its body around it."""
         radius = r[wheel] * at
-        pen = Pen(0.35, style.RED)
-        mark = Line(complex(radius * (1 if inner else 0.25), 0), complex(radius * (1.08 if inner else 0.8), 0), pen)
-        rim = (Circle(0j, radius * 1.08 + 2, style.VISIBLE),) if inner else ()
-        return (*rim, toothed(teeth, radius, inner), mark)
+        if inner:
+            rim = Circle(0j, radius * 1.08 + 2, style.VISIBLE)
+            return rim, toothed(teeth, radius, inner), Line(radius + 0j, radius * 1.08 + 0j, red)
+        return toothed(teeth, radius), Line(0.25 * radius + 0j, 0.8 * radius + 0j, red)
 
-    fixed = Track(np.array([still]))
-    items += [Carried(marked(z.three, "3", True), centre, fixed)] * inner3
-    items += [Carried(marked(z.one, "1", True), centre, Track(one * θ))] * inner1
+    items: list[MovingItem] = [
+        Carried(marked("3", z.three, inner3), centre, Track(np.array([still]))),
+        Carried(marked("1", z.one, inner1), centre, Track(one * θ)),
+    ]
+    arm: list[Item] = [style.joint(0j)]
     for number, ψ in enumerate(placed):
         assert ψ is not None, "it can be assembled"
-        γ = number * math.tau / case.given.k
-        place = Track(r["H"] * at * np.exp(1j * (γ + θ)))
-        wheels = [("2", z.two)] if case.scheme.single else [("2", z.two), (OTHER, z.other)]
-        # The larger wheel is drawn below the smaller one.
-        for wheel, teeth in sorted(wheels, key=lambda pair: -r[pair[0]]):
-            items.append(Carried(marked(teeth, wheel), place, Track(ψ + satellite * θ)))
-    for inner, wheel, teeth, angle in ((inner3, "3", z.three, fixed), (inner1, "1", z.one, Track(one * θ))):
-        if not inner:
-            items.append(Carried(marked(teeth, wheel), centre, angle))
-    arms = [r["H"] * at * cmath.rect(1, number * math.tau / case.given.k) for number in range(case.given.k)]
-    arm = tuple(part for tip in arms for part in (Line(0j, tip, Pen(0.6, style.RED)), style.joint(tip)))
-    items += [Carried((*arm, style.joint(0j)), centre, Track(θ))]
+        axis = r["H"] * at * cmath.rect(1, number * math.tau / case.given.k)
+        place = Track(axis * np.exp(1j * θ))
+        for wheel, teeth in [("2", z.two), (OTHER, z.other)][: 1 if case.scheme.single else 2]:
+            items.append(Carried(marked(wheel, teeth, False), place, Track(ψ + satellite * θ)))
+        arm += [Line(0j, axis, Pen(0.6, style.RED)), style.joint(axis)]
+    items.append(Carried(tuple(arm), centre, Track(θ)))
     low, high = extent(items)
     return Stage("train", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),))
 
