@@ -104,6 +104,11 @@ class Train:
         z = self.teeth
         return 1 + SCHEMES[self.scheme].sign * Fraction(z.two * z.three, z.one * z.other)
 
+    @property
+    def size(self) -> float:
+        """The circle that the satellites' reference circles touch from inside, in modules m₂."""
+        return float(sizes(SCHEMES[self.scheme], _columns(np.array([self.teeth])), self.modules)[0])
+
     def turns(self, satellites: int) -> int | None:
         """P of u₁H z₁ (1 + kP)/k, the least that makes it whole; None where no P does."""
         lowest = self.ratio * self.teeth.one / satellites

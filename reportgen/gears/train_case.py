@@ -10,15 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.units import MM
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.formula import Chain, Number, Product, Symbol, ids, signed, vocabulary
+from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.gears import train_drawings
-from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train, sizes
+from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
-from reportgen.gears.train_solution import OTHER, SolvedTrain, term_of
+from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
 from reportgen.report import (
     Block,
     Cell,
@@ -47,11 +46,10 @@ SHORT = frozenset({"triangles"})
 """The sections that a short report goes without."""
 ROWS, SHORT_ROWS = 15, 6
 """So many of the tooth numbers found stand in the table."""
-DATA = (82.0, 20.0, 58.0)
-CHECKS = (62.0, 34.0, 40.0, 24.0)
+WORDS = 60
+"""A wider column has words."""
 SHOWN_SETS = 500
 """So many of the tooth numbers that are found stand in the results."""
-RATES = (40.0, 40.0, 40.0, 40.0)
 
 
 def report(case: SolvedTrain) -> Document:
@@ -121,7 +119,7 @@ class TrainPage:
             "readings": [id for id in families if id in ids.train_read],
             "segments": [id for id in families if id in ids.train_segment],
             "self_locking": given.efficiency is not None and written[ids.train_efficiency("train")].at(1) <= 0,
-            "tolerance": Value(self._share(given.tolerance.si)),
+            "tolerance": Value(self.tolerance),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
             "shown": min(self.rows, len(choice.sets)),
             "data": self.data,
@@ -132,7 +130,7 @@ class TrainPage:
             "rates_table": self.rates_table,
             "known": lambda id: id in written,
             "value": lambda id: Value(written.number(id)),
-            "quantity": lambda id: (InlineMath(written.symbol(id)), Text(" = "), Value(written.number(id))),
+            "quantity": lambda id: said((written.symbol(id), " = ", written.number(id))),
             "lines": lambda quantities: Equation(tuple(written.chain(id) for id in quantities if id in written)),
             "formulas": lambda quantities: Equation(tuple(Chain(written.chain(id).parts[:2]) for id in quantities)),
             "math": self.math,
@@ -157,150 +155,106 @@ class TrainPage:
         return vocabulary.in_language(Symbol(base, sub.replace("2p", OTHER)), self.case.words["symbols"])
 
     @property
-    def _z(self) -> dict[str, Any]:
-        z = {wheel: Symbol("z", wheel) for wheel in ("1", "2", OTHER, "3")}
-        return z | {OTHER: z["2"]} if self.case.scheme.single else z
-
-    @property
     def relation(self) -> Equation:
         """The formula of Willis, and the ratio with wheel 3 at rest."""
-        ω = {wheel: Symbol("ω", wheel) for wheel in "123H"}
+        ω, z = ({wheel: Symbol(letter, wheel) for wheel in ("1", "2", OTHER, "3", "H")} for letter in "ωz")
         u0, u, scheme = Symbol("u", "13", "(H)"), Symbol("u", "1H"), self.case.scheme
-        term = term_of(scheme, self._z)
+        term = term_of(scheme, z)
         willis = Chain((u0, (ω["1"] - ω["H"]) / (ω["3"] - ω["H"]), signed(-scheme.sign, term)))
         return Equation((willis, Chain((u, ω["1"] / ω["H"], 1 - u0, 1 + signed(scheme.sign, term)))))
 
     @property
     def assembly(self) -> Equation:
-        k, P, N, z, u = Symbol("k"), Symbol("P"), Symbol("N"), self._z, Symbol("u", "1H")
+        """Of a single satellite u₁H z₁ is z₁ + z₃, and one turn is as good as any."""
+        k, z1, z3 = Symbol("k"), Symbol("z", "1"), Symbol("z", "3")
+        top = Symbol("u", "1H") * z1
         if self.case.scheme.single:
-            return Equation((Chain((N, u * z["1"] / k, (z["1"] + z["3"]) / k)),))
-        return Equation((Chain((N, Product((u, z["1"], 1 + k * P)) / k)),))
-
-    @staticmethod
-    def _share(of: float) -> Number:
-        return Number(float(f"{of * 100:.6g}"), None, "%")
+            return Equation((Chain((Symbol("N"), top / k, (z1 + z3) / k)),))
+        return Equation((Chain((Symbol("N"), top * (1 + k * Symbol("P")) / k)),))
 
     # --- tables
 
-    def _table(
-        self, name: str, head: Iterable[Inlines], rows: Iterable[Iterable[Inlines]], widths: Iterable[Column]
-    ) -> Table:
+    def _table(self, name: str, head: Iterable[Any], rows: Iterable[Iterable[Any]], widths: Iterable[float]) -> Table:
+        """A table of what `said` prints; its first column stands to the left if it is wide."""
         caption = Prose(self.case.places).inlines(self.words["captions"][name])
-        cells = tuple(tuple(map(Cell, row)) for row in rows)
-        return Table(tuple(widths), (tuple(map(Cell, head)),), cells, caption, f"tab.{name}")
+        cells = (tuple(Cell(said(one)) for one in row) for row in (head, *rows))
+        columns = tuple(Column(width, "left" if width > WORDS else "center") for width in widths)
+        return Table(columns, (next(cells),), tuple(cells), caption, f"tab.{name}")
 
     @property
     def data(self) -> Table:
         """The data with their names, symbols and values."""
-        case, heads = self.case, self.case.words["table"]
-        rows: list[tuple[Inlines, ...]] = []
-        for key in ("scheme", "drives"):
-            choice = self.words["choices"][key]
-            rows.append(((Text(choice["name"]),), (Text("–"),), (Text(choice[getattr(case.given, key)]),)))
-        for id, name in case.words["given"].items():
-            if id in case.printed and (id != "train.u" or case.given.u) and (id != "train.n.out" or case.given.n_out):
-                number = case.printed.number(id)
-                rows.append(((Text(str(name)),), (InlineMath(case.printed.symbol(id)),), (Value(number),)))
-        for i, (a, b) in enumerate((*case.given.before, *case.given.behind)):
-            key = "row_before" if i < len(case.given.before) else "row_behind"
-            symbols = InlineMath(Symbol("z", str(4 + 2 * i))), Text(", "), InlineMath(Symbol("z", str(5 + 2 * i)))
-            rows.append(((Text(self.words[key]),), symbols, (Text(f"{a}, {b}"),)))
-        limits = f"{case.given.z.from_} … {case.given.z.to}"
-        rows.append(((Text(self.words["limits"]),), (InlineMath(Symbol("z")),), (Text(limits),)))
-        tolerance = Value(self._share(case.given.tolerance.si))
-        rows.append(((Text(self.words["tolerance"]),), (InlineMath(Symbol("Δu")),), (tolerance,)))
-        head = [(Text(heads[key]),) for key in ("quantity", "symbol", "value")]
-        return self._table("data", head, rows, (Column(DATA[0], "left"), Column(DATA[1]), Column(DATA[2])))
+        given, printed, words = self.case.given, self.case.printed, self.words
+        rows: list[tuple[Any, ...]] = []
+        for key, value in (("scheme", given.scheme), ("drives", given.drives)):
+            rows.append((words["choices"][key]["name"], "–", words["choices"][key][value]))
+        found = "train.n.out" if given.u else "train.u"
+        for id, name in self.case.words["given"].items():
+            if id in printed and id != found:
+                rows.append((name, printed.symbol(id), printed.number(id)))
+        for i, row in enumerate((*given.before, *given.behind)):
+            symbols = Symbol("z", str(FIRST_ROW_WHEEL + 2 * i)), ", ", Symbol("z", str(FIRST_ROW_WHEEL + 2 * i + 1))
+            rows.append(
+                (words["row_before" if i < len(given.before) else "row_behind"], symbols, f"{row[0]}, {row[1]}")
+            )
+        rows.append((words["limits"], Symbol("z"), f"{given.z.from_} … {given.z.to}"))
+        rows.append((words["tolerance"], Symbol("Δu"), self.tolerance))
+        heads = (self.case.words["table"][key] for key in ("quantity", "symbol", "value"))
+        return self._table("data", heads, rows, (82, 20, 58))
+
+    @property
+    def tolerance(self) -> Number:
+        return Number(float(f"{self.case.given.tolerance.si * 100:.6g}"), None, "%")
 
     @property
     def candidates(self) -> Table:
-        """The smallest of the tooth numbers found, up to the chosen ones at least, with what decides."""
-        case, choice, words = self.case, self.case.choice, self.words["candidates"]
-        m2 = case.given.second_module.si
-        columns = [choice.sets[:, i] for i in range(4)]
-        across = sizes(case.scheme, (columns[0], columns[1], columns[2], columns[3]), case.train.modules) * m2 * MM
-        shown = [*range(min(self.rows, len(choice.sets)))]
-        if choice.first not in shown:
-            shown.append(choice.first)
-        rows: list[list[Inlines]] = []
-        for n in shown:
+        """The smallest of the tooth numbers found, and the chosen ones, with what decides."""
+        given, choice, words = self.case.given, self.case.choice, self.words["candidates"]
+        rows: list[tuple[Any, ...]] = []
+        for n in sorted({*range(min(self.rows, len(choice.sets))), choice.first}):
             train = choice.train(n)
-            u = case.given.of_input(float(train.ratio))
-            off = (u - case.given.wanted) / case.given.wanted * 100
-            z = train.teeth
-            wheels = (z.one, z.two, z.three) if case.scheme.single else z
+            u = given.of_input(float(train.ratio))
+            across = train.size * given.second_module.si * MM
+            numbers = _short(u, 4), _short((u / given.wanted - 1) * 100, 2), _short(across, 2)
+            z = [str(one) for one in train.teeth]
             mark = words["yes" if choice.free[n] else "no"] + (f" {words['chosen']}" if n == choice.first else "")
-            rows.append(
-                [
-                    (Text(str(n + 1)),),
-                    *((Text(str(one)),) for one in wheels),
-                    (Value(_short(u, 4)),),
-                    (Value(_short(off, 2)),),
-                    (Value(_short(float(across[n]), 2)),),
-                    (Text(mark),),
-                ]
-            )
-        symbol = Symbol("u", "H1" if case.given.by_carrier else "1H")
-        head: list[Inlines] = [
-            (Text("№"),),
-            *((InlineMath(Symbol("z", wheel)),) for wheel in self.wheels),
-            (InlineMath(symbol),),
-            (InlineMath(Symbol("Δu")), Text(", %")),
-            (InlineMath(Symbol("D")), Text(", mm")),
-            (Text(words["unshifted"]),),
-        ]
-        widths = (Column(10), *(Column(14),) * len(self.wheels), Column(22), Column(18), Column(22), Column(32))
-        return self._table("candidates", head, rows, widths)
+            rows.append((str(n + 1), *(z[:2] + z[3:] if self.case.scheme.single else z), *numbers, mark))
+        wheels = (Symbol("z", wheel) for wheel in self.wheels)
+        u1H = Symbol("u", "H1" if given.by_carrier else "1H")
+        head = ("№", *wheels, u1H, (Symbol("Δu"), ", %"), (Symbol("D"), ", mm"), words["unshifted"])
+        return self._table("candidates", head, rows, (10, *(14,) * len(self.wheels), 22, 18, 22, 32))
 
     @property
     def checks(self) -> Table:
         """What is required, what there is, and whether it holds."""
         case, words, z = self.case, self.words["checks"], self.case.train.teeth
-        ledger = case.printed
-        rows: list[tuple[Inlines, ...]] = []
-
-        def row(name: str, wanted: Inlines, actual: Inlines, holds: bool = True) -> None:
-            rows.append(((Text(words[name]),), wanted, actual, (Text(words["yes" if holds else "no"]),)))
-
-        def of(id: str) -> Value:
-            return Value(ledger.number(id))
-
-        def bare(id: str) -> Value:
-            number = ledger.number(id)
-            return Value(Number(number.value, number.decimals))
-
-        row("coaxial", (InlineMath(ledger.symbol("train.a.1")), Text(" = "), InlineMath(ledger.symbol("train.a.2"))),
-            (of("train.a.1"), Text(" = "), of("train.a.2")))  # fmt: skip
-        row("neighbours", (Text("< "), of("train.room")), (of("train.gap"),))
-        row("assembly", (Text(words["whole"]),), (InlineMath(ledger.symbol("train.N")), Text(" = "), of("train.N")))
-        outer = [z.two, z.other] + [
-            wheel for wheel, inner in zip((z.one, z.three), case.scheme.inner, strict=True) if not inner
+        symbol, value = case.printed.symbol, case.printed.number
+        free = bool(case.choice.free[case.choice.first])
+        meshes = tuple(zip(case.scheme.inner, (z.one, z.three), (z.two, z.other), strict=True))
+        outer = min(z.two, z.other, *(wheel for inner, wheel, _ in meshes if not inner))
+        rows: list[tuple[Any, Any, Any, bool]] = [
+            ("coaxial", (symbol("train.a.1"), " = ", symbol("train.a.2")), value("train.a.1"), True),
+            ("neighbours", ("< ", value("train.room")), value("train.gap"), True),
+            ("assembly", words["whole"], (symbol("train.N"), " = ", value("train.N")), True),
+            ("outer", f"≥ {LEAST_OUTER}", str(outer), True),
         ]
-        row("outer", (Text(f"≥ {LEAST_OUTER}"),), (Text(str(min(outer))),))
-        for name, inner, wheel, satellite in zip(
-            ("first", "second"), case.scheme.inner, (z.one, z.three), (z.two, z.other), strict=True
-        ):
+        for name, (inner, wheel, satellite) in zip(("first", "second"), meshes, strict=True):
             if inner:
-                row(name, (Text(f"≥ {LEAST_DIFFERENCE}"),), (Text(f"{wheel} − {satellite} = {wheel - satellite}"),))
+                rows.append((name, f"≥ {LEAST_DIFFERENCE}", f"{wheel} − {satellite} = {wheel - satellite}", True))
         if any(case.scheme.inner):
-            free = bool(case.choice.free[case.choice.first])
-            row("unshifted", (Text("–"),), (Text(words["free" if free else "shift"]),), free)
-        widths = (Column(CHECKS[0], "left"), *(Column(one) for one in CHECKS[1:]))
-        return self._table("checks", [(Text(one),) for one in words["head"]], rows, widths)
+            rows.append(("unshifted", "–", words["free" if free else "shift"], free))
+        told = ((words[name], *parts, words["yes" if holds else "no"]) for name, *parts, holds in rows)
+        return self._table("checks", words["head"], told, (62, 34, 40, 24))
 
     @property
     def rates_table(self) -> Table:
         """Angular velocities by Willis and as they are read off, with the difference."""
-        ledger = self.case.printed
-        rows: list[list[Inlines]] = []
+        rows = []
         for wheel in ("1", "2", "H"):
-            by, read = (ledger.number(id(wheel)) for id in (ids.train_omega, ids.train_read))
-            off = (read.shown - by.shown) / by.shown * 100
-            numbers = (Value(Number(one.value, one.decimals)) for one in (by, read))
-            rows.append([(InlineMath(Symbol("ω", wheel)),), *((one,) for one in numbers), (Value(Number(off, 2)),)])
-        head = [(Text(one),) for one in self.words["rates"]]
-        return self._table("rates", head, rows, map(Column, RATES))
+            by, read = (self.case.printed.number(id(wheel)) for id in (ids.train_omega, ids.train_read))
+            off = Number((read.shown / by.shown - 1) * 100, 2)
+            rows.append((Symbol("ω", wheel), Number(by.value, by.decimals), Number(read.value, read.decimals), off))
+        return self._table("rates", self.words["rates"], rows, (40, 40, 40, 40))
 
     # --- figures
 
@@ -308,6 +262,19 @@ class TrainPage:
         caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
         scene = scheme_views(self.case) if name == "scheme" else velocity_triangles(self.case)
         return Figure((scene,), caption, f"fig.{name}")
+
+
+def said(what: Any) -> Inlines:
+    """Words, symbols and numbers, one or several in a row, as they stand in a cell."""
+    match what:
+        case tuple():
+            return tuple(part for one in what for part in said(one))
+        case Symbol():
+            return (InlineMath(what),)
+        case Number():
+            return (Value(what),)
+        case _:
+            return (Text(str(what)),)
 
 
 def _short(value: float, decimals: int) -> Number:
