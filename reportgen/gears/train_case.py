@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.units import MM
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary

@@ -9,12 +9,13 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Share, Whole
+from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Whole
 from reportgen.base.units import Given
 from reportgen.gears.train import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
 
 MOST_TEETH = 300
 
+Tolerance = Annotated[Given, Ratio(Interval(least=0, most=0.2, tiny=1e-6))]
 Teeth = Annotated[int, Whole(LEAST_OUTER, MOST_TEETH)]
 Module = Annotated[Given, Quantity("mm", Interval(least=0.1, most=100))]
 OfMesh = Annotated[float, Decimal(Interval(above=0.5, most=1))]
@@ -42,7 +43,7 @@ class Parameters(Part):
     scheme: Literal["single", "double", "double-outer", "double-inner"]
     u: Annotated[Given, Ratio(Interval(least=-2000, most=2000))] | None = None
     n_out: RotationalSpeed | None = None
-    tolerance: Share = Given(0.0, 0.0, "", "0")
+    tolerance: Tolerance = Given(0.0, 0.0, "", "0")
     k: Annotated[int, Whole(2, MOST_SATELLITES)]
     z: TeethLimits = TeethLimits()
     m: Module
