@@ -107,7 +107,7 @@ class Train:
     @property
     def size(self) -> float:
         """The circle that the satellites' reference circles touch from inside, in modules m₂."""
-        return float(sizes(SCHEMES[self.scheme], _columns(np.array([self.teeth])), self.modules)[0])
+        return float(sizes(SCHEMES[self.scheme], np.array([self.teeth]).T, self.modules)[0])
 
     def turns(self, satellites: int) -> int | None:
         """P of u₁H z₁ (1 + kP)/k, the least that makes it whole; None where no P does."""
@@ -119,7 +119,7 @@ class Train:
     @property
     def satellites(self) -> tuple[int, ...]:
         """The numbers of satellites that have room and can be assembled."""
-        rows = _columns(np.array([self.teeth]))
+        rows = np.array([self.teeth]).T
         return tuple(
             k
             for k in range(2, MOST_SATELLITES + 1)
@@ -127,44 +127,38 @@ class Train:
         )
 
 
-# --- conditions over many trains --------------------------------------------------------------------------
+# --- conditions over many trains, z [4, N] ---------------------------------------------------------------
 
 
-def _columns(sets: Wholes) -> tuple[Wholes, Wholes, Wholes, Wholes]:
-    return sets[:, 0], sets[:, 1], sets[:, 2], sets[:, 3]
-
-
-Columns = tuple[Wholes, Wholes, Wholes, Wholes]
-
-
-def ratios(scheme: TrainScheme, z: Columns) -> NDArray[np.float64]:
+def ratios(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
     z1, z2, z2p, z3 = z
     found: NDArray[np.float64] = 1 + scheme.sign * (z2 * z3) / (z1 * z2p)
     return found
 
 
-def axis(scheme: TrainScheme, z: Columns) -> Wholes:
+def axis(scheme: TrainScheme, z: Wholes) -> Wholes:
     """Twice the distance between the axes of wheel 1 and satellite 2, in modules."""
     first, _ = scheme.signs
     found: Wholes = np.abs(z[0] - first * z[1])
     return found
 
 
-def _interference(scheme: TrainScheme, z: Columns) -> Flags:
+def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
     """Outer wheels are not undercut; inner wheels have more teeth than their satellites by the usual number."""
-    holds = (z[1] >= LEAST_OUTER) & (z[2] >= LEAST_OUTER)
+    holds: Flags = (z[1] >= LEAST_OUTER) & (z[2] >= LEAST_OUTER)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
         holds &= wheel - satellite >= LEAST_DIFFERENCE if inner else wheel >= LEAST_OUTER
     return holds
 
 
-def _neighbours(scheme: TrainScheme, z: Columns, k: int, modules: Fraction) -> Flags:
+def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Flags:
     """The tips of satellites beside each other leave a gap: (z + 2)/(z₁ ± z₂) < sin(π/k) of both wheels of them."""
     room = math.sin(math.pi / k) * axis(scheme, z)
-    return (z[1] + 2 < room) & ((z[2] + 2) / float(modules) < room)
+    holds: Flags = (z[1] + 2 < room) & ((z[2] + 2) / float(modules) < room)
+    return holds
 
 
-def _assembly(scheme: TrainScheme, z: Columns, k: int) -> Flags:
+def _assembly(scheme: TrainScheme, z: Wholes, k: int) -> Flags:
     """u₁H z₁ (1 + kP)/k is whole for some whole P: just when in lowest terms u₁H z₁/k has no factor of k below."""
     z1, z2, z2p, z3 = z
     below = k * z2p // np.gcd(z1 * z2p + scheme.sign * z2 * z3, k * z2p)
@@ -172,7 +166,7 @@ def _assembly(scheme: TrainScheme, z: Columns, k: int) -> Flags:
     return holds
 
 
-def unshifted(scheme: TrainScheme, z: Columns) -> Flags:
+def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
     """Whether wheels without profile shift mesh inside: no tip beyond an involute, no tips that meet elsewhere.
 
     The tip circle of the inner wheel passes the point where the line of action touches the satellite's base circle,
@@ -200,7 +194,7 @@ def _inv(α: NDArray[np.float64] | float) -> NDArray[np.float64] | float:
     return np.tan(α) - α
 
 
-def judged(demand: Demand, z: Columns) -> Mapping[str, Flags]:
+def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
     """Which trains fulfil each of the conditions."""
     scheme, k = demand.of, demand.satellites
     off = np.abs(ratios(scheme, z) - demand.ratio)
@@ -260,7 +254,7 @@ def _train(demand: Demand, row: Wholes) -> Train:
     return Train(demand.scheme, Teeth(*map(int, row)), demand.modules)
 
 
-def sizes(scheme: TrainScheme, z: Columns, modules: Fraction) -> NDArray[np.float64]:
+def sizes(scheme: TrainScheme, z: Wholes, modules: Fraction) -> NDArray[np.float64]:
     """The circle that the satellites' reference circles touch from inside, in modules m₂; an inner wheel lies on it."""
     m = float(modules)
     found: NDArray[np.float64] = axis(scheme, z) * m + np.maximum(z[1] * m, z[2])
@@ -269,13 +263,13 @@ def sizes(scheme: TrainScheme, z: Columns, modules: Fraction) -> NDArray[np.floa
 
 def in_order(demand: Demand, sets: Wholes) -> Wholes:
     """By size, then by how far the ratio is off, then by their numbers."""
-    z, scheme = _columns(sets), demand.of
+    z, scheme = sets.T, demand.of
     off = np.abs(ratios(scheme, z) - demand.ratio)
     keys = (z[2], z[1], z[0], np.round(off, 12), np.round(sizes(scheme, z, demand.modules), 9))
     return sets[np.lexsort(keys)]
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=32)
 def choice(demand: Demand) -> TrainChoice:
     """All trains that fulfil a demand."""
     kept: list[Wholes] = []
@@ -283,7 +277,7 @@ def choice(demand: Demand) -> TrainChoice:
     nearest: tuple[float, Wholes | None] = (math.inf, None)
     misses: dict[str, list[Wholes]] = {name: [] for name in CONDITIONS[1:]}
     for sets in coaxial(demand):
-        z = _columns(sets)
+        z = sets.T
         holds = judged(demand, z)
         together = np.ones(len(sets), bool)
         for name, fulfilled in holds.items():
@@ -295,14 +289,14 @@ def choice(demand: Demand) -> TrainChoice:
             rows.append(sets[others & ~holds[name]])
         sound = sets[holds["interference"]]
         if len(sound):
-            off = np.abs(ratios(demand.of, _columns(sound)) - demand.ratio)
+            off = np.abs(ratios(demand.of, sound.T) - demand.ratio)
             nearest = min(nearest, (float(off.min()), sound[off.argmin()]), key=lambda one: one[0])
     found = in_order(demand, np.concatenate(kept))
     refused = {name: in_order(demand, np.concatenate(rows)) for name, rows in misses.items()}
     return TrainChoice(
         demand,
         found,
-        unshifted(demand.of, _columns(found)),
+        unshifted(demand.of, found.T),
         left,
         None if nearest[1] is None else _train(demand, nearest[1]),
         {name: _train(demand, rows[0]) for name, rows in refused.items() if len(rows)},

@@ -189,9 +189,8 @@ class TrainPage:
         rows: list[tuple[Any, ...]] = []
         for key, value in (("scheme", given.scheme), ("drives", given.drives)):
             rows.append((words["choices"][key]["name"], "–", words["choices"][key][value]))
-        found = "train.n.out" if given.u else "train.u"
         for id, name in self.case.words["given"].items():
-            if id in printed and id != found:
+            if id in printed and (given.u or id != "train.u"):
                 rows.append((name, printed.symbol(id), printed.number(id)))
         for i, row in enumerate((*given.before, *given.behind)):
             symbols = Symbol("z", str(FIRST_ROW_WHEEL + 2 * i)), ", ", Symbol("z", str(FIRST_ROW_WHEEL + 2 * i + 1))

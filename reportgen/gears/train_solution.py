@@ -139,7 +139,7 @@ class TrainSheet:
             q.give("train.u", given.wanted, wanted, "ratio")
         else:
             assert given.n_out is not None, "a check asks for one of them"
-            out: Expression = q.give("train.n.out", given.n_out.value, Symbol("n", "out"), "speed of rotation")
+            out: Expression = q.give("train.n.out", given.n_out.value, Symbol("n", "out", "*"), "speed of rotation")
             for _, slower in self.rows:
                 out = out * slower
             q.define("train.u", n / out, wanted, "ratio")
@@ -203,8 +203,7 @@ class TrainSheet:
         if ratios:
             ratios.insert(len(given.before), u)
             u = q.define("train.total", Product(tuple(ratios)), Symbol("u", "tot"), "ratio")
-        if given.n_out is None:
-            q.define("train.n.out", q["train.n.in"] / u, Symbol("n", "out"), "speed of rotation")
+        q.define("train.n.reached", q["train.n.in"] / u, Symbol("n", "out"), "speed of rotation")
 
     # --- conditions
 

@@ -96,6 +96,21 @@ def test_rates_hold_to_rolling(name: str) -> None:
     assert None not in turned(case.train, case.given.k)[1]
 
 
+def test_rows_bring_the_motor_to_the_crank(tmp_path: Path) -> None:
+    """1440 rpm to 60: rows of 2.5 and 2 leave 4.8, met by 20/76, nearly by 18/66; what is reached goes by the teeth."""
+    file = tmp_path / "train.yaml"
+    more = "n_out: 60 rpm, before: [[20, 50]], behind: [[18, 36]], tolerance: 0.03"
+    for tolerance, teeth in (("0.03", (18, 66)), ("0", (20, 76))):
+        text = TEXT.format(scheme="single", u=5, k=3 if tolerance != "0" else 4, more="").replace("u: 5", more)
+        file.write_text(text.replace("0.03", tolerance), encoding="utf-8")
+        case = open_case(file, "en")
+        z = case.train.teeth  # type: ignore[attr-defined]
+        assert (z.one, z.three) == teeth
+        u = (1 + z.three / z.one) * 2.5 * 2
+        assert case.ledger["train.n.reached"].at(1) == pytest.approx(1440 / u)
+        assert case.ledger["train.omega.7"].at(1) == pytest.approx(2 * math.pi * 24 / u)
+
+
 @pytest.mark.parametrize("name", [file.stem for file in FILES])
 def test_the_triangles_measure_as_they_say(name: str) -> None:
     """Lengths on paper are those of the drawing to 0.01 mm, and the angular velocities read off are those of Willis."""

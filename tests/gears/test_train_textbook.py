@@ -143,7 +143,7 @@ def test_eight_teeth_more_leave_tips_apart() -> None:
     satellites = np.arange(18, 151)
     least = {}
     for difference in range(5, 20):
-        z = (satellites, satellites, satellites, satellites + difference)
+        z = np.array([satellites, satellites, satellites, satellites + difference])
         for satellite, free in zip(satellites, unshifted(SCHEMES["single"], z), strict=True):
             if free:
                 least.setdefault(int(satellite), difference)
