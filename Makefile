@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 SAMPLE := assignments/engine-twin-05.yaml
 
-.PHONY: setup report reports test proof lint bench fuzz pictures clean
+.PHONY: setup report reports test proof hour lint bench fuzz pictures clean
 
 setup: $(VENV)/.installed
 
@@ -21,6 +21,10 @@ test: $(VENV)/.developing
 # What `make test` leaves out: the rest of each matrix, pages in a browser, killed batches, fuzz.
 proof: $(VENV)/.developing
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -rs -n auto -m proof
+
+# The first hour of somebody new, from the built wheel in an empty environment.
+hour:
+	$(PYTHON) -m tests.hour --tools
 
 lint: $(VENV)/.developing
 	$(BIN)/ruff format --check .
@@ -48,7 +52,8 @@ clean:
 
 # The stamps are made last, so that an installation that broke off is begun anew.
 $(VENV)/.installed: pyproject.toml
-	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=python3.12 …" if sys.version_info < (3, 11) else 0)'
+	@echo "installing into $(VENV), which takes a minute or two"
+	@$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=python3.12 …" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 	touch $@

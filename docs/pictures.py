@@ -1,4 +1,4 @@
-"""Draw the pictures of the README: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
+"""Draw the pictures of README and docs: a page with a plan, a sheet, a machine in motion, the scheme of each kind.
 
 `make pictures` runs this in the project's folder; the pictures go to `docs/`.  The machine in motion is drawn by
 chromium, and left as it is where there is none.
@@ -7,6 +7,7 @@ chromium, and left as it is where there is none.
 from __future__ import annotations
 
 import shutil
+import subprocess
 import sys
 import tempfile
 from dataclasses import replace
@@ -24,15 +25,21 @@ ROOT = Path(__file__).resolve().parent.parent
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 CAPTION = ". Velocity plan at"
 """A part of the text of the page that the README shows, the number of the figure before it."""
+SHOWN_IN_WORD = ". Steps in drawing the velocity plan"
+"""A part of the text of the page of the Word file."""
 
-SHOWN = ROOT / "assignments" / "plane-motion" / "17.yaml"
-"""The exercise that the README shows."""
+SHOWN = {
+    "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
+    "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
+    "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
+}
+"""What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
 MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
 WINDOW, FRAME_WIDTH, STEP, FRAME_MS, FRAME_COLOURS = (1180, 900), 760, 8, 100, 48
 """Of that picture: the window and the width of a frame (pixels), degrees and time (ms) from one to the next."""
-PAGE_DPI, SHEET_DPI, SCHEME_DPI = 100, 38, 60
+PAGE_DPI, WORD_DPI, SHEET_DPI, SCHEME_DPI = 100, 80, 38, 60
 COLOURS = 96
 """Few enough that a picture is small, and enough that thin lines stay smooth."""
 
@@ -41,6 +48,8 @@ MARGIN = 72.0
 
 AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
+BELOW = {"cam": 8.0}
+"""More room below what has labels there (pt)."""
 
 
 def document(file: Path) -> Document:
@@ -58,8 +67,8 @@ def page_with(text: str, pages: pymupdf.Document) -> pymupdf.Page:
     return next(page for page in pages if page.search_for(text))
 
 
-SCHEMES = ("fig.scheme", "fig.velocity")
-"""The figure that shows a machine, or the system of an exercise."""
+SCHEMES = ("fig.scheme", "fig.velocity", "fig.inversion")
+"""The figure that shows a machine, the system of an exercise, or a cam."""
 
 
 def scheme_alone(report: Document) -> Document:
@@ -124,16 +133,30 @@ def moving() -> None:
     first.save(ROOT / "docs" / "moving.gif", save_all=True, append_images=others, duration=FRAME_MS, loop=0)
 
 
+def word_page() -> None:
+    """Save a page of the sample's Word file, as LibreOffice lays it out, as `docs/word.png`."""
+    office = shutil.which("soffice")
+    if office is None:
+        print("docs/word.png is left as it is: LibreOffice Writer is not installed", file=sys.stderr)
+        return
+    with tempfile.TemporaryDirectory() as folder:
+        file = api.build(SAMPLE, folder, language="en", formats=["docx"])
+        command = [office, f"-env:UserInstallation=file://{folder}/office", "--headless", "--convert-to", "pdf"]
+        subprocess.run([*command, "--outdir", folder, str(file)], check=True, capture_output=True)
+        save(page_with(SHOWN_IN_WORD, pymupdf.open(f"{folder}/report.pdf")), "word", WORD_DPI)
+
+
 def main() -> None:
-    """Draw the page of the sample and a sheet, then the scheme of each kind from its first assignment file."""
+    """Draw a page of the sample, one of its Word file and a sheet, then the scheme of each kind from its first file."""
     save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
+    word_page()
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
     for kind in kinds():
-        file = next(iter(sorted(SAMPLE.parent.glob(f"{kind}-*.yaml"))), SHOWN)
+        file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]
-        save(page, kind, SCHEME_DPI, drawn(page))
+        save(page, kind, SCHEME_DPI, drawn(page) + pymupdf.Rect(0, 0, 0, BELOW.get(kind, 0.0)))
 
 
 if __name__ == "__main__":

@@ -7,7 +7,8 @@ What comes before the document is in a `Case`.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -19,7 +20,7 @@ from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, word
+from reportgen.base.words import as_error, school_folder, word
 from reportgen.cases import open_case, opened
 from reportgen.report.case import Calculation
 
@@ -29,10 +30,11 @@ if TYPE_CHECKING:
     from reportgen.marking.key import Ask
     from reportgen.report import Document, Letter
     from reportgen.report.case import Case, Key
+    from reportgen.writers.pdflatex import Ahead
 
 Engine = Literal["typst", "latex"]
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
-FORMATS = ("pdf", "html")
+FORMATS = ("pdf", "html", "docx")
 """What a report can be written as."""
 
 
@@ -93,14 +95,16 @@ def build(
     keep_source: bool = False,
     formats: Sequence[str] = ("pdf",),
     extent: Extent | None = None,
+    listing: bool = False,
 ) -> Path:
     """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
 
-    It has the language and the extent of the file unless others are given.
+    It has the language and the extent of the file unless others are given.  A `listing` adds a program of the closed
+    formulas, which also stands beside it as report.py; raises `NotOfferedError` where there are none.
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
-    return build_each(path, out, engine, language, keep_source, formats, extent=extent)[0]
+    return build_each(path, out, engine, language, keep_source, formats, extent=extent, listing=listing)[0]
 
 
 def build_each(
@@ -111,29 +115,71 @@ def build_each(
     keep_source: bool,
     formats: Sequence[str],
     extent: Extent | None = None,
+    listing: bool = False,
 ) -> list[Path]:
     """Write the complete report in some of `FORMATS`; gives their paths in that order."""
+    from reportgen.report import Listing
+
     assignment = load(path, language)
     if extent is not None:
         assignment = assignment.with_extent(extent)
+    if listing:
+        assignment = assignment.with_listing()
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
-    with reported(), scratch(Path(out)):
+    with reported(), scratch(Path(out)), _ahead(assignment, engine, letter) as ahead:
         case = opened(assignment)
         tree = case.document()
         if "pdf" in formats:
-            source, pdf = typeset(tree, engine, letter)
+            source, pdf = typeset(tree, engine, letter, ahead)
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
+        if "docx" in formats:
+            files["report.docx"] = _word(assignment, tree)
+        program = next((block for block in tree.blocks if isinstance(block, Listing)), None)
+        if program is not None:
+            files["report.py"] = "\n".join((*program.lines, "")).encode()
+        elif listing:
+            raise NotOfferedError(word("no_listing", assignment.language, kind=assignment.kind))
     put_files(Path(out) / assignment.id, files, "report")
     return [Path(out) / assignment.id / f"report.{name}" for name in formats]
+
+
+def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> AbstractContextManager[Ahead | None]:
+    """The typesetter, if it has something to read while the report is worked out."""
+    if engine != "latex" or letter is None:
+        return nullcontext()
+    from reportgen.writers import latex, pdflatex
+
+    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short"))
 
 
 def _page(case: Case, tree: Document) -> bytes:
     from reportgen.page import page
 
     return page(case, tree).encode()
+
+
+def _word(assignment: Assignment, tree: Document) -> bytes:
+    """The Word file of a report, in the letter and the size that its file gives; a school's own look goes before.
+
+    Raises `TemplateError` for a school's Word file that is refused.
+    """
+    from reportgen.report import Letter
+    from reportgen.workbook.letterhead import LETTERHEAD, read_letterhead
+    from reportgen.writers import typst
+    from reportgen.writers import word as writer
+    from reportgen.writers.word_parts import Own
+
+    given = assignment.report
+    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
+    own = None
+    if assignment.school is not None and (path := school_folder(assignment.school) / LETTERHEAD).exists():
+        found = read_letterhead(path, tree.language)
+        own = Own(found.styles, found.header, found.footer, found.margins)
+    drawn = partial(typst.pictures, language=tree.language)
+    return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
 
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
@@ -160,8 +206,13 @@ def _fonts(engine: Engine) -> list[str]:
     return typst.families()
 
 
-def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tuple[str, bytes]:
-    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`."""
+def typeset(
+    tree: Document, engine: Engine, letter: Letter | None = None, ahead: Ahead | None = None
+) -> tuple[str, bytes]:
+    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`.
+
+    LaTeX may have read `ahead` what the source begins with.
+    """
     from reportgen.report import Letter
 
     letter = letter or Letter()
@@ -169,7 +220,7 @@ def typeset(tree: Document, engine: Engine, letter: Letter | None = None) -> tup
         from reportgen.writers import latex, pdflatex
 
         source = latex.write(tree, letter)
-        return source, pdflatex.compile(source).pdf
+        return source, pdflatex.compile(source, ahead=ahead).pdf
     from reportgen.writers import typst
 
     source = typst.write(tree, letter)
@@ -199,6 +250,12 @@ def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping
     """The complete report as a page for a browser, whatever the engine."""
     case = open_case(path, language)
     return {"report.html": _page(case, case.document())}
+
+
+def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+    """The complete report as a Word file, whatever the engine."""
+    case = open_case(path, language)
+    return {"report.docx": _word(case.assignment, case.document())}
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
@@ -249,18 +306,19 @@ def sheet_files(
     sets: Collection[str] = (),
     formats: Sequence[str] = SHEET_FORMATS,
     block: Path | None = None,
+    every: bool = False,
 ) -> Mapping[str, bytes]:
     """The drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
 
-    Without a `size` they are A1, or A0 where a plate needs it; without `sets` they show all; the title `block` is that
-    of the language unless a file of one is given.  Raises `SheetError` where there is nothing
-    to draw or a plate has no place on the size.
+    Without a `size` they have the smallest that holds each set on one sheet; without `sets` they show all, with `every`
+    plate or those usually handed in; the title `block` is that of the language unless a file of one is given.  Raises
+    `SheetError` where there is nothing to draw, and `AssignmentError` where a plate has no place on the size.
     """
     from reportgen.sheets import dxf
     from reportgen.writers import typst
 
     case = open_case(path, language)
-    sheets = case.sheets(size, sets, block)
+    sheets = case.sheets(size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
         "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
@@ -276,6 +334,7 @@ MAKERS: Mapping[str, Maker] = {
     "task": task_files,
     "report": report_files,
     "page": page_files,
+    "docx": word_files,
     "key": key_files,
     "sheet": sheet_files,
 }

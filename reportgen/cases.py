@@ -10,21 +10,23 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import takewhile
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
-from reportgen.drawing.film import Film
-from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
 from reportgen.report import Document
 from reportgen.report.case import Calculation, Case, Key, Pitfalls
+
+if TYPE_CHECKING:
+    from reportgen.drawing.film import Film
+    from reportgen.drawing.sheet import DrawingSheet
 
 
 def opened(assignment: Assignment) -> Case:
@@ -106,10 +108,12 @@ class MachineCase(Calculation):
 
         return film(self)
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
         from reportgen.sheets import drawing_sheets
 
-        return drawing_sheets(self, size, sets, block)
+        return drawing_sheets(self, size, sets, block, every)
 
 
 def _turns(machine: Machine) -> bool:

@@ -24,7 +24,7 @@ SHOWN = 8
 """Places shown of a figure that has passed its limit."""
 ID_HEADS = (
     "v|a|seg|R|F|mu|drawn|l|m|J|h|M|dir|turn|omega|eps|phi|ic|plan|laid|p|f|G|Pqt|x|s|e|link|guide|rate|side"
-    "|alpha|centre|k|share|way"
+    "|alpha|centre|k|share|way|cam"
 )
 """What the ids of quantities begin with, before their first dot."""
 _ID = re.compile(rf"({ID_HEADS})\.")
@@ -257,15 +257,15 @@ def _called(call: ast.Call) -> str:
 
 
 LIMITS: Mapping[Callable[[House], Counted], int] = {
-    rooms: 19,
+    rooms: 21,
     floors: 10,
-    arrows: 94,
+    arrows: 109,
     arrows_back_up: 0,
     circles: 0,
-    modules: 155,
+    modules: 182,
     longest_module: 500,
-    lines_of_code: 30960,
-    template_files: 54,
+    lines_of_code: 37410,
+    template_files: 59,
     words_of_architecture: 1500,
     ids_by_f_string: 0,
     class_names_twice: 0,

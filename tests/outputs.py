@@ -5,7 +5,7 @@
     python -m tests.outputs compare BEFORE AFTER   what differs, and exit code 1 if anything does
 
 It calls the command line alone, so it stands outside whatever is rebuilt.  Written are, of each file in
-`assignments/` and `assignments/plane-motion/`, in each language: results, tables, key, task and answer sheet, that
+`assignments/` and its folders, in each language: results, tables, key, task and answer sheet, that
 sheet filled in with some mistakes and marked, the drawing sheets (PDF and DXF), the page for a browser with its film;
 with each typesetter the report's source and its PDF's words and strokes with their places; and the marks and feedback
 of the example class.  A PART is a word of the jobs' names ("engine-twin", "typst", "key", "class", "sheet", "page",
@@ -29,7 +29,9 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
-FILES = [*sorted((ROOT / "assignments").glob("*.yaml")), *sorted((ROOT / "assignments/plane-motion").glob("*.yaml"))]
+FILES = [
+    path for folder in ("", "plane-motion", "cam") for path in sorted((ROOT / "assignments" / folder).glob("*.yaml"))
+]
 CLASS = ROOT / "assignments" / "class-demo"
 LANGUAGES = ("vi", "en")
 ENGINES = ("typst", "latex")

@@ -15,9 +15,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
-from reportgen.assignment.fields import Angle, Date, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
+from reportgen.assignment.fields import Angle, Date, Flag, OneLine, SchoolFolder, Whole, WorkedPositions, quantity
 from reportgen.base.errors import Finding
+from reportgen.base.files import leads_out
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
+from reportgen.base.words import is_school, named_school, school_files
 
 POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""
@@ -55,13 +57,15 @@ class ReportSection(Part):
     """The report's language, cover and the positions written out in full, by number or label (None: all).
 
     `extent` says how much the report of a machine contains; an exercise has one extent, whatever is given.
-    `school` names a folder of templates whose words stand before the common ones, `sheets` the size of the drawing
-    sheets that are handed in with the report.  The text is set in letters of a `font` in a `size`.
+    `school` names a folder of templates whose words stand before the common ones, `templates` one that lies beside the
+    file; `sheets` the size of the drawing sheets that are handed in with the report, `listing` adds a program of the
+    closed formulas.  The text is set in letters of a `font` in a `size`.
     """
 
     language: Language = "vi"
     extent: Extent = "full"
     school: Annotated[str, SchoolFolder()] | None = None
+    templates: OneLine | None = None
     font: OneLine | None = None
     size: Literal["11 pt", "12 pt", "13 pt", "14 pt"] = "12 pt"
     university: OneLine | None = None
@@ -74,6 +78,7 @@ class ReportSection(Part):
     date: Date | None = None
     worked_positions: Annotated[tuple[int | str, ...] | None, WorkedPositions()] = (2,)
     sheets: Literal["A0", "A1", "A2", "A3"] | None = None
+    listing: Annotated[bool, Flag()] = False
 
 
 class Positions(Part):
@@ -100,6 +105,13 @@ class Drawing(Part):
     """Lengths on paper that were asked for; what is None is chosen."""
 
     crank: Annotated[Given, quantity("mm", least=0.1, most=150)] | None = None
+
+
+class SheetSection(Part):
+    """What drawing sheets say that the report does not: their designation, else the code of the course in it."""
+
+    designation: OneLine | None = None
+    course: OneLine | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,6 +172,7 @@ class Assignment:
     report: ReportSection
     positions: Positions
     drawing: Drawing
+    sheet: SheetSection
     parameters: Any
     indicator: Any
     source: Path
@@ -170,6 +183,16 @@ class Assignment:
     @property
     def language(self) -> Language:
         return self.report.language
+
+    @property
+    def school(self) -> Path | None:
+        """The folder of a school's own words: one named for the run, else the file's own, else its name among all."""
+        report = self.report
+        if (named := named_school()) is not None:
+            return named
+        if report.templates is not None:
+            return (self.source.parent / report.templates).absolute()
+        return None if report.school is None else Path(report.school)
 
     @property
     def labels(self) -> Sequence[str]:
@@ -212,6 +235,10 @@ class Assignment:
         """The same, reported to another extent."""
         return replace(self, report=self.report.model_copy(update={"extent": extent}))
 
+    def with_listing(self) -> Assignment:
+        """The same, with the program of its closed formulas in the report."""
+        return replace(self, report=self.report.model_copy(update={"listing": True}))
+
 
 def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
     """Keys of the file beside `kind`: type and default (`...`: required); None gives the common ones."""
@@ -220,11 +247,13 @@ def sections(kind: Kind | None) -> dict[str, tuple[Any, Any]]:
         "report": (ReportSection, ReportSection()),
         "positions": (Positions, Positions()),
         "drawing": (Drawing, Drawing()),
+        "sheet": (SheetSection, SheetSection()),
     }
     if kind is None:
         return common
     if not kind.has_positions:
-        return {"variant": common["variant"], "report": common["report"], "parameters": (kind.parameters, ...)}
+        shared = {name: common[name] for name in ("variant", "report", "sheet")}
+        return {**shared, "parameters": (kind.parameters, ...)}
     parameters = {**common, "parameters": (kind.parameters, ...)}
     if kind.indicator is None:
         return parameters
@@ -272,6 +301,24 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
                 yield Finding("no-such-label", place, {"text": named, "known": ", ".join(labels)})
             else:
                 yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
+
+    return check
+
+
+def school_of(path: Path) -> Check:
+    """The school's folder of the file at `path` lies beside it or below, with words in it, and there is one."""
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        named, where = draft.at("report", "templates"), ("report", "templates")
+        if not isinstance(named, str):
+            return
+        folder = path.parent / named
+        if leads_out(folder, path.parent) or any(leads_out(inner, folder) for inner in school_files(folder)):
+            yield Finding("path-outside", where, {"text": named})
+        elif not is_school(folder):
+            yield Finding("no-templates", where, {"place": str(folder.absolute())})
+        else:
+            yield from one_of("report", "school", "templates", required=False)(draft)
 
     return check
 

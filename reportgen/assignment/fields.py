@@ -19,13 +19,13 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import leads_out
 from reportgen.base.source import Quoted
-from reportgen.base.units import NUMBER, Given, QuantityFault, read_quantity, read_ratio, read_unit
-from reportgen.base.words import school_folder, schools
+from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
+from reportgen.base.words import school_folder, schools, templates
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
 _FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
-_UNIT_PATTERN = r"[A-Za-zµ°][^,]*"
+_UNIT_PATTERN = r"[A-Za-zµ°ºđ][^,]*"
 _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
 """Names, in capitals, that some systems keep for devices."""
@@ -74,15 +74,20 @@ class Interval:
         within = self.above < value < self.below and self.least <= value <= self.most
         return within and (value == 0 or abs(value) >= self.tiny)
 
-    def __str__(self) -> str:
-        low = f"> {self.above:g}" if self.above > -math.inf else f"≥ {self.least:g}"
-        high = f"< {self.below:g}" if self.below < math.inf else f"≤ {self.most:g}"
-        return f"{low}, {high}" + (f"; |x| ≥ {self.tiny:g}, x = 0" if self.tiny else "")
+    @property
+    def words(self) -> dict[str, str]:
+        """What a message says of it: the names of its words, and the numbers in them."""
+        low, high = max(self.above, self.least), min(self.below, self.most)
+        about_zero = low < 0
+        ends = ("above" if self.above > -math.inf else "from") + ("_below" if self.below < math.inf else "_to")
+        zero = "" if not self.tiny else "+or_small" if about_zero else "+or_zero"
+        shown = {"low": low if about_zero else max(low, self.tiny), "high": high, "tiny": self.tiny}
+        return {"range": f"{ends}{zero}", **{name: grouped(number) for name, number in shown.items()}}
 
     def require(self, value: float, text: str, unit: str = "", **hint: str) -> None:
         """Raises the fault of a value, typed as `text`, that does not lie here."""
         if value not in self:
-            raise fault("out-of-range", text=text, range=f"{self} ({unit})" if unit else str(self), **hint)
+            raise fault("out-of-range", text=text, unit=f" {unit}" if unit else "", **self.words, **hint)
 
     def schema(self) -> dict[str, float]:
         keys = ("exclusiveMinimum", "exclusiveMaximum", "minimum", "maximum")
@@ -113,7 +118,7 @@ class SchoolFolder(Reader):
     def read(self, value: object) -> str:
         known = schools()
         if value not in known:
-            raise fault("no-such-school", text=str(value), known=", ".join(known) or "–")
+            raise fault("no-such-school", text=str(value), known=", ".join(known) or "–", place=str(templates()))
         folder = school_folder(str(value))
         if leads_out(folder, folder.parent) or any(leads_out(path, folder) for path in folder.rglob("*")):
             raise fault("path-outside", text=str(value))

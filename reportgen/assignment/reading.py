@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -19,14 +20,16 @@ from reportgen.assignment.common import (
     Kind,
     Positions,
     file_model,
+    school_of,
     sections,
     worked_positions,
 )
 from reportgen.assignment.fields import RESERVED
 from reportgen.base.errors import Fault, Finding, Mark, Where
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
+from reportgen.base.files import contents, leads_out
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, at, plain, read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, language_of
+from reportgen.base.words import as_error, close_or_known, language_of, school_files
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
@@ -52,7 +55,7 @@ def assess(
         findings.insert(0, _no_kind(name, kinds))
     else:
         numbered = (worked_positions(kind.turns, kind.labels),) if kind.has_positions else ()
-        for check_one in (*kind.checks, *numbered):
+        for check_one in (school_of(path), *kind.checks, *numbered):
             found = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in found]
     # What the source already refuses is not judged a second time.
@@ -69,9 +72,21 @@ def name_faults(path: Path) -> Iterator[Fault]:
     """The name of a file, without its ending, is that of a folder too: one that any system has, and that lies below."""
     stem = path.stem
     shown = "".join(character for character in stem if unicodedata.category(character) not in _CONTROLS)
+    if os.path.isdir(path):
+        # A folder in place of a file is told as such.
+        return
     outside = stem.strip(" .") == "" or stem != shown.strip() or stem.endswith(".")
     if outside or RESERVED.fullmatch(stem.partition(".")[0].strip().upper()):
         yield Fault("file-name", Mark(str(path)), {"text": stem})
+
+
+def words_beside(path: Path) -> dict[str, bytes]:
+    """The files of the school's folder that an assignment file names beside itself, by their ways from there."""
+    named = at(read_source(path).top, ("report", "templates"))
+    if not isinstance(named, Scalar) or named.null or leads_out(path.parent / named.text, path.parent):
+        return {}
+    files = (file for file in school_files(path.parent / named.text) if not leads_out(file, path.parent))
+    return {file.relative_to(path.parent).as_posix(): contents(file) for file in files}
 
 
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:
@@ -116,7 +131,7 @@ def _no_kind(name: object, kinds: Collection[str]) -> Finding:
         return Finding("missing-key", ("kind",), {"key": "kind"})
     if not isinstance(name, str):
         return Finding("wrong-type", ("kind",), {"expected": "text"})
-    return Finding("unknown-kind", ("kind",), {"text": name, "known": ", ".join(kinds)})
+    return Finding("unknown-kind", ("kind",), {"text": name, **close_or_known(name, list(kinds))})
 
 
 def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Draft]:

@@ -88,7 +88,7 @@ class Finding:
 class Problem:
     """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
 
-    A file in order may have warnings, and notes on how it was understood.
+    A file in order may have warnings, and notes on how it was understood.  `advice` is what a hint is called.
     """
 
     code: str
@@ -96,6 +96,7 @@ class Problem:
     mark: Mark
     hint: str | None = None
     level: Level = "error"
+    advice: str = "hint"
 
     def in_file(self, file: str) -> Problem:
         """The same problem, its file named as `file`."""
@@ -103,7 +104,7 @@ class Problem:
 
     def __str__(self) -> str:
         line = f"{self.mark}: {self.level}[{self.code}]: {self.message}"
-        return f"{line}\n    hint: {self.hint}" if self.hint else line
+        return f"{line}\n    {self.advice}: {self.hint}" if self.hint else line
 
 
 class ReportgenError(Exception):

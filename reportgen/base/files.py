@@ -21,7 +21,7 @@ from reportgen.base.errors import Fault, Mark, OutputError
 
 SETS = {
     "task": r"task\.pdf|answers\.xlsx",
-    "report": r"report\.(pdf|html)",
+    "report": r"report\.(pdf|html|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "results": r"results\.(csv|xlsx|json)",
@@ -29,7 +29,7 @@ SETS = {
     "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns: what stands of an earlier set is replaced by the next one."""
-_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
+_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
 

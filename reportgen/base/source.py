@@ -8,6 +8,7 @@ keys and faults are counted as they come.
 
 from __future__ import annotations
 
+import codecs
 import re
 import unicodedata
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -22,6 +23,8 @@ import yaml
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents
 
+ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
+"""What the first bytes of a text say of the others."""
 LARGEST = 400_000
 """Bytes of a file."""
 MOST_TOKENS = 30_000
@@ -101,13 +104,31 @@ def text_in(path: Path) -> str | Fault:
         data = contents(path, LARGEST + 1)
         if len(data) > LARGEST:
             return Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
-        if b"\0" in data:
-            return Fault("binary", mark_in(data, data.index(b"\0"), file))
-        return data.decode("utf-8-sig")
+    except IsADirectoryError as error:
+        about = {"reason": type(error).__name__, "known": str(path.resolve()), "hint": "folder"}
+        return Fault("unreadable", Mark(file), about)
     except OSError as error:
         return Fault("unreadable", Mark(file), {"reason": type(error).__name__})
+    return decoded(data, file)
+
+
+def encoding_of(data: bytes) -> tuple[bytes, str]:
+    """The mark at the beginning of a text and the encoding that it tells; UTF-8 without one."""
+    return next(((mark, codec) for mark, codec in ENCODINGS.items() if data.startswith(mark)), (b"", "utf-8"))
+
+
+def decoded(data: bytes, file: str) -> str | Fault:
+    """The text of bytes, or where they are none: UTF-8, or UTF-16 with its mark, as Notepad and PowerShell write it."""
+    mark, codec = encoding_of(data)
+    content, broken = data.removeprefix(mark), False
+    try:
+        text = content.decode(codec)
     except UnicodeDecodeError as error:
-        return Fault("encoding", mark_in(data, error.start, file))
+        text, broken = content[: error.start].decode(codec), True
+    sound, nul, _ = text.partition("\0")
+    if nul:
+        return Fault("binary", mark_after(sound, file))
+    return Fault("encoding", mark_after(text, file)) if broken else text
 
 
 def read_text(text: str, file: str = "") -> Source:
@@ -118,8 +139,7 @@ def read_text(text: str, file: str = "") -> Source:
     try:
         loader = _Loader(text, file)
     except yaml.reader.ReaderError as fault:
-        before = text[: fault.position].encode()
-        return Source(file, text, faults=(Fault("control-character", mark_in(before, len(before), file)),))
+        return Source(file, text, faults=(Fault("control-character", mark_after(text[: fault.position], file)),))
     try:
         root = loader.get_single_node()
     except _StoppedError:
@@ -278,11 +298,9 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
     return Fault("syntax", mark, {"hint": hint})
 
 
-def mark_in(data: bytes, offset: int, file: str) -> Mark:
-    """The place of a byte; columns count characters."""
-    before = data[:offset]
-    start = before.rfind(b"\n") + 1
-    return Mark(file, before.count(b"\n") + 1, len(before[start:].decode("utf-8", "replace")) + 1)
+def mark_after(before: str, file: str) -> Mark:
+    """The place right after a piece of text from the beginning of a file."""
+    return Mark(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
 
 
 # --- assignment files with values put into them ---------------------------------------------------

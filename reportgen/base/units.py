@@ -11,9 +11,12 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from decimal import ROUND_HALF_UP, Decimal
+from decimal import Decimal
 from functools import cache
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
+
+if TYPE_CHECKING:
+    import numpy as np
 
 MM = 1e3
 """Millimetres of a metre."""
@@ -62,13 +65,25 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
 }
 """SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
 
+SPELLED: Mapping[str, str] = {
+    "độ": "deg",
+    **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
+    "%": "percent",
+    "1/s": "s-1",
+    "1/mm": "mm-1",
+    **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
+}
+"""Units as people write them, by names that pint knows."""
+
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
-UNIT = r"[A-Za-zµμ°Ω][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*"
+_KNOWN = "|".join(re.escape(spelling) for spelling in SPELLED if not spelling.isascii())
+UNIT = rf"(?:{_KNOWN}|[A-Za-zµμ°ºΩ][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*)"
 
 _QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
 _COMMA = re.compile(r"([+-]?[0-9]+),([0-9].*)", re.DOTALL)
 _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
+_JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
 _LONGEST = 60
 _TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])")
 """Powers no unit has: of two digits, or of a power, which take for ever to work out (m^9^9^9)."""
@@ -140,15 +155,16 @@ def read_unit(text: str, unit: str) -> float:
 
 def scale(unit: str) -> tuple[float, Dimension]:
     """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
+    unit = SPELLED.get(unit.casefold(), unit)
     return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
 
 
 @cache
 def scale_by_pint(unit: str) -> tuple[float, Dimension]:
-    """As `scale`, always by pint; `m2`, `m²`, `kg·m2` and `kg.m2` are understood."""
+    """As `scale`, always by pint; `m2`, `m²`, `kg·m2`, `kg.m2` and `kgm2` are understood."""
     if not re.fullmatch(UNIT, unit) or len(unit) > _LONGEST or _TOWER.search(unit):
         raise ValueError(unit)
-    spelled = re.sub(r"(?<=[A-Za-z)])\s*[.·⋅]\s*(?=[A-Za-z(])", " ", unit)
+    spelled = re.sub(r"(?<=[A-Za-z)])\s*[.·⋅]\s*(?=[A-Za-z(])", " ", _JOINED.sub(r"\1 ", unit).replace("º", "°"))
     spelled = re.sub(r"(?<=[A-Za-zµμΩ])(?=[+-]?[0-9])", "**", spelled)
     registry = _registry()
     try:
@@ -186,42 +202,92 @@ Language = Literal["vi", "en"]
 MINUS = "\N{MINUS SIGN}"
 
 
-def rounded(value: float, decimals: int) -> Decimal:
-    """`value` rounded half up (as by hand) to `decimals`; never a negative zero.
+Numbers = TypeVar("Numbers", float, "np.ndarray")
 
-    Rounding starts from the shortest decimal form of the float, so 2.675 becomes 2.68.
-    """
-    quantum = Decimal(1).scaleb(-decimals)
-    result = Decimal(repr(float(value))).quantize(quantum, rounding=ROUND_HALF_UP)
-    return abs(result) if result == 0 else result
+TIE = 1e-9
+"""Units of the last digit by which floats may miss a five that is rounded up."""
 
 
-def printed(value: float, decimals: int) -> float:
-    """The number a reader sees: `value` rounded to `decimals`."""
-    return float(rounded(value, decimals))
+def rounded(values: Numbers, decimals: int) -> Numbers:
+    """A number, or each of an array, rounded half up as by hand, 2.675 to 2.68; never a negative zero."""
+    step = 10.0**decimals
+    return (abs(values) * step + 0.5 + TIE) // 1 / step * (1 - 2 * (values < 0)) + 0.0
 
 
 def write(value: float, decimals: int | None, language: Language) -> str:
     """The text of a number: fixed `decimals`, or the shortest exact form when None.
 
-    The Vietnamese text has a decimal comma; both use a true minus sign and no thousands mark.
+    The Vietnamese text has a decimal comma; both use a true minus sign and no thousands mark.  What is very large or
+    very small is written with a power of ten.
     """
     if not math.isfinite(value):
         return "–"
-    if decimals is None:
-        number = Decimal(repr(float(value))).normalize()
-        number = abs(number) if number == 0 else number
-    else:
-        number = rounded(value, decimals)
-    text = f"{number:f}".replace("-", MINUS)
+    if parts := by_power_of_ten(value, decimals):
+        return f"{write(parts.factor, parts.decimals, language)}·{power_of_ten(parts.exponent)}"
+    number = Decimal(repr(float(value if decimals is None else rounded(value, decimals)))) + 0
+    text = f"{number.normalize():f}" if decimals is None else f"{number:.{max(decimals, 0)}f}"
+    text = text.replace("-", MINUS)
     return text.replace(".", ",") if language == "vi" else text
 
 
+LARGE = 1e7
+"""From here on a number has no figures to spare: it is rounded to those it has, and written with a power of ten."""
+MOST_DECIMALS = 8
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+@dataclass(frozen=True, slots=True)
+class PowerOfTen:
+    """A number as `factor`·10^`exponent`, the factor with its `decimals` (None: as it is)."""
+
+    factor: float
+    decimals: int | None
+    exponent: int
+
+
+def by_power_of_ten(value: float, decimals: int | None) -> PowerOfTen | None:
+    """How a number with so many decimals is written if that is with a power of ten; None for all ordinary ones."""
+    fixed = decimals is not None and 0 <= decimals <= MOST_DECIMALS
+    if abs(value) < 1e9 and (fixed or (decimals is None and (abs(value) >= 1e-6 or value == 0))):
+        return None
+    number = Decimal(repr(float(value)))
+    if decimals is not None:
+        number = Decimal(repr(rounded(float(value), decimals))).quantize(Decimal(1).scaleb(-decimals))
+    if number == 0:
+        return None
+    exponent = number.adjusted()
+    kept = None if fixed or decimals is None else exponent + decimals
+    return PowerOfTen(float(number.scaleb(-exponent)), kept, exponent)
+
+
+def power_of_ten(exponent: int) -> str:
+    """10⁻⁶."""
+    return f"10{str(exponent).translate(_RAISED)}"
+
+
+def grouped(value: float) -> str:
+    """A bound as a message tells it: 0.000001, 10 000 000, with the decimal point of the file; beyond that 10⁹."""
+    if parts := by_power_of_ten(value, None):
+        return f"{parts.factor:g}·{power_of_ten(parts.exponent)}".removeprefix("1·").replace("-1·", MINUS)
+    whole, point, decimals = f"{Decimal(repr(float(value))).normalize():f}".partition(".")
+    groups = f"{int(whole):,}".replace(",", "\N{NO-BREAK SPACE}") if abs(int(whole)) >= 10_000 else whole
+    return f"{groups}{point}{decimals}".replace("-", MINUS)
+
+
 def significant_decimals(value: float, digits: int) -> int:
-    """Decimals that show `value` with `digits` significant figures; 0 for a value of zero."""
+    """Decimals that show `value` with `digits` significant figures; 0 for a value of zero.
+
+    A value that is a power of ten but for its last binary digits is that power.
+    """
     if value == 0 or not math.isfinite(value):
         return 0
-    return digits - 1 - math.floor(math.log10(abs(value)))
+    return digits - 1 - math.floor(math.log10(abs(value)) + 1e-12)
+
+
+def figure_decimals(largest: float, digits: int) -> int:
+    """Decimals that show numbers up to the `largest` with its `digits` significant figures; whole ones to `LARGE`."""
+    decimals = significant_decimals(largest, digits)
+    return decimals if abs(largest) >= LARGE else max(decimals, 0)
 
 
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)

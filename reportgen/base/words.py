@@ -8,6 +8,8 @@ common ones.
 from __future__ import annotations
 
 import difflib
+import locale
+import os
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -45,41 +47,74 @@ FILES = 32
 """How many tables of words are kept."""
 
 
+TEMPLATES = "REPORTGEN_TEMPLATES"
+"""The variable of the environment that names a school's folder, for all files of a run."""
+
+
 def templates() -> Path:
     """The folder of words and frames: packed into the package, or beside it in a checkout."""
+    return _packed("templates", "templates")
+
+
+def samples() -> Path:
+    """The folder of examples, in the same way."""
+    return _packed("samples", "assignments")
+
+
+def _packed(name: str, beside: str) -> Path:
     package = Path(__file__).resolve().parents[1]
-    packed = package / "templates"
-    return packed if packed.is_dir() else package.parent / "templates"
+    packed = package / name
+    return packed if packed.is_dir() else package.parent / beside
 
 
 def templates_hash() -> str:
     """SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
-    root = templates()
-    digest = sha256()
-    for path in sorted(path for path in root.rglob("*") if path.is_file()):
-        for part in (path.relative_to(root).as_posix().encode(), path.read_bytes()):
+    root, own, digest = templates(), named_school(), sha256()
+    for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *(school_files(own) if own else ())):
+        name = path.relative_to(root if path.is_relative_to(root) else path.parent).as_posix()
+        for part in (name.encode(), path.read_bytes()):
             digest.update(len(part).to_bytes(8, "big") + part)
     return digest.hexdigest()
 
 
+def school_files(folder: Path) -> list[Path]:
+    """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
+    patterns = ("vi.md", "en.md", "blocks/*.yaml", "report.docx") if os.path.isdir(folder) else ()
+    return sorted(path for pattern in patterns for path in folder.glob(pattern))
+
+
+def is_school(folder: Path) -> bool:
+    """Whether a folder holds a school's own words or its Word file."""
+    return any(path.suffix in (".md", ".docx") for path in school_files(folder))
+
+
 def schools() -> list[str]:
     """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
-    return sorted(
-        folder.name
-        for folder in templates().iterdir()
-        if folder.name not in {"vi", "en", "frames"} and any((folder / f"{name}.md").exists() for name in ("vi", "en"))
-    )
+    own = {"vi", "en", "frames"}
+    return sorted(folder.name for folder in templates().iterdir() if folder.name not in own and is_school(folder))
 
 
-def school_folder(school: str) -> Path:
+def school_folder(school: Path | str) -> Path:
     """The folder of a school's own templates."""
     return templates() / school
 
 
-def search_path(language: Language, kind: str = "", school: str = "", root: Path | None = None) -> tuple[Path, ...]:
+def named_school() -> Path | None:
+    """The school's folder that was named for all files of a run.  Raises `TemplateError` where it is none."""
+    if not (named := os.environ.get(TEMPLATES)):
+        return None
+    if not is_school(folder := Path(named).absolute()):
+        raise TemplateError(word("no_templates", None, place=folder))
+    return folder
+
+
+def search_path(
+    language: Language, kind: str = "", school: Path | str = "", root: Path | None = None
+) -> tuple[Path, ...]:
     """The places in which sections and words are looked for; the first that has a name wins.
 
-    The file of a school, then that of one kind of machine, then the folder of the language.
+    The file of a school (its folder, or its name among the templates), then that of one kind of machine, then the
+    folder of the language.
     """
     root = root or templates()
     return (
@@ -135,7 +170,7 @@ def _as_written(section: Passage, place: Path) -> Mapping[str, Any]:
     for scalar in _scalars(source.top):
         if not _plain_gaps(scalar.text):
             mark = _below(scalar.mark, section.line)
-            raise TemplateError(f"{mark}: {word('template_unsafe', _spoken(place))}")
+            raise TemplateError(f"{mark}: {word('template_unsafe', _of_file(place))}")
     return _table(source, section.line)
 
 
@@ -171,7 +206,9 @@ class _Word(str):
         try:
             return super().format(*values, **named)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
-            text = word("template_gap", _spoken(Path(self.mark.file)), text=_shown(self), known=", ".join(named) or "–")
+            text = word(
+                "template_gap", _of_file(Path(self.mark.file)), text=_shown(self), known=", ".join(named) or "–"
+            )
             raise TemplateError(f"{self.mark}: {text}") from error
 
     def __str__(self) -> str:
@@ -181,7 +218,7 @@ class _Word(str):
         return str, (self[:],)
 
 
-def _spoken(file: Path) -> Language:
+def _of_file(file: Path) -> Language:
     """The language of a file of templates."""
     return "en" if "en" in (file.stem, file.parent.name, file.parent.parent.name) else DEFAULT_LANGUAGE
 
@@ -218,7 +255,7 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
             section = sections(place)[SECTION]
             node = at(read_own(section.text).top, here)
             line = section.line + (node.mark.line if node else 0)
-            raise TemplateError(f"{place}:{line}: {word('template_form', _spoken(place), text=path_text(here))}")
+            raise TemplateError(f"{place}:{line}: {word('template_form', _of_file(place), text=path_text(here))}")
         result[key] = _over(common, value, place, here) if isinstance(value, Mapping) else value
     return result | {key: value for key, value in below.items() if key not in result}
 
@@ -231,9 +268,34 @@ def _alike(one: Any, other: Any) -> bool:
 
 
 def language_of(source: Source) -> Language:
-    """The language a faulty file asks for, found by its line so that faulty syntax does not matter."""
+    """The language a file asks for, found by its line so that faulty syntax does not matter.
+
+    A file that asks for none is reported in Vietnamese; one that cannot be read says nothing.
+    """
     found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
-    return "en" if found and found[1] == "en" else DEFAULT_LANGUAGE
+    if found:
+        return "en" if found[1] == "en" else "vi"
+    return DEFAULT_LANGUAGE if source.text else spoken()
+
+
+SPOKEN = "REPORTGEN_LANG"
+"""The variable of the environment that says what language is spoken, in processes that are started, too."""
+
+
+def speak(language: Language) -> None:
+    """Sets the language of what no file and no option says one for."""
+    os.environ[SPOKEN] = language
+
+
+def spoken() -> Language:
+    """The language of what no file and no option says one for: what was set, else that of the locale.
+
+    A locale that is none (C) leaves it at Vietnamese.
+    """
+    named = next(filter(None, map(os.environ.get, (SPOKEN, "LC_ALL", "LC_MESSAGES", "LANG"))), None)
+    named = named or (os.name == "nt" and locale.getlocale()[0]) or "C"
+    tongue = re.split(r"[_.@-]", named)[0].casefold()
+    return DEFAULT_LANGUAGE if tongue in {"c", "posix"} or tongue.startswith("vi") else "en"
 
 
 @cache
@@ -244,7 +306,7 @@ def messages(language: Language) -> Mapping[str, Any]:
 
 def word(key: str, language: Language | None, /, **arguments: object) -> str:
     """A text of the command line with its arguments filled in."""
-    return str(messages(language or DEFAULT_LANGUAGE)["cli"][key]).format(**arguments)
+    return str(messages(language or spoken())["cli"][key]).format(**arguments)
 
 
 def counted(key: str, language: Language | None, count: int, /, **arguments: object) -> str:
@@ -259,17 +321,20 @@ def unexpected(error: BaseException, language: Language | None) -> str:
 
 def as_problem(fault: Fault, language: Language | None, level: Level = "error") -> Problem:
     """The fault in words; its hint is given when the arguments it speaks of are known."""
-    table = messages(language or DEFAULT_LANGUAGE)
+    table = messages(language or spoken())
     # What is known is the program's own, and told in full.
-    arguments = {name: text if name == "known" else _shown(text) for name, text in fault.arguments.items()}
-    for name in arguments.keys() & {"expected", "reason"}:
-        arguments[name] = str(table["words"].get(fault.arguments[name], arguments[name]))
+    arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
+    for name in arguments.keys() & {"expected", "reason", "range"}:
+        told = [table["words"].get(one) for one in fault.arguments[name].split("+")]
+        if None not in told:
+            arguments[name] = "".join(map(str, told)).format_map(arguments)
     message = str(table["faults"][fault.code]).format_map(arguments)
     # The hint that was asked for, then the code's own and its second form.
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
     hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
-    return Problem(fault.code, message, fault.mark, hint.format_map(arguments) if hint else None, level)
+    advice = hint.format_map(arguments) if hint else None
+    return Problem(fault.code, message, fault.mark, advice, level, str(table["words"]["hint"]))
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:
@@ -282,6 +347,13 @@ def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
     same = [name for name in known if name.casefold() == key.casefold()]
     close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
     return {"close": close[0]} if close else {"known": ", ".join(known)}
+
+
+def unknown(key: str, text: str, known: Sequence[str], language: Language | None) -> str:
+    """A text of the command line about an unknown name, with the known one it was probably meant to be, or all."""
+    near = close_or_known(text, known)
+    hint = messages(language or spoken())["hints"]["unknown-key" if "close" in near else "unknown-key-otherwise"]
+    return f"{word(key, language, text=_shown(text))}: {hint.format(**near)}"
 
 
 def gaps(template: str) -> set[str]:
@@ -375,7 +447,7 @@ def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
     """The sections of a file, read once for as long as it stays the same."""
     text = text_in(file)
     if isinstance(text, Fault):
-        raise TemplateError(str(as_problem(text, _spoken(file))))
+        raise TemplateError(str(as_problem(text, _of_file(file))))
     lines = re.split(r"\r\n?|\n", text)
     headings = [number for number, line in enumerate(lines, start=1) if line.startswith(HEADING)]
     found: dict[str, Passage] = {}

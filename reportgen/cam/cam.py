@@ -13,7 +13,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import MM
 from reportgen.cam import file
 from reportgen.cam.design import NoCamError
-from reportgen.cam.file import PerPhase, designed, exceeded, law_of, positions_of
+from reportgen.cam.file import PerPhase, designed, exceeded, positions_of
 from reportgen.cam.laws import PHASES, AccelerationGraph
 
 if TYPE_CHECKING:
@@ -47,9 +47,7 @@ def _keys(given: Parameters) -> Iterator[Finding]:
     """Every length that such a follower has is given, and no other."""
     told = given.model_fields_set
     needed, idle = list(NEEDED[given.follower]), list(IDLE[given.follower])
-    if given.end == "roller":
-        needed.append("roller")
-    else:
+    if given.end != "roller":
         idle.append("roller")
     if given.end == "flat":
         idle += ["e", "arm", "limits"]
@@ -99,10 +97,7 @@ def _tables(given: Parameters) -> Iterator[Finding]:
             above, below = AccelerationGraph(np.array(one.x), np.array(one.a)).areas
             if abs(above - below) > SAME_AREA * max(above, below) or above == 0:
                 yield Finding("cam-areas", (*where, "a"), {"above": f"{above:.4g}", "below": f"{below:.4g}"})
-            elif (
-                AccelerationGraph(np.array(one.x), np.array(one.a)).nodes[2][-1] <= 0
-                or law_of(one)(np.array([0.5]))[0][0] < 0
-            ):
+            elif AccelerationGraph(np.array(one.x), np.array(one.a)).way <= 0:
                 yield Finding("cam-backwards", (*where, "a"))
 
 

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.cam import film, sheets, views
+from reportgen.cam import film, views
+from reportgen.cam import sheets as sheet_of_cam
 from reportgen.cam.file import exceeded
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing.film import Film
@@ -44,8 +45,8 @@ class CamCase(SolvedCam):
     def fault(self) -> str:
         found = self.solution.designed
         if found.cam.undercut:
-            return "cam-undercut"
-        return "cam-pressure" if any(exceeded(found)) else ""
+            return "not-to-be-cut"
+        return "pressure-angle" if any(exceeded(found)) else ""
 
     def document(self) -> Document:
         return self.bounded(views.report)
@@ -96,5 +97,8 @@ class CamCase(SolvedCam):
     def film(self) -> Film:
         return film.film(self)
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        return sheets.drawing_sheets(self, size, block)
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its plates on a sheet, and the profile alone; there are no sets of them to choose from."""
+        return sheet_of_cam.drawing_sheets(self, size, block)

@@ -146,12 +146,8 @@ def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opp
     ψ0 = max(rise.bound, back.bound if back else -math.inf)
     if not 0 < ψ0 <= most or ψ0 + motion.stroke >= math.pi:
         return None
-    return Least(rule, across(a, arm, ψ0), a=a, psi0=ψ0, rise=rise, back=back)
-
-
-def across(a: float, arm: float, psi0: float) -> float:
-    """r₀ = √(a² + l² − 2al cos ψ₀)."""
-    return math.sqrt(a**2 + arm**2 - 2 * a * arm * math.cos(psi0))
+    r0 = math.sqrt(a**2 + arm**2 - 2 * a * arm * math.cos(ψ0))
+    return Least(rule, r0, a=a, psi0=ψ0, rise=rise, back=back)
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
@@ -213,10 +209,6 @@ def rounded_up(length: float) -> float:
     """The least round length that is no less."""
     step = step_of(length)
     return round(math.ceil(length / step - 1e-9) * step, 9)
-
-
-def to_millimetre(length: float) -> float:
-    return round(length * MM) / MM
 
 
 def rounded_down(length: float) -> float:

@@ -29,7 +29,6 @@ BEYOND = 6.0
 RAY, CHORD = Pen(0.1, style.GRAY), Pen(0.2, style.RED)
 CURVE = Pen(0.4, style.BLUE)
 DIVISION = Pen(0.08, style.PALE)
-POLE = 0.7
 FARTHEST = 4.0
 """A radius of curvature of more than so many base circles is left out of its diagram."""
 
@@ -47,32 +46,32 @@ class Graph:
         return self.zero + y
 
 
-def names_of(case: SolvedCam) -> tuple[str, str, str]:
-    """s, s′ and s″ as the ledger calls them."""
-    return ("cam.s", "cam.ds", "cam.dds") if case.solution.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
-
-
 def scale_of(case: SolvedCam, id: str) -> float:
     """A scale of the diagrams (SI per m of paper)."""
     return float(case.printed[id].values[0])
 
 
-def law_diagrams(case: SolvedCam, enlarged: float = 1.0) -> Scene:
-    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
+def law_diagrams(case: SolvedCam, larger: float = 1.0, enlarged: float = 1.0) -> Scene:
+    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below.
+
+    They are so many times `larger` than in a report, with the scales that they have once they are `enlarged`, too.
+    """
     traced = case.solution.cam.sampled(1440)
-    names = names_of(case)
+    names = case.solution.moved
     graphs: list[Graph] = []
     zero = 0.0
     for id, values in zip(names, (traced.s, traced.ds, traced.dds), strict=True):
         short = id.removeprefix("cam.")
-        up = values / scale_of(case, ids.cam_scale(short)) * MM * enlarged
+        up = values / scale_of(case, ids.cam_scale(short)) * MM * larger
         if graphs:
             # Below the lowest of the one before.
             zero -= up.max() + GAP - min(float(graphs[-1].up.min()), 0.0)
-        chain = Chain((case.printed.symbol(ids.cam_scale(short)), shrunk(case, ids.cam_scale(short), enlarged)))
+        chain = Chain(
+            (case.printed.symbol(ids.cam_scale(short)), shrunk(case, ids.cam_scale(short), larger * enlarged))
+        )
         graphs.append(Graph(case.ledger.symbol(id), up, zero, chain))
-    poles = [float(case.printed[ids.cam_diagram(number)].values[0]) * MM * enlarged for number in (1, 2)]
-    width = float(case.printed[ids.cam_diagram("L")].values[0]) * MM * enlarged
+    poles = [float(case.printed[ids.cam_diagram(number)].values[0]) * MM * larger for number in (1, 2)]
+    width = float(case.printed[ids.cam_diagram("L")].values[0]) * MM * larger
     items: list[Item] = []
     requests: list[Request] = []
     across = traced.φ / (2 * math.pi) * width
@@ -96,15 +95,15 @@ def law_diagrams(case: SolvedCam, enlarged: float = 1.0) -> Scene:
                 complex((start + stop) / 2, y), case.ledger.symbol(ids.cam_phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
-    μ_φ = Chain((case.printed.symbol(ids.cam_scale("phi")), shrunk(case, ids.cam_scale("phi"), enlarged)))
+    μ_φ = Chain((case.printed.symbol(ids.cam_scale("phi")), shrunk(case, ids.cam_scale("phi"), larger * enlarged)))
     notes: list[Content] = [μ_φ, *(graph.scale for graph in graphs)]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
-def shrunk(case: SolvedCam, id: str, enlarged: float) -> Number:
+def shrunk(case: SolvedCam, id: str, larger: float) -> Number:
     """A scale as a diagram has it that is so many times as large."""
     number = case.printed.number(id)
-    return number if enlarged == 1 else Number(float(f"{number.shown / enlarged:.6g}"), None, number.unit)
+    return number if larger == 1 else Number(float(f"{number.shown / larger:.6g}"), None, number.unit)
 
 
 def _phase_ends(case: SolvedCam) -> Iterator[tuple[str, tuple[float, float]]]:
@@ -127,7 +126,7 @@ def _axes(graph: Graph, width: float, pole: float, order: int, items: list[Item]
     if pole:
         number = 1 if order == 1 else 2
         at = complex(-pole, graph.zero)
-        items.append(Circle(at, POLE, Pen(0.2), style.PAPER))
+        items.append(Circle(at, style.POINT, Pen(0.2), style.PAPER))
         yield label(at, Symbol("P", str(number)), gap=1.0, prefer=(-math.pi / 2, math.pi))
         below = at - 5.5j
         items += [Arrow(below + pole / 2, below + end, style.DIMENSION, 1.6) for end in (0.0, pole)]
@@ -140,7 +139,7 @@ def _integrated(case: SolvedCam, graphs: Sequence[Graph], width: float, poles: S
 
     The mean ordinate of a step, at which the eye makes two areas equal, is what the diagram above rises by in it.
     """
-    motion, scales = case.solution.motion, [ids.cam_scale(id.removeprefix("cam.")) for id in names_of(case)]
+    motion, scales = case.solution.motion, [ids.cam_scale(id.removeprefix("cam.")) for id in case.solution.moved]
     for number, K in zip((2, 1), poles, strict=True):
         lower, upper = graphs[number], graphs[number - 1]
         for phase in ("rise", "return"):
@@ -204,6 +203,6 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
     """s, s′ and s″ (or those of the swing) with their printed units, over `Cam.sampled`."""
     traced = case.solution.cam.sampled()
-    for id, values in zip(names_of(case), (traced.s, traced.ds, traced.dds), strict=True):
+    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
         how = KINDS[case.ledger[id].kind]
         yield case.ledger.symbol(id), how.unit, values / how.scale

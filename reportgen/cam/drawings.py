@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.cam.profile import Cam, Traced
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import clipped, unit
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.formula import Chain, Number, Symbol, ids
 
 DIAGRAM_ROOM = 118 + 128j
 """What the S–S′ diagram may fill on a page (mm)."""
-PROFILE_ROOM = 138 + 172j
+PROFILE_ROOM = 150 + 172j
 FOLLOWER = 26.0
 """The length of a translating follower that is drawn (mm)."""
 LIMIT = Pen(0.3, style.RED)
@@ -31,12 +32,15 @@ RAY = Pen(0.1, style.GRAY)
 NUMBER = 3.2
 """From a roller's centre to its number (mm)."""
 HALF_FACE = 8.0
+CLEAR = 0.6
+"""So much of the base circle is left clear of the normals of faces, for what stands at the cam's centre."""
 FACE_MARGIN = 3.0
 """What a flat face reaches beyond its farthest points of contact (mm)."""
 GUIDE = 1.6
 """From the axis of a translating follower to the walls of its guide (mm)."""
 LINES = 7
 """So many limit lines of an oscillating follower are drawn for each phase."""
+Stage = Literal["displacements", "profile by inversion", "cam"]
 SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
 
 
@@ -50,37 +54,6 @@ def fitting(points: Sequence[complex], room: complex, enlarged: float = 1.0) -> 
     array = np.array(points)
     size = complex(np.ptp(array.real), np.ptp(array.imag)) * MM
     return nice_up(max(size.real / room.real, size.imag / room.imag) / enlarged, SCALES) * enlarged / MM
-
-
-# --- half-planes ----------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class HalfPlane:
-    """What lies on the side of `inward` of a line through `at`."""
-
-    at: complex
-    inward: complex
-
-    def depth(self, point: complex) -> float:
-        return ((point - self.at) * self.inward.conjugate()).real
-
-
-def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """What of a convex polygon lies in all half-planes."""
-    corners = list(box)
-    for plane in planes:
-        kept: list[complex] = []
-        for one, other in zip(corners, [*corners[1:], *corners[:1]], strict=True):
-            here, there = plane.depth(one), plane.depth(other)
-            if here >= 0:
-                kept.append(one)
-            if here * there < 0:
-                kept.append(one + (other - one) * here / (here - there))
-        corners = kept
-        if not corners:
-            break
-    return corners
 
 
 # --- the S–S′ diagram -------------------------------------------------------------------------------
@@ -171,7 +144,7 @@ def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     items.append(Line(0j, centre * at, style.VISIBLE))
     requests.append(label(centre * at, Symbol("O"), gap=1.6))
     requests.append(label([centre * at * share for share in (0.5, 0.4, 0.6, 0.7)], case.ledger.symbol("cam.r0")))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 
 
 def _within(end: complex, start: complex, left: float, right: float) -> complex:
@@ -248,7 +221,7 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
         label(start * at / 2, case.ledger.symbol("cam.r0")),
         label(pivot * at / 2, case.ledger.symbol("cam.a"), prefer=(-math.pi / 2,)),
     ]
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 
 
 def _arm(cam: Cam, ψ: float) -> complex:
@@ -260,57 +233,84 @@ def _arm(cam: Cam, ψ: float) -> complex:
 # --- the profile by inversion -------------------------------------------------------------------------
 
 
-def inversion(case: SolvedCam, room: complex = PROFILE_ROOM, construction: bool = True, enlarged: float = 1.0) -> Scene:
+def inversion(
+    case: SolvedCam, stage: Stage = "profile by inversion", room: complex = PROFILE_ROOM, enlarged: float = 1.0
+) -> Scene:
     """The profile in the cam's frame, the follower carried round it against its rotation, with numbered positions.
 
-    Without `construction` the finished cam with its follower in the first position.
+    First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` stands with its follower
+    in the first position.
     """
     cam = case.solution.cam
     outline = cam.outline()
-    reach = float(np.abs(outline).max()) + cam.roller
-    places = [*outline, *(reach * np.exp(1j * np.linspace(0, 2 * math.pi, 24)))]
+    ring = np.exp(1j * np.linspace(0, 2 * math.pi, 24))
+    places = [*outline, *((float(np.abs(outline).max()) + cam.roller) * ring)]
     if not cam.translating:
-        start = cam.traced(np.zeros(1))
-        places += [pivot_of(cam), complex(start.pitch[0])]
-    scale = fitting(places, room - 12 * (1 + 1j), enlarged)
+        places += [pivot_of(cam)] if stage == "cam" else list(cam.a * ring)
+    scale = fitting(places, room - 6 * (1 + 1j), enlarged)
+    at = 1 / scale
     items: list[Item] = []
     requests: list[Request] = []
-    traced, at = case.solution.traced, 1 / scale
-    items.append(Circle(0j, cam.r0 * at, style.THIN))
-    if cam.e:
-        items.append(Circle(0j, abs(cam.e) * at, style.THIN))
-    if construction:
-        for k in range(traced.φ.size):
-            items += _position(cam, traced, k, at)
-            centre = complex(traced.pitch[k]) * at
-            out = complex(traced.normal[k]) if cam.flat else centre
-            requests.append(
-                label(
-                    centre + unit(out) * (cam.roller * at),
-                    str(k + 1),
-                    size=style.SMALL,
-                    gap=0.9,
-                    prefer=(float(np.angle(out)),),
-                )
-            )
+    if stage == "cam":
+        items.append(Polyline(tuple(outline * at), PROFILE, closed=True, fill=style.TINT))
+    items += [Circle(0j, radius * at, style.THIN) for radius in (cam.r0, abs(cam.e)) if radius]
+    if stage == "cam":
+        items += follower_parts(cam, complex(cam.traced(np.zeros(1)).at[0]) * at, at, pivot_of(cam) * at)
     else:
-        items += _follower(cam, at)
-    if cam.roller and case.solution.given.closed_by == "form":
-        items.append(Polyline(tuple(cam.groove() * at), style.VISIBLE, closed=True))
-    if cam.roller:
-        pitch = cam.sampled().pitch
-        items.append(Polyline(tuple(pitch * at), PITCH, closed=True))
-    items.append(Polyline(tuple(outline * at), PROFILE, closed=True, fill=None if construction else style.TINT))
-    if not construction:
-        items = [items[-1], *items[:-1]]
+        items += _positions(case, stage, at, requests)
+    if stage != "displacements":
+        if cam.roller and case.solution.given.closed_by == "form":
+            items.append(Polyline(tuple(cam.outline(side=1) * at), style.VISIBLE, closed=True))
+        if cam.roller:
+            items.append(Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True))
+        if stage != "cam":
+            items.append(Polyline(tuple(outline * at), PROFILE, closed=True))
     items += _centre(0j)
     requests.append(label(0j, Symbol("O"), gap=1.9, prefer=(-2.4, -0.7)))
     radius = max(0.45 * cam.r0 * at, 5.0)
     begin = math.pi / 2 + 0.5
     items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, style.VISIBLE, style.DIMENSION_HEAD))
     requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
-    notes: list[Content] = [scale_note(scale * MM)]
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+
+
+def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:
+    """The follower at all positions, with their numbers."""
+    cam, traced = case.solution.cam, case.solution.traced
+    for k in range(traced.φ.size):
+        centre = complex(traced.pitch[k]) * at
+        out = complex(traced.normal[k]) if cam.flat else centre
+        if stage == "displacements":
+            yield from _laid_off(cam, traced, k, at)
+            place = centre
+        else:
+            yield from _position(cam, traced, k, at)
+            place = centre + unit(out) * (cam.roller * at)
+        prefer = (float(np.angle(out)),)
+        requests.append(label(place, str(k + 1), size=style.SMALL, gap=0.9, prefer=prefer))
+
+
+def _laid_off(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
+    """The displacement at a position, from the base circle on along the follower's axis or about its pivot."""
+    back = complex(np.exp(-1j * cam.turn * traced.φ[k]))
+    first = cam.traced(np.zeros(1))
+    start, end = complex(first.at[0]) * back * at, complex(traced.at[k]) * back * at
+    if cam.flat and cam.translating:
+        start, end = 1j * back * cam.r0 * at, 1j * back * (cam.r0 + traced.s[k]) * at
+    if cam.translating:
+        foot = CLEAR * start if cam.flat else complex(cam.turn * cam.e) * back * at
+        yield Line(foot, start, RAY)
+        yield Line(start, end, style.NEW)
+    else:
+        pivot = pivot_of(cam) * back * at
+        yield Line(pivot, start, RAY)
+        yield Line(pivot, end, style.VISIBLE)
+        yield Circle(pivot, 0.7, Pen(0.15), style.PAPER)
+        if not cam.flat:
+            begin = cmath.phase(start - pivot)
+            swing = math.remainder(cmath.phase(end - pivot) - begin, 2 * math.pi)
+            yield Arc(pivot, cam.arm * at, begin, begin + swing, style.NEW)
+    yield from style_point(end)
 
 
 def pivot_of(cam: Cam) -> complex:
@@ -332,7 +332,7 @@ def _position(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
         yield Circle(pivot, 0.7, Pen(0.15), style.PAPER)
     if cam.flat:
         out = complex(traced.normal[k])
-        yield Line(0j, out * abs((centre * out.conjugate()).real), RAY)
+        yield Line(CLEAR * cam.r0 * at * out, out * abs((centre * out.conjugate()).real), RAY)
         yield Line(centre - 1j * out * HALF_FACE, centre + 1j * out * HALF_FACE, style.VISIBLE)
         yield from style_point(centre)
     elif cam.roller:
@@ -340,12 +340,6 @@ def _position(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
         yield Circle(centre, 0.45, None, style.BLACK)
     else:
         yield Circle(centre, 0.6, Pen(0.2), style.PAPER)
-
-
-def _follower(cam: Cam, at: float) -> Iterator[Item]:
-    """The follower as it stands in the first position."""
-    start = cam.traced(np.zeros(1))
-    yield from follower_parts(cam, complex(start.at[0]) * at, at, pivot_of(cam) * at)
 
 
 def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: bool = True) -> Iterator[Item]:

@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from reportgen.assignment.common import FEWEST_POSITIONS, MOST_POSITIONS, Part
 from reportgen.assignment.fields import (
@@ -23,10 +23,10 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
-from reportgen.base.units import Given
+from reportgen.base.units import MM, Given
 from reportgen.cam import design
 from reportgen.cam.design import CamLimits, Least, NoCamError
-from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerMotion, MotionLaw, law
+from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerLaw, FollowerMotion, law
 from reportgen.cam.profile import Cam
 
 FIND = "find"
@@ -99,9 +99,15 @@ class AccelerationTable(Part):
 LawName = Literal["uniform", "parabolic", "cosine", "sine", "3-4-5", "4-5-6-7", "trapezoidal"]
 
 
+LawOrTable = Annotated[
+    Annotated[LawName, Tag("name")] | Annotated[AccelerationTable, Tag("table")],
+    Discriminator(lambda content: "table" if isinstance(content, dict | AccelerationTable) else "name"),
+]
+
+
 class Laws(Part):
-    rise: LawName | AccelerationTable
-    return_: LawName | AccelerationTable = Field(alias="return")
+    rise: LawOrTable
+    return_: LawOrTable = Field(alias="return")
 
 
 class PermissibleAngles(Part):
@@ -149,8 +155,9 @@ class Parameters(Part):
         return first, far, back, round(rest, 9)
 
     def seeks(self, key: str) -> bool:
-        """Whether a length is to be found."""
-        return key in self.model_fields_set and getattr(self, key) is None
+        """Whether a length is to be found, as the radius of a roller is that is not given."""
+        told = key in self.model_fields_set or (key == "roller" and self.end == "roller")
+        return told and getattr(self, key) is None
 
     @property
     def finds(self) -> tuple[str, ...]:
@@ -179,8 +186,8 @@ def table_of(given: AccelerationTable) -> AccelerationGraph:
     return AccelerationGraph(x, np.where(a < 0, a * above / below, a)) if below > 0 else AccelerationGraph(x, a)
 
 
-def law_of(given: str | AccelerationTable) -> MotionLaw:
-    return law(given) if isinstance(given, str) else MotionLaw("table", table_of(given))
+def law_of(given: str | AccelerationTable) -> FollowerLaw:
+    return law(given) if isinstance(given, str) else FollowerLaw("table", table_of(given))
 
 
 @lru_cache(maxsize=64)
@@ -240,7 +247,7 @@ def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | Non
     motion = cam.motion
     if cam.translating:
         least = design.least_translating(motion, limits, None if given.seeks("e") else cam.e)
-        e = design.to_millimetre(least.e) if given.seeks("e") else cam.e
+        e = round(least.e * MM) / MM if given.seeks("e") else cam.e
         if not given.seeks("r0"):
             return least, replace(cam, e=e)
         needed = design.least_translating(motion, limits, e).r0
@@ -296,3 +303,44 @@ def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Where in a phase ±α is greatest, and how great it is."""
     numbers = [number for number, one in enumerate(cam.motion.stretches) if one.phase == phase]
     return max((cam.worst(number, lambda one: sign * one.traced.alpha) for number in numbers), key=lambda one: one[1])
+
+
+@dataclass(frozen=True)
+class Judged:
+    """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""
+
+    rise: tuple[float, float]
+    back: tuple[float, float]
+    least_rho: tuple[float, float]
+    least_working: tuple[float, float]
+    largest: float
+    aside: tuple[float, float]
+    """Of a flat face the largest s′ (m) and the largest −s′; of one that swings the nearest and farthest contact."""
+
+
+def judged(cam: Cam) -> Judged:
+    every = range(len(cam.motion.stretches))
+
+    def least(of: str) -> tuple[float, float]:
+        found = []
+        for number in every:
+            if of == "working":
+                φ, value = cam.worst(number, lambda one: -one.effective)
+            else:
+                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
+            found.append((φ, -value))
+        return min(found, key=lambda one: one[1])
+
+    traced = cam.sampled()
+    aside = (float(traced.ds.max()), float(-traced.ds.min()))
+    if not cam.translating:
+        contact = np.abs(traced.at - complex(cam.opposite * cam.turn * cam.a, 0))
+        aside = (float(contact.min()), float(contact.max()))
+    return Judged(
+        extreme(cam, "rise", 1),
+        extreme(cam, "return", -1),
+        least("rho"),
+        least("working"),
+        float(np.abs(traced.pitch).max()),
+        aside,
+    )

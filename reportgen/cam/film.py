@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from reportgen.base.units import significant_decimals
-from reportgen.cam.diagrams import angle_axis, axis, motion_charts, names_of, pressure_chart
+from reportgen.cam.diagrams import angle_axis, axis, motion_charts, pressure_chart
 from reportgen.cam.drawings import PITCH, fitting, follower_parts, guide_walls, pivot_of
 from reportgen.cam.laws import NODE, Floats
 from reportgen.cam.profile import Complexes, Traced
@@ -60,7 +60,7 @@ def film(case: SolvedCam) -> Film:
         positions=tuple((str(k), angle) for k, angle in enumerate(case.solution.degrees, start=1)),
         shown=case.worked[0] - 1,
         stages=(stage,),
-        charts=tuple(_charts(case, knots, traced)),
+        charts=tuple(_charts(case, traced)),
         values=tuple(_values(case, traced)),
         errors=_errors(case, knots, 1 / _scale(case)),
         layers=("paths",) if case.solution.cam.roller else (),
@@ -106,17 +106,18 @@ def _stage(case: SolvedCam, traced: Traced) -> Stage:
     contact, normal = _contact(traced, cam.roller, cam.turn)
     place = Track(contact * at)
     items += [
-        MovingVector(place, Track(contact * at + normal * NORMAL), style.NORMAL, 0.0),
-        MovingVector(place, Track(contact * at - normal * NORMAL / 2), style.NORMAL, 0.0),
+        MovingVector(
+            Track(contact * at - NORMAL / 2 * normal), Track(contact * at + NORMAL * normal), style.NORMAL, 0.0
+        ),
         Carried((Circle(0j, 0.7, None, style.RED),), place),
         MovingName(Symbol("K"), place, (Track(contact * at + normal),), 1.0),
         MovingName(Symbol("O"), CENTRE, (Track(np.array([-3 - 5j])), Track(np.array([3 - 5j]))), 1.6),
     ]
     low, high = extent(items)
-    rates = traced.ds * (case.speed or 1.0) * 1j if cam.translating else np.zeros(traced.φ.size, complex)
-    drive = (case.speed or 1.0) ** 2 * traced.dds * 1j if cam.translating else np.zeros(traced.φ.size, complex)
-    spot = Spot("B", Track(traced.at * at), Track(traced.at), Track(rates), Track(drive))
-    spots = (spot,) if cam.translating and not cam.flat and case.speed else ()
+    spots: tuple[Spot, ...] = ()
+    if cam.translating and not cam.flat and (ω := case.speed):
+        rates = Track(1j * ω * traced.ds), Track(1j * ω**2 * traced.dds)
+        spots = (Spot("B", Track(traced.at * at), Track(traced.at), *rates),)
     return Stage(
         "cam", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),), spots=spots
     )
@@ -150,10 +151,10 @@ def _follower(case: SolvedCam, traced: Traced, at: float) -> Iterator[MovingItem
 # --- curves and numbers ---------------------------------------------------------------------------
 
 
-def _charts(case: SolvedCam, knots: Floats, traced: Traced) -> Iterator[Chart]:
+def _charts(case: SolvedCam, traced: Traced) -> Iterator[Chart]:
     language = case.assignment.language
+    sampled = case.solution.cam.sampled()
     for (symbol, unit, values), now in zip(motion_charts(case), (traced.s, traced.ds, traced.dds), strict=True):
-        sampled = case.solution.cam.sampled()
         shown = plotted(
             (PlottedCurve(symbol, np.degrees(sampled.φ), values),), angle_axis(case), axis(symbol, unit), half=True
         )
@@ -165,7 +166,7 @@ def _charts(case: SolvedCam, knots: Floats, traced: Traced) -> Iterator[Chart]:
 
 def _values(case: SolvedCam, traced: Traced) -> Iterator[MomentValue]:
     omega = case.speed
-    for id, values in zip(names_of(case), (traced.s, traced.ds, traced.dds), strict=True):
+    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
         yield _value(case.ledger.symbol(id), case.ledger[id].kind, values)
     if omega is not None:
         rates = ("cam.v", "cam.acceleration") if case.solution.cam.translating else ("cam.omega.f", "cam.epsilon.f")

@@ -60,6 +60,11 @@ class AccelerationGraph:
         return self.a / S[-1], V / S[-1], S / S[-1]
 
     @property
+    def way(self) -> float:
+        """How far the graph moves as it stands; backwards if it is negative."""
+        return float(_integrated(self.x, self.a)[1][-1])
+
+    @property
     def areas(self) -> tuple[float, float]:
         """The areas above and below the axis, which must be equal: the follower comes to rest."""
         parts = _areas(self.x, self.a)
@@ -169,7 +174,7 @@ LAWS = (*SMOOTH, "trapezoidal")
 
 
 @dataclass(frozen=True)
-class MotionLaw:
+class FollowerLaw:
     """A law by its name, or the table that it is; `pieces` follow one another from 0 to 1."""
 
     name: str
@@ -192,18 +197,15 @@ class MotionLaw:
 
 def evaluated(of: Formula, x: Floats) -> Floats:
     """The values of a formula over x."""
-    formula = of(_X)
+    formula = of(Ref("x"))
     return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)
 
 
-_X = Ref("x")
-
-
-def law(name: str) -> MotionLaw:
+def law(name: str) -> FollowerLaw:
     """A law of `LAWS`; raises `KeyError` for any other."""
     if name not in LAWS:
         raise KeyError(name)
-    return MotionLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
+    return FollowerLaw(name, TRAPEZIUM if name == "trapezoidal" else None)
 
 
 # --- a turn ---------------------------------------------------------------------------------------
@@ -266,8 +268,8 @@ class FollowerMotion:
 
     stroke: float
     phases: tuple[float, float, float, float]
-    rise: MotionLaw
-    back: MotionLaw
+    rise: FollowerLaw
+    back: FollowerLaw
 
     @cached_property
     def starts(self) -> dict[str, float]:

@@ -41,7 +41,6 @@ class Traced:
     alpha: Floats
     rho: Floats
     working: Complexes
-    outer: Complexes
 
 
 @dataclass(frozen=True)
@@ -95,7 +94,6 @@ class Cam:
             alpha=alpha,
             rho=rho,
             working=pitch - self.roller * out,
-            outer=pitch + self.roller * out,
         )
 
     def mirrored(self, points: Complexes) -> Complexes:
@@ -140,15 +138,12 @@ class Cam:
             numbers.append(np.full(steps + 1, number))
         return self.traced(np.concatenate(angles), np.concatenate(numbers))
 
-    def outline(self, count: int = 720) -> Complexes:
-        """The closed profile that is cut [N], no point twice: corners that a rigid impact leaves are rounded."""
-        return self._closed(self.sampled(count), -1)
+    def outline(self, count: int = 720, side: int = -1) -> Complexes:
+        """The closed profile that is cut [N], no point twice; with `side` +1 the outer flank of the roller's groove.
 
-    def groove(self, count: int = 720) -> Complexes:
-        """The outer flank of a groove for the roller."""
-        return self._closed(self.sampled(count), 1)
-
-    def _closed(self, traced: Traced, side: int) -> Complexes:
+        Corners that a rigid impact leaves are rounded.
+        """
+        traced = self.sampled(count)
         points = traced.pitch + side * self.roller * traced.normal
         if self.roller:
             points = np.concatenate([*self._with_arcs(traced, points, side)])

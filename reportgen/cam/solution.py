@@ -15,7 +15,7 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.cam.design import Touch
-from reportgen.cam.file import Designed, Parameters, designed, extreme, positions_of
+from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.laws import Floats, FollowerMotion, Stretch
 from reportgen.cam.profile import Cam, Traced
 from reportgen.formula import (
@@ -42,6 +42,24 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.report.case import Pitfalls
 
+LINES: Mapping[str, tuple[str, ...]] = {
+    "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
+    "begin": ("cam.start.return",),
+    "speed": ("cam.omega",),
+    "motion": (
+        *("cam.x", "cam.z", "cam.s", "cam.ds", "cam.dds", "cam.psi", "cam.dpsi", "cam.ddpsi"),
+        *("cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f"),
+    ),
+    "scales": ("cam.mu.phi", "cam.mu.ds", "cam.mu.s", "cam.mu.dpsi", "cam.mu.psi"),
+    "intercepts": ("cam.c.1", "cam.c.2"),
+    "apex": ("cam.apex.s0", "cam.apex.e"),
+    "least": ("cam.least.e", "cam.least.s0", "cam.least.psi0", "cam.least.r0"),
+    "lowest": ("cam.s0", "cam.psi0"),
+    "pressure": ("cam.q", "cam.k", "cam.alpha"),
+    "points": ("cam.contact", "cam.pitch.x", "cam.pitch.y", "cam.profile.x", "cam.profile.y"),
+    "curvature": ("cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
+}
+"""What the report sets out together."""
 MOVING = {"rise": 1, "return": 2}
 """The numbers of what belongs to each of the two phases with motion."""
 STILL = Number(0.0)
@@ -99,6 +117,10 @@ class CamSolution:
             q.enter_flat()
         else:
             q.enter_profile()
+        if self.cam.flat:
+            q.q.set_out("points", "cam.q", "cam.k")
+        for name, lines in LINES.items():
+            q.q.set_out(name, *lines)
         return q.q
 
     @cached_property
@@ -110,8 +132,7 @@ class CamSolution:
         """The motion as it is with the angles and the laws of rise and return exchanged."""
         first, far, back, near = self.motion.phases
         other = FollowerMotion(self.motion.stroke, (back, far, first, near), self.motion.back, self.motion.rise)
-        names = ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
-        return {id: [("cam-exchanged", values)] for id, values in zip(names, other(self.φ), strict=True)}
+        return {id: [("cam-exchanged", values)] for id, values in zip(self.moved, other(self.φ), strict=True)}
 
     @property
     def _changed(self) -> Mapping[str, list[tuple[str, Expression]]]:
@@ -131,7 +152,7 @@ class CamSolution:
         also("cam-phase-sum", "cam.start.return", {ids.cam_phase("far"): 0.0})
         for id in ("cam.alpha", "cam.pitch.x", "cam.pitch.y", "cam.rho"):
             also("cam-offset-side", id, {"cam.e": -Ref("cam.e")})
-        also("cam-wrong-sense", "cam.k", {self.rate: -Ref(self.rate)})
+        also("cam-wrong-sense", "cam.k", {self.moved[1]: -Ref(self.moved[1])})
         limits = {"cam.limit.rise": Ref("cam.limit.return"), "cam.limit.return": Ref("cam.limit.rise")}
         if "cam.limit.return" in families:
             for id in families:
@@ -142,8 +163,9 @@ class CamSolution:
         return found
 
     @property
-    def rate(self) -> str:
-        return "cam.ds" if self.cam.translating else "cam.dpsi"
+    def moved(self) -> tuple[str, str, str]:
+        """s, s′ and s″ as the ledger calls them."""
+        return ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
 
 
 class CamSheet:
@@ -204,10 +226,9 @@ class CamSheet:
             begun = [self._beyond(one, x) for one in stretches]
             q.define("cam.z", branch(number, *begun), scale=1.0)
         written = [self._formulas(one, x) for one in stretches]
-        names = ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
-        for id, formulas in zip(names, zip(*written, strict=True), strict=True):
+        for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
             q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
-        self.s, self.ds, self.dds = (q[id] for id in names)
+        self.s, self.ds, self.dds = (q[id] for id in self.of.moved)
         if omega := q.find("cam.omega"):
             rate, acceleration = (
                 ("cam.v", "cam.acceleration") if self.cam.translating else ("cam.omega.f", "cam.epsilon.f")
@@ -389,18 +410,18 @@ class CamSheet:
         φ = q["cam.phi"]
         if self.cam.translating:
             s0, e, s, ds, dds = q["cam.s0"], q["cam.e"], self.s, self.ds, self.dds
-            aside: Expression = ds
             x: Expression
             y: Expression
+            u = q.define("cam.u", s0 + s)
             if self.cam.e:
-                aside = ds - e
+                w = q.define("cam.w", ds - e)
                 x, y = (s0 + s) * sin(φ) + e * cos(φ), (s0 + s) * cos(φ) - e * sin(φ)
-                bent = (s0 + s) * (s0 + s - dds) + (ds - e) * (2 * ds - e)
+                α = q.define("cam.alpha", atan((ds - e) / (s0 + s)), scale=1.0)
+                ρ = sqrt(u**2 + w**2) ** 3 / (u * (u - dds) + w * (w + ds))
             else:
                 x, y = (s0 + s) * sin(φ), (s0 + s) * cos(φ)
-                bent = (s0 + s) * (s0 + s - dds) + 2 * ds**2
-            α = q.define("cam.alpha", atan(aside / (s0 + s)), scale=1.0)
-            ρ = sqrt((s0 + s) ** 2 + aside**2) ** 3 / bent
+                α = q.define("cam.alpha", atan(ds / (s0 + s)), scale=1.0)
+                ρ = sqrt(u**2 + ds**2) ** 3 / (u * (u - dds) + 2 * ds**2)
             lean: Expression = φ - α
         else:
             a, arm, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds
@@ -451,44 +472,3 @@ class CamSheet:
         q.define(ids.cam_profile("x"), self.across(x), scale=r0)
         q.define(ids.cam_profile("y"), y, scale=r0)
         q.define("cam.rho", ρ)
-
-
-# --- what is judged at the end ---------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Judged:
-    """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""
-
-    rise: tuple[float, float]
-    back: tuple[float, float]
-    least_rho: tuple[float, float]
-    least_working: tuple[float, float]
-    largest: float
-    aside: tuple[float, float]
-    """The largest s′ (m) of a flat face, and the largest −s′."""
-
-
-def judged(cam: Cam) -> Judged:
-    every = range(len(cam.motion.stretches))
-
-    def least(of: str) -> tuple[float, float]:
-        found = []
-        for number in every:
-            if of == "working":
-                φ, value = cam.worst(number, lambda one: -one.effective)
-            else:
-                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
-            found.append((φ, -value))
-        return min(found, key=lambda one: one[1])
-
-    traced = cam.sampled()
-    aside = (float(traced.ds.max()), float(-traced.ds.min()))
-    return Judged(
-        extreme(cam, "rise", 1),
-        extreme(cam, "return", -1),
-        least("rho"),
-        least("working"),
-        float(np.abs(traced.pitch).max()),
-        aside,
-    )

@@ -52,6 +52,6 @@ class SolvedCam(Opened):
             return tuple(one for one in map(int, report.worked_positions) if one <= count)
         starts, φ = self.solution.motion.starts, self.solution.φ
         phases = self.solution.motion.phases
-        # Beside the middle, where most laws have neither their largest velocity nor acceleration.
-        wanted = (0.4 * phases[0], starts["return"] + 0.4 * phases[2])
+        # Well beside the middle, where most laws have no acceleration.
+        wanted = (0.3 * phases[0], starts["return"] + 0.3 * phases[2])
         return tuple(dict.fromkeys(int(np.abs(φ - at).argmin()) + 1 for at in wanted))

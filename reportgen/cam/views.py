@@ -9,11 +9,11 @@ from functools import cached_property
 from typing import Any
 
 from reportgen.base.units import MM
-from reportgen.cam.diagrams import curvature_chart, law_diagrams, names_of, pressure_chart
+from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
-from reportgen.cam.file import exceeded
-from reportgen.cam.laws import MotionLaw, Piece
-from reportgen.cam.solution import MOVING, Judged, judged
+from reportgen.cam.file import Judged, exceeded, judged
+from reportgen.cam.laws import FollowerLaw, Piece
+from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
 from reportgen.formula import Chain, Expression, Number, Symbol, ids, substitute, vocabulary
@@ -41,19 +41,19 @@ from reportgen.report.numbering import number
 from reportgen.report.prose import Prose
 
 SECTIONS = (
-    "given",
-    "law",
-    "diagrams",
-    "motion-table",
-    "limits",
-    "choice",
-    "pressure",
-    "profile",
-    "curvature",
-    "checks",
-    "conclusion",
+    "cam-given",
+    "cam-law",
+    "cam-diagrams",
+    "cam-motion-table",
+    "cam-limits",
+    "cam-choice",
+    "cam-pressure",
+    "cam-profile",
+    "cam-curvature",
+    "cam-checks",
+    "cam-conclusion",
 )
-SHORT = frozenset({"diagrams", "curvature"})
+SHORT = frozenset({"cam-diagrams", "cam-curvature"})
 """The sections, and what templates ask for by `full`, that a short report goes without."""
 DATA = (95.0, 25.0, 40.0)
 CHECKS = (74.0, 30.0, 30.0, 26.0)
@@ -72,7 +72,7 @@ def report(case: SolvedCam) -> Document:
     blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
     for section in SECTIONS:
         if page.has(section) and (full or section not in SHORT):
-            found = prose.render(f"cam-{section}", names)
+            found = prose.render(section, names)
             blocks += found
     return number(
         Document(
@@ -107,9 +107,16 @@ class LawView:
     """The law of a phase: its words' key, and its formulas piece by piece with the angles between which they hold."""
 
     phase: str
-    name: str
     equation: Equation
     table: tuple[Table, ...]
+
+
+@dataclass(frozen=True)
+class ImpactView:
+    """Impacts of one kind, and the angles at which they are."""
+
+    rigid: bool
+    angles: Inlines
 
 
 @dataclass(frozen=True)
@@ -130,57 +137,78 @@ class CamPage:
     def has(self, section: str) -> bool:
         """Whether a cam like this has a section."""
         cam, least = self.case.solution.cam, self.case.solution.designed.least
-        return {"limits": least is not None or cam.flat, "pressure": not cam.flat}.get(section, True)
+        return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
 
     def names(self) -> dict[str, Any]:
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
         found = case.solution.designed
+        exceeded, undercut = self.exceeded, self.undercut
         return {
             "words": case.words,
-            "title": case.title,
-            "variant": case.assignment.variant,
             "full": case.assignment.report.extent == "full",
+            # what kind of cam it is
             "translating": cam.translating,
             "flat": cam.flat,
             "roller": bool(cam.roller),
             "offset": bool(cam.e),
+            "has_axis": cam.translating and not cam.flat,
+            "sliding_face": cam.translating and cam.flat,
+            "turning_face": cam.flat and not cam.translating,
+            "one_curve": not cam.roller,
             "opposite": cam.opposite > 0,
-            "with_speed": given.n is not None,
-            "clockwise": cam.turn < 0,
-            "by_form": given.closed_by == "form",
-            "seeks": given.seeks,
-            "finds": given.finds,
-            "found": listed(InlineMath(case.ledger.symbol(_id(key))) for key in given.finds),
-            "has_limits": found.limits.rise is not None,
-            "both_limits": found.limits.back is not None,
-            "least": found.least,
-            "apex": "cam.apex.s0" in case.ledger,
             "lifts": self.lifts,
+            "clockwise": cam.turn < 0,
+            "with_speed": given.n is not None,
+            # what is sought, within what limits
+            "finds": given.finds,
+            "several": len(given.finds) > 1,
+            "finds_e": given.seeks("e"),
+            "finds_roller": given.seeks("roller"),
+            "found": listed(InlineMath(case.ledger.symbol(_id(key))) for key in given.finds),
+            "chosen": tuple(map(_id, given.finds)),
+            "has_limits": found.limits.rise is not None,
+            "limited": found.limits.rise is not None and not cam.flat,
+            "both_limits": found.limits.back is not None,
+            "least": found.least is not None,
+            "apex": "cam.apex.s0" in case.ledger,
+            "apex_is_least": found.least is not None and found.least.rule == "apex",
+            "deciding": self.deciding,
+            # laws, positions, tables
             "laws": self.laws,
             "law_words": self.law_words,
             "impacts": self.impacts,
-            "motion_ids": self.motion_ids,
-            "profile_ids": self.profile_ids,
             "worked": case.worked,
             "count": case.count,
             "phase_of": lambda k: self.words["phases"][case.solution.stretches[k - 1].phase],
             "data": self.data,
             "motion_table": self.motion_table,
             "profile_table": self.profile_table,
+            # what is judged
             "checks": self.checks,
-            "exceeded": self.exceeded,
-            "undercut": self.undercut,
-            "known": lambda id: id in case.ledger,
-            "symbol": case.printed.symbol,
+            "extremes": self.judged,
+            "exceeded": exceeded,
+            "undercut": undercut,
+            "sound": not (exceeded or undercut),
+            # symbols, numbers, lines, figures
+            "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
             "value": lambda id, k=None: Value(case.printed.number(id, k)),
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
             "angle": lambda angle: Value(Number(math.degrees(angle), ANGLE, "°")),
             "length": lambda size: Value(Number(size * MM, 3, "mm")),
-            "extremes": self.judged,
             "figure": self.figure,
         }
+
+    @property
+    def deciding(self) -> Mapping[str, str]:
+        """The limit line that decides: its phase in words, and the ids of what is read where it touches."""
+        least = self.case.solution.designed.least
+        if least is None:
+            return {}
+        rule = "return" if least.rule == "return" else "rise"
+        read = {name: ids.cam_touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
+        return {"phase": str(self.words["phases"][rule]), **read}
 
     # --- symbols and lines
 
@@ -194,9 +222,10 @@ class CamPage:
     def quantity(self, id: str, k: int | None = None) -> Inlines:
         return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
 
-    def lines(self, quantities: Iterable[str], k: int | None = None) -> Equation:
-        """Worked lines of those of the quantities that the ledger has."""
-        return Equation(tuple(self.case.printed.chain(id, k) for id in quantities if id in self.case.printed))
+    def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Equation, ...]:
+        """Worked lines, in an equation if there are any."""
+        rows = tuple(self.case.printed.chain(id, k) for id in quantities)
+        return (Equation(rows),) if rows else ()
 
     # --- what is given
 
@@ -245,18 +274,18 @@ class CamPage:
     def laws(self) -> tuple[LawView, ...]:
         motion = self.case.solution.motion
         return tuple(
-            LawView(phase, law.name, self._formulas(phase, law), self._nodes(phase, law))
+            LawView(phase, self._formulas(phase, law), self._nodes(phase, law))
             for phase, law in (("rise", motion.rise), ("return", motion.back))
         )
 
-    def _formulas(self, phase: str, law: MotionLaw) -> Equation:
+    def _formulas(self, phase: str, law: FollowerLaw) -> Equation:
         """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
-        ledger, names = self.case.printed, names_of(self.case)
+        ledger, names = self.case.printed, self.case.solution.moved
         rows: list[Expression] = []
         stretches = [one for one in self.case.solution.motion.stretches if one.phase == phase]
         numbers = [n for n, one in enumerate(self.case.solution.motion.stretches) if one.phase == phase]
         for n, one in zip(numbers, stretches, strict=True):
-            note = self._between(one.piece) if len(stretches) > 1 else ""
+            note = self._between(one.piece) if len(stretches) > 1 and law.table is None else ""
             for id in names:
                 definition = self.case.ledger[id].definition
                 assert definition is not None
@@ -273,7 +302,7 @@ class CamPage:
         low, high = (formula(Number(one), self.case.assignment.language) for one in (piece.start, piece.stop))
         return f"{low} ≤ x ≤ {high}"
 
-    def _nodes(self, phase: str, law: MotionLaw) -> tuple[Table, ...]:
+    def _nodes(self, phase: str, law: FollowerLaw) -> tuple[Table, ...]:
         """The graph of an acceleration, integrated twice at its nodes."""
         if law.table is None:
             return ()
@@ -293,40 +322,29 @@ class CamPage:
         return (Value(self.case.printed.number(id)) if id in self.case.printed else Text("–"),)
 
     @property
-    def impacts(self) -> tuple[tuple[str, Inlines], ...]:
+    def impacts(self) -> tuple[ImpactView, ...]:
         """The kinds of impact with the angles at which they are."""
         found: dict[str, list[float]] = {}
         for one in self.case.solution.motion.impacts:
             found.setdefault(one.kind, []).append(math.degrees(one.angle))
         return tuple(
-            (kind, listed(Value(Number(float(f"{angle:.6g}"), None, "°")) for angle in angles))
+            ImpactView(kind == "rigid", listed(Value(Number(float(f"{angle:.6g}"), None, "°")) for angle in angles))
             for kind, angles in found.items()
         )
 
     # --- tables of the positions
 
     @property
-    def motion_ids(self) -> tuple[str, ...]:
-        found = ("cam.x", "cam.z", *names_of(self.case), "cam.v", "cam.acceleration", "cam.omega.f", "cam.epsilon.f")
-        return tuple(id for id in found if id in self.case.printed)
-
-    @property
-    def profile_ids(self) -> tuple[str, ...]:
-        found = (
-            *("cam.q", "cam.k", "cam.contact", "cam.alpha", "cam.pitch.x", "cam.pitch.y"),
-            *("cam.profile.x", "cam.profile.y", "cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.rho", "cam.rho.working"),
-        )
-        return tuple(id for id in found if id in self.case.printed)
-
-    @property
     def motion_table(self) -> Table:
-        return self._positions("motion", ("cam.phi", *(id for id in self.motion_ids if id != "cam.z")))
+        lines = self.case.printed.known(self.case.printed.lines["motion"])
+        return self._positions("motion", ("cam.phi", *(id for id in lines if id != "cam.z")))
 
     @property
     def profile_table(self) -> Table:
-        hidden = {"cam.u", "cam.w", "cam.m.1", "cam.m.2", "cam.q", "cam.k"}
+        lines = self.case.printed.lines
+        shown = ("cam.contact", "cam.alpha", *lines["points"], "cam.rho", "cam.rho.working")
         name = "profile_flat" if self.case.solution.cam.flat else "profile"
-        return self._positions(name, ("cam.phi", *(id for id in self.profile_ids if id not in hidden)))
+        return self._positions(name, ("cam.phi", *self.case.printed.known(shown)))
 
     def _positions(self, name: str, quantities: Sequence[str]) -> Table:
         """Quantities over the positions, a row each."""
@@ -408,10 +426,12 @@ class CamPage:
                 yield limit_diagram(self.case)
             case "pressure":
                 yield pressure_chart(self.case).scene
+            case "displacements":
+                yield inversion(self.case, "displacements")
             case "inversion":
                 yield inversion(self.case)
             case "profile":
-                yield inversion(self.case, construction=False)
+                yield inversion(self.case, "cam")
             case "curvature":
                 yield curvature_chart(self.case).scene
 

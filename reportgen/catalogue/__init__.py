@@ -12,6 +12,7 @@ A kind that is no machine has its module in a room of its own, found by its word
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -21,9 +22,9 @@ from typing import Any
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem
-from reportgen.base.source import Source, read_source
+from reportgen.base.source import MappingNode, Scalar, Source, put, read_source, text_of
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, as_problem, kinds, language_of, word
+from reportgen.base.words import as_error, as_problem, kinds, language_of, samples, word
 from reportgen.catalogue import reach
 from reportgen.machine.analysis import Machine
 
@@ -102,6 +103,26 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
     source, spoken = read_source(Path(path)), assignment.language
     found = [as_problem(one, spoken, level) for level in told for one in reading.placed(source, told[level])]
     return sorted(found, key=lambda problem: problem.mark)
+
+
+def examples(name: str) -> dict[str, Path]:
+    """The examples of a kind that come with the program, by the stems of their files."""
+    heads = {path: path.read_text(encoding="utf-8") for path in sorted(samples().rglob("*.yaml"))}
+    of_kind = re.compile(rf"^kind: {name}$", re.MULTILINE)
+    # A spec, which has a salt, is one for a class.
+    return {path.stem: path for path, text in heads.items() if of_kind.search(text) and "\nsalt:" not in text}
+
+
+def example(path: Path, language: Language | None = None) -> str:
+    """The text of an example, reported in a language if one is given."""
+    source = read_source(path)
+    assert isinstance(source.top, MappingNode), "an example is in order"
+    if language is None:
+        return source.text
+    top = put(source.top, ("report", "language"), Scalar(language, source.top.mark))
+    assert isinstance(top, MappingNode), "a key is put into a table"
+    before = source.text.splitlines(keepends=True)[: source.top.mark.line - 1]
+    return "".join(before) + text_of(top, source.text, source.top)
 
 
 def _understood_positions(assignment: Assignment) -> Iterator[Finding]:

@@ -26,7 +26,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.formula import PI, Number, Operand, Ref, Symbol, ids, turned, vocabulary
+from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, turned, vocabulary
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Inertia, Linkage, LinkPoint
@@ -220,6 +220,11 @@ class GivenSheet(Sheet):
         y = self.datum(ids.coordinate(name, "y"), place.y, Symbol("y", name), "length")
         self.construct(ids.place(name), x + turned(y))
 
+    def coordinates(self, name: str) -> tuple[Expression, Expression]:
+        """The coordinates of a fixed point as far as they stand here and are not 0."""
+        x, y = (self.find(ids.coordinate(name, axis)) or self.find(ids.frame_coordinate(axis, name)) for axis in "xy")
+        return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
+
     def fix(self, id: str, at: complex, length: Operand) -> None:
         """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
         far = self.construct(ids.far(id), length)
@@ -255,16 +260,20 @@ def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
 
 
+def natural_sizes(r: float, ω: float) -> dict[str, float]:
+    """What counts as one of each kind beside a crank of the length r (m) at ω (rad/s)."""
+    return {
+        "length": r,
+        "velocity": ω * r,
+        "acceleration": ω**2 * r,
+        "angular velocity": ω,
+        "angular acceleration": ω**2,
+    }
+
+
 def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
     """`q.define` with a scale by the kind of the quantity: what is natural to the crank of this id counts as one."""
-    r, ω1 = q.si(crank), q.si("omega.1")
-    sizes = {
-        "length": r,
-        "velocity": ω1 * r,
-        "acceleration": ω1**2 * r,
-        "angular velocity": ω1,
-        "angular acceleration": ω1**2,
-    }
+    sizes = natural_sizes(q.si(crank), q.si("omega.1"))
 
     def define(id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "") -> Ref:
         return q.define(id, definition, symbol, kind, scale=sizes.get(kind or vocabulary.row(id).kind, 0.0))
@@ -288,10 +297,10 @@ def outline(
 ) -> tuple[str, ...]:
     """The report's sections in order; without mass and load it ends with the kinematics.
 
-    `sizes` and `load` tell where lengths and loads come from; `summary` follows the velocities, `course` the
+    `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams.
     """
-    kinematics = (*OPENING, sizes, "positions", "velocity", *summary, "acceleration", "diagrams", *course)
+    kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, "diagrams", *course)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()

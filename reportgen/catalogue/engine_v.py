@@ -179,7 +179,7 @@ def machine(assignment: Assignment) -> Machine:
     on_rod = given.joint == "D"
 
     def formulas(q: Sheet) -> None:
-        centred_slider(q, turn, 2, 3, "C", angle=angle, along="l.BD", centre="D" if on_rod else "")
+        centred_slider(q, turn, 2, 3, "C", angle=angle, along="l.BD", centre="D" if on_rod else "", axes="ξη")
         second_cylinder(q, turn, given.joint)
 
     plans = ("v.C", "omega.2", "v.E", "omega.4", "a.C", "eps.2", "a.E", "eps.4", *(("v.D", "a.D") if on_rod else ()))

@@ -56,7 +56,7 @@ def _rocks(q: Sheet) -> bool:
     return q.si("l.AB") < q.si("l.AD")
 
 
-def _cosine(one: Expression, other: Expression, opposite: Expression) -> Expression:
+def cosine(one: Expression, other: Expression, opposite: Expression) -> Expression:
     """The law of cosines for the angle between two sides."""
     return (one**2 + other**2 - opposite**2) / (2 * one * other)
 
@@ -65,10 +65,7 @@ def _cosine(one: Expression, other: Expression, opposite: Expression) -> Express
 
 
 def proportions(q: Sheet) -> None:
-    """Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K.
-
-    AC₁ = BC + AB and AC₂ = BC − AB with the angles α at A and ψ at D; θ = α₁ − α₂, K = (180° + θ)/(180° − θ).
-    """
+    """Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
     AB, BC, CD, AD = sides = tuple(q[ids.length(id)] for id in ("AB", "BC", "DC", "AD"))
     first, one, other, last = sorted(sides, key=q.si)
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
@@ -76,16 +73,30 @@ def proportions(q: Sheet) -> None:
     q.set_out("swing")
     if not _rocks(q):
         return
+    extremes(q, AB, BC, CD, ("AC1", "AC2"), frame=AD, square=AD**2)
+
+
+def extremes(
+    q: Sheet, crank: Ref, coupler: Ref, rocker: Ref, ends: tuple[str, str], *, frame: Expression, square: Expression
+) -> None:
+    """Both extreme positions of a rocker, its swing ψ = ψ₁ − ψ₂ and the ratio of times K = (180° + θ)/(180° − θ).
+
+    Crank and coupler lie in one line from the crank's centre, θ = α₁ − α₂ is the angle between both lines.  The lines
+    to the rocker's pin there are called `ends`; the angles at the crank's centre are α, at the rocker's ψ.  The frame
+    is given by a formula, with its square: a small angle wants it unrounded.
+    """
     angle = partial(q.define, kind="angle", scale=1.0)
     lengths, α, ψ = [], [], []
-    for number, length in (("1", BC + AB), ("2", BC - AB)):
-        lengths.append(AC := q.define(ids.length(f"AC{number}"), length))
-        α.append(angle(ids.inner_angle(number), acos(_cosine(AC, AD, CD)), Symbol("α", number)))
-        ψ.append(angle(ids.outer_angle(number), acos(_cosine(AD, CD, AC)), Symbol("ψ", number)))
+    for number, line, length in (("1", ends[0], coupler + crank), ("2", ends[1], coupler - crank)):
+        lengths.append(reach := q.define(ids.length(line), length))
+        at_centre = acos((reach**2 + square - rocker**2) / (2 * reach * frame))
+        α.append(angle(ids.inner_angle(number), at_centre, Symbol("α", number)))
+        at_pivot = acos((square + rocker**2 - reach**2) / (2 * frame * rocker))
+        ψ.append(angle(ids.outer_angle(number), at_pivot, Symbol("ψ", number)))
     larger, smaller = sorted(α, key=q.si, reverse=True)
     θ = angle("theta", larger - smaller)
-    K = q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
     q.set_out("extremes", *lengths, *α, *ψ)
+    K = q.define("K", (STRAIGHT + θ) / (STRAIGHT - θ))
     q.set_out("swing", angle("swing", ψ[0] - ψ[1], "ψ"), θ, K)
 
 
@@ -151,7 +162,7 @@ def _positions(q: Sheet, angle: Floats, side: int) -> tuple[Ref, Ref, Ref]:
     across, along = AB * sin(φ1), AD - AB * cos(φ1)
     δ = atan(across / along) if _rocks(q) else atan2(across, along)
     BD = q.define("l.BD", sqrt(AB**2 + AD**2 - 2 * AB * AD * cos(φ1)))
-    β, γ = acos(_cosine(BC, BD, CD)), acos(_cosine(CD, BD, BC))
+    β, γ = acos(cosine(BC, BD, CD)), acos(cosine(CD, BD, BC))
     φ2 = q.define("f.phi.2", β - δ if side > 0 else -β - δ, scale=1.0)
     φ3 = q.define("f.phi.3", STRAIGHT - δ - γ if side > 0 else STRAIGHT - δ + γ, scale=1.0)
     q.set_out("position", BD, φ2, φ3)

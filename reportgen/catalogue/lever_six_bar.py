@@ -6,23 +6,33 @@ Ground 0, crank 1 (BA), coupler 2 (AC), rocker 3 (DC), rod 4 (EF), slider 5 (at 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
-from reportgen.assignment.common import Assignment, Part, Positions, of_parameters
-from reportgen.assignment.fields import Coordinate, ForceSize, Length
+import numpy as np
+
+from reportgen.assignment.common import Assignment, Part, Positions, of_parameters, one_of
+from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import reach
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
-from reportgen.formula import Symbol, ids, turned
+from reportgen.catalogue.four_bar import STRAIGHT, extremes
+from reportgen.catalogue.loops import ClosedLoops
+from reportgen.formula import Number, Symbol, acos, cos, ids, sin, sqrt, turned
+from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, ConstantLaw, Law, crank_motion, opposing
+from reportgen.machine.loads import Applied, ConstantLaw, Law, NotToAndFro, Stroke, course, crank_motion, opposing
 
 TURNS = 1
+TURN = Number(360.0, unit="°")
 BARS = {1: ("B", "A"), 2: ("A", "C"), 3: ("D", "C"), 4: ("E", "F")}
 """The bars by the pins at their ends."""
+
+
+SwingAngle = Annotated[Given, quantity("deg", least=1, most=170)]
+SpeedRatio = Annotated[Given, Ratio(Interval(least=1.001, most=3))]
 
 
 class SliderForce(Part):
@@ -32,11 +42,26 @@ class SliderForce(Part):
     sense: Literal["opposing", "right", "left"] = "opposing"
 
 
-class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1, 2, 3, 4), loads=("force",)):
-    """Lengths, fixed points, the way the groups are assembled, the speed; masses and the load if given."""
+class Swing(Part):
+    """What the rocker is to do: its angle of swing, the ratio K of the times of its two ways.
 
-    AB: Length
-    AC: Length
+    The crank's centre B lies `beyond` the chord of both ends of the pin's way, seen from D, or `before` it.
+    """
+
+    angle: SwingAngle
+    K: SpeedRatio
+    B: Literal["beyond", "before"] = "beyond"
+
+
+class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1, 2, 3, 4), loads=("force",)):
+    """Lengths, fixed points, the way the groups are assembled, the speed; masses and the load if given.
+
+    Crank and coupler by their lengths, or by the swing that they are to give the rocker.
+    """
+
+    AB: Length | None = None
+    AC: Length | None = None
+    swing: Swing | None = None
     CD: Length
     CE: Length
     EF: Length
@@ -50,12 +75,15 @@ class Parameters(Driven, masses=(1, 2, 3, 4, 5), moments=(1, 2, 3, 4), shares=(1
 def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     """Given data, the place of E, mass centres, masses and moments of inertia."""
     q = GivenSheet(given)
-    q.datum("l.BA", given.AB, Symbol("l", "AB"))
-    q.datum("l.AC", given.AC)
+    if given.AB and given.AC:
+        q.datum("l.BA", given.AB, Symbol("l", "AB"))
+        q.datum("l.AC", given.AC)
     q.datum("l.DC", given.CD, Symbol("l", "CD"))
     q.datum("l.CE", given.CE)
     q.datum("l.EF", given.EF)
     q.point("D", given.D)
+    if given.swing:
+        _synthesis(q, given.swing)
     q.datum("F.y", given.guide, Symbol("y", "F"), "length")
     q.speed()
     q.give("drawn.BA", crank.si if crank else CRANK_DRAWN, drawn_length("A", "B"))
@@ -74,6 +102,30 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     if given.force is not None:
         q.datum("P.given", given.force.P, Symbol("P", "5"), "force")
     return q
+
+
+def _synthesis(q: GivenSheet, asked: Swing) -> None:
+    """Crank and coupler from the swing ψ and K: B sees both ends C₁, C₂ of the pin's way under θ = 180°(K − 1)/(K + 1).
+
+    It lies on the circle about O with the radius ρ on which it does so, and at its distance from D:
+    ρ = l_CD sin(ψ/2)/sin θ,  DO = l_CD cos(ψ/2) ± ρ cos θ,  AB = (BC₁ − BC₂)/2,  AC = (BC₁ + BC₂)/2.
+    """
+    ψ, K = q.datum("swing", asked.angle, "ψ", "angle"), q.datum("K", asked.K)
+    x, y, CD = q["D.x"], q["D.y"], q["l.DC"]
+    BD = q.define("l.BD", sqrt(x**2 + y**2))
+    θ = q.define("theta", STRAIGHT * (K - 1) / (K + 1))
+    ρ = q.define("rho", CD * sin(ψ / 2) / sin(θ), "ρ", "length")
+    to_centre = ρ * cos(θ)
+    DO = q.define("l.DO", CD * cos(ψ / 2) + (to_centre if asked.B == "beyond" else -to_centre))
+    δ = q.define("delta", acos((BD**2 + DO**2 - ρ**2) / (2 * BD * DO)), "δ", "angle")
+    q.set_out("circle", BD, θ, ρ, DO, δ)
+    ends = []
+    for number, half in (("1", ψ / 2), ("2", -(ψ / 2))):
+        at_D = q.define(ids.outer_angle(number), δ + half, Symbol("ψ", number), "angle")
+        ends.append(q.define(ids.length("B", f"C{number}"), sqrt(BD**2 + CD**2 - 2 * BD * CD * cos(at_D))))
+        q.set_out("circle", at_D, ends[-1])
+    q.set_out("links", q.define("l.BA", (ends[0] - ends[1]) / 2, Symbol("l", "AB")))
+    q.set_out("links", q.define("l.AC", (ends[0] + ends[1]) / 2))
 
 
 def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
@@ -95,14 +147,31 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
     )
 
 
+def _has_swing(q: GivenSheet) -> bool:
+    """Whether the links that were found swing the rocker as asked: both ends on one side of BD, seen from B under θ."""
+    ψ1, ψ2, BD, CD = (q.si(id) for id in ("psi.1", "psi.2", "l.BD", "l.DC"))
+    if not (0 < ψ2 < ψ1 < np.pi and q.si("l.BA") > 0):
+        return False
+    α1, α2 = (np.arctan2(CD * np.sin(ψ), BD - CD * np.cos(ψ)) for ψ in (ψ1, ψ2))
+    return bool(np.isclose(abs(α1 - α2), q.si("theta"), rtol=0, atol=1e-9))
+
+
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, and CD is a rocker."""
-    if given.CE.si > given.AC.si:
-        upper = f"≤ AC = {given.AC.text}"
+    """The crank turns fully, without dead points, and CD is a rocker with the swing that is asked for."""
+    if given.swing is None and (given.AB is None or given.AC is None):
+        return
+    q = _sheet(given)
+    if given.swing is not None and not _has_swing(q):
+        about = {"swing": given.swing.angle.text, "K": given.swing.K.text}
+        yield Finding("no-such-swing", ("parameters", "swing"), about)
+        return
+    if given.CE.si > q.si("l.AC"):
+        longest = given.AC.text if given.AC else f"{q.si('l.AC') * 1e3:.6g} mm"
+        upper = f"≤ AC = {longest}"
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
         return
-    linkage = _linkage(given, _sheet(given))
+    linkage = _linkage(given, q)
     members = {(2, 3): reach.Member("AC, CD", ("parameters", "CD")), (4, 5): reach.Member("EF", ("parameters", "EF"))}
     found = list(reach.findings(linkage, members))
     yield from found
@@ -110,7 +179,7 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
-CHECKS = (_check_turning,)
+CHECKS = (one_of("parameters", "AB", "swing"), one_of("parameters", "AC", "swing"), _check_turning)
 
 
 # --- the machine ----------------------------------------------------------------------------------
@@ -120,8 +189,12 @@ SUMMARY = (
     ("v.C", "v.S2", "omega.2"),
     ("v.E", "v.S3", "omega.3"),
     ("v.F", "v.S4", "omega.4"),
+    ("a.A", "a.S1", "eps.2"),
+    ("a.C", "a.S2", "eps.3"),
+    ("a.E", "a.S3", "eps.4"),
+    ("a.F", "a.S4", ""),
 )
-"""The table of velocities: a joint, a mass centre and an angular velocity in each row."""
+"""The table of velocities and accelerations: a joint, a mass centre and a link's rotation in each row."""
 
 
 def machine(assignment: Assignment) -> Machine:
@@ -131,16 +204,53 @@ def machine(assignment: Assignment) -> Machine:
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
+    motion_at = crank_motion(linkage, positions, start)
+    try:
+        sliders: tuple[Stroke, ...] = (course(linkage, 5, motion_at),)
+    except NotToAndFro:
+        sliders = ()
+    fixed = {name: q.coordinates(name) for name in linkage.ground}
+    loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")})
+
+    def formulas(q: Sheet) -> None:
+        if given.swing is None:
+            square = q["D.x"] ** 2 + q["D.y"] ** 2
+            extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], ("BC1", "BC2"), frame=sqrt(square), square=square)
+        for slider in sliders:
+            _stroke(q, slider, start, positions.sign)
+        loops.write(q)
+
     return driven(
         assignment,
         q,
         linkage,
         start,
-        {"summary": ("summary",)},
+        {"sizes": "synthesis" if given.swing else "dimensions", "summary": ("summary",)},
+        formulas=formulas,
+        sliders=sliders,
+        compared=tuple(loops.compared),
+        equations=loops.equations,
         applied=_applied(given, linkage, positions, start),
         paths=("S2", "E", "S4"),
         facts={"summary": SUMMARY, "C": given.C, "F": given.F},
     )
+
+
+def _stroke(q: Sheet, slider: Stroke, start: float, turn: int) -> None:
+    """The slider's ends F₁, F₂ and the crank's angles there, read off its way; its stroke, the turns between."""
+    ends, angles = [], []
+    for name, place, own in (("F1", slider.top, slider.top_angle), ("F2", slider.bottom, slider.bottom_angle)):
+        ends.append(q.give(ids.coordinate(name, "x"), place.real, Symbol("x", name), "length", exact=False))
+        at = np.mod(start + turn * (own - slider.phase), 2 * np.pi)
+        angles.append(q.give(ids.angle(name), at, exact=False))
+    q.set_out("ends", *angles, *ends)
+    between = angles[1] - angles[0] if turn > 0 else angles[0] - angles[1]
+    forward = turn * (q.si(angles[1]) - q.si(angles[0])) > 0
+    there = q.define(ids.angle("12"), between if forward else between + TURN)
+    back = q.define(ids.angle("21"), TURN - there)
+    slow, fast = (there, back) if q.si(there) > q.si(back) else (back, there)
+    stroke = q.define(ids.stroke(5), ends[0] - ends[1], Symbol("H", "5"), "length")
+    q.set_out("stroke", stroke, there, back, q.define("K.5", slow / fast, Symbol("K", "5"), "ratio"))
 
 
 def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: float) -> tuple[Applied, ...]:

@@ -21,6 +21,7 @@ from reportgen.catalogue import linkage_checks
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
 from reportgen.catalogue.linkage_file import Parameters
+from reportgen.catalogue.loops import ClosedLoops
 from reportgen.formula import Number, Symbol, ids, turned, vocabulary
 from reportgen.formula.ids import Name
 from reportgen.formula.sheet import Sheet
@@ -120,9 +121,13 @@ def machine(assignment: Assignment) -> Machine:
     q = _sheet(given, linkage, built, drawn.si if drawn else None)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *(load.name for load in loads))
+    loops = ClosedLoops(linkage, turn, {name: q.coordinates(name) for name in linkage.ground})
     return replace(
         built,
         sheet=q,
+        formulas=loops.write,
+        compared=tuple(loops.compared),
+        equations=loops.equations,
         applied=tuple(load for load in loads if isinstance(load, Applied)),
         torques=tuple(load for load in loads if isinstance(load, Torque)),
         outline=outline(bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),

@@ -6,7 +6,7 @@ Ground 0, crank 1 (AB), block 2 (at B), rocker 3 (CD, mass centre S3), link 4 (D
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Annotated
 
 from reportgen.assignment.common import Assignment, Part, of_parameters
@@ -21,7 +21,7 @@ from reportgen.formula import Symbol, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, CuttingLaw
+from reportgen.machine.loads import Applied, CuttingLaw, crank_motion
 
 TURNS = 1
 CENTRES = {2: "B", 3: "S3", 4: "S4", 5: "E"}
@@ -113,6 +113,16 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
 CHECKS = (_check_assembly,)
 
 
+def _cutting_interval(q: Sheet, breaks: Iterable[float], start: float) -> None:
+    """φ₁ where cutting begins and ends: 360° − θ and 180° + θ, or where the tool's way says if it runs free."""
+    if "free" not in q:
+        q.set_out("interval", q.define(ids.angle("in"), slotted.TURN - q["theta"], Symbol("φ", "a")))
+        q.set_out("interval", q.define(ids.angle("out"), slotted.STRAIGHT + q["theta"], Symbol("φ", "b")))
+        return
+    for id, letter, angle in zip(("in", "out"), "ab", sorted(start + one for one in breaks), strict=True):
+        q.set_out("interval", q.give(ids.angle(id), angle, Symbol("φ", letter), exact=False))
+
+
 def machine(assignment: Assignment) -> Machine:
     """The shaper of an assignment: linkage, cutting force, closed formulas."""
     given: Parameters = assignment.parameters
@@ -125,28 +135,35 @@ def machine(assignment: Assignment) -> Machine:
     q.fix("guide.5.at", geometry.line, q["b"] - q["a"])
     points = q.centre_points({link: rod[0] for link, rod in RODS.items()})
 
+    linkage = geometry.linkage(points, q.inertias(CENTRES), given.g.si)
+    applied: tuple[Applied, ...] = ()
+    if cutting is not None:
+        law = CuttingLaw(course, cutting.F.si, cutting.free.si)
+        applied = (Applied("P5", 5, "E", -course.inward, law),)
+
     def formulas(q: Sheet) -> None:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))
         slotted.swing(q, q["H"] / (2 * q["l.CD"]))
         slotted.strokes(q, q["H"])
         slotted.ram_formulas(q, positions.sign, start + even_angles(positions))
+        if cutting is not None:
+            slotted.cutting(q, q["P.given"], q.find("free"))
+            _cutting_interval(q, law.breaks(crank_motion(linkage, positions, geometry.crank.crank_angle(start))), start)
+        slotted.ram_torque(q, positions.sign)
+        q.set_out("functions", "f.M")
 
-    applied: tuple[Applied, ...] = ()
-    if cutting is not None:
-        law = CuttingLaw(course, cutting.F.si, cutting.free.si)
-        applied = (Applied("P5", 5, "E", -course.inward, law),)
     return driven(
         assignment,
         q,
-        geometry.linkage(points, q.inertias(CENTRES), given.g.si),
+        linkage,
         geometry.crank.crank_angle(start),
-        {"sizes": "synthesis", "course": ("course",)},
+        {"sizes": "synthesis", "course": ("course", "functions")},
         formulas=formulas,
         applied=applied,
         sliders=(course,),
         paths=("D",),
         compared=slotted.RAM_COMPARED,
         equations=slotted.ram_equations(positions.sign),
-        essential=("diagrams",),
+        essential=("diagrams", "functions"),
         facts={"form": "parted" if "free" in q else "whole"},
     )

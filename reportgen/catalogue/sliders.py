@@ -40,38 +40,49 @@ def compared(plans: Iterable[str]) -> tuple[tuple[str, str], ...]:
 
 
 def centred_slider(
-    q: Sheet, turn: int, rod: int, slider: int, joint: str, angle: Floats, along: str = "", centre: str = ""
+    q: Sheet,
+    turn: int,
+    rod: int,
+    slider: int,
+    joint: str,
+    angle: Floats,
+    along: str = "",
+    centre: str = "",
+    axes: str = "xy",
 ) -> None:
     """The closed formulas at φ = `angle` [N] of a slider whose pin is `joint`; uses R, L, lambda, omega.1.
 
     Enters `phi.3`, `beta.2`, `x.3`, `f.v.B`, `f.a.B`, `f.omega.2`, `f.eps.2`, and of a point `centre` on the rod,
-    at the length of id `along` from the crank pin, the components, `f.v.S2`, `f.a.S2`.
+    at the length of id `along` from the crank pin, the components along the `axes`, `f.v.S2`, `f.a.S2`.
     """
     R, L, λ, ω1 = q["R"], q["L"], q["lambda"], q["omega.1"]
     line = partial(q.define, scale=1.0)
     φ = q.angle(ids.angle(slider), angle)
     β = line(ids.inclination(rod), asin(λ * sin(φ)))
-    x = q.define(ids.slider_way(slider), R * (1 - cos(φ)) + L * (1 - cos(β)), Symbol("x", joint), "length", scale=0.01)
+    way = R * (1 - cos(φ)) + L * (1 - cos(β))
+    s_B = q.define(ids.slider_way(slider), way, Symbol("s", joint), "length", scale=0.01)
     v = line(ids.formula_velocity(joint), ω1 * R * sin(φ + β) / cos(β))
     ω2 = line(ids.formula_angular_velocity(rod), signed(-turn, ω1 * λ * cos(φ) / cos(β)))
     a = line(ids.formula_acceleration(joint), ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
     ε2 = line(ids.formula_angular_acceleration(rod), signed(turn, ω1**2 * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3))
     velocity, acceleration = f"velocity_{slider}", f"acceleration_{slider}"
-    q.set_out(velocity, β, x, v, ω2)
+    q.set_out(velocity, β, s_B, v, ω2)
     q.set_out(acceleration, a, ε2)
     if centre:
         s = q[along]
         v_y = -(ω1 * R * sin(φ) + signed(-turn, s * ω2 * sin(β)))
-        q.set_out(velocity, *components(q, "v", centre, (1 - s / L) * ω1 * R * cos(φ), v_y))
+        q.set_out(velocity, *components(q, "v", centre, (1 - s / L) * ω1 * R * cos(φ), v_y, axes=axes))
         a_y = -(ω1**2 * R * cos(φ) + s * (ω2**2 * cos(β) + signed(-turn, ε2 * sin(β))))
-        q.set_out(acceleration, *components(q, "a", centre, -((1 - s / L) * ω1**2 * R * sin(φ)), a_y))
+        q.set_out(acceleration, *components(q, "a", centre, -((1 - s / L) * ω1**2 * R * sin(φ)), a_y, axes=axes))
 
 
-def components(q: Sheet, what: str, point: str, x: Expression, y: Expression) -> tuple[Ref, Ref, Ref]:
-    """The velocity or acceleration of a point by its components, and its size."""
+def components(
+    q: Sheet, what: str, point: str, x: Expression, y: Expression, *, axes: str = "xy"
+) -> tuple[Ref, Ref, Ref]:
+    """The velocity or acceleration of a point by its components along axes of these letters, and its size."""
     kind = {"v": "velocity", "a": "acceleration"}[what]
-    along = q.define(ids.formula_component("x", point, what), x, Symbol(what, f"{point}x"), kind, scale=1.0)
-    across = q.define(ids.formula_component("y", point, what), y, Symbol(what, f"{point}y"), kind, scale=1.0)
+    along = q.define(ids.formula_component("x", point, what), x, Symbol(what, point + axes[0]), kind, scale=1.0)
+    across = q.define(ids.formula_component("y", point, what), y, Symbol(what, point + axes[1]), kind, scale=1.0)
     return along, across, q.define(ids.formula(ids.POINT_RATE[what](point)), sqrt(along**2 + across**2))
 
 
@@ -89,17 +100,17 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     x: Expression = R * sin(φ)
     y: Expression = R * cos(φ)
     if joint == "B":
-        line("f.x.B.v", ω1 * R * cos(φ), Symbol("v", "Bx"))
-        line("f.y.B.v", -(ω1 * R * sin(φ)), Symbol("v", "By"))
-        line("f.x.B.a", -(ω1**2 * R * sin(φ)), Symbol("a", "Bx"))
-        line("f.y.B.a", -(ω1**2 * R * cos(φ)), Symbol("a", "By"))
+        line("f.x.B.v", ω1 * R * cos(φ), Symbol("v", "Bξ"))
+        line("f.y.B.v", -(ω1 * R * sin(φ)), Symbol("v", "Bη"))
+        line("f.x.B.a", -(ω1**2 * R * sin(φ)), Symbol("a", "Bξ"))
+        line("f.y.B.a", -(ω1**2 * R * cos(φ)), Symbol("a", "Bη"))
     else:
         s = q[ids.length("B", joint)]
         x, y = R * (1 - s / q["L"]) * sin(φ), y + s * cos(q["beta.2"])
     place = ids.formula_coordinate("x", joint), ids.formula_coordinate("y", joint)
     rates = {what: tuple(ids.formula_component(axis, joint, what) for axis in "xy") for what in "va"}
-    line(place[0], x)
-    line(place[1], y)
+    line(place[0], x, Symbol("ξ", joint))
+    line(place[1], y, Symbol("η", joint))
 
     def across(x: str, y: str) -> Expression:
         return q[x] * cos(δ) - q[y] * sin(δ)
@@ -217,12 +228,12 @@ def offset_slider(q: Sheet, turn: int, angle: Floats, offset: Expression | None,
     line = partial(q.define, scale=1.0)
     φ = q.angle("phi.3", angle, "φ")
     β = line("beta.2", asin(-r * sin(φ) / l if offset is None else (offset - r * sin(φ)) / l), "β")
-    x = line("x.C", r * cos(φ) + l * cos(β), Symbol("x", "C"), "length")
+    s_C = line("x.C", r * cos(φ) + l * cos(β), Symbol("s", "C"), "length")
     ω2 = line("f.omega.2", signed(-turn, ω1 * r * cos(φ) / (l * cos(β))))
     v_C = line("f.v.C", -ω1 * r * sin(φ - β) / cos(β))
     ε2 = line("f.eps.2", signed(turn, (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β))))
     a_C = line("f.a.C", -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)))
-    q.set_out("velocity", β, x, ω2, v_C)
+    q.set_out("velocity", β, s_C, ω2, v_C)
     q.set_out("acceleration", ε2, a_C)
     if centre:
         s, v, a = q["l.BS2"], signed(turn, ω2), signed(turn, ε2)
@@ -237,10 +248,10 @@ def loop_equations(turn: int, offset: bool) -> dict[str, tuple[Chain, ...]]:
     """The closed loop of the links by components, and its first and second derivatives."""
     r, l, e = Symbol("l", "AB"), Symbol("l", "BC"), Symbol("e")  # noqa: E741
     ω1, ω2, ε2 = Symbol("ω", "1"), Symbol("ω", "2"), Symbol("ε", "2")
-    φ, β, x, v, a = Symbol("φ"), Symbol("β"), Symbol("x", "C"), Symbol("v", "C"), Symbol("a", "C")
+    φ, β, s, v, a = Symbol("φ"), Symbol("β"), Symbol("s", "C"), Symbol("v", "C"), Symbol("a", "C")
     nothing = Number(0.0)
     return {
-        "closure": (Chain((r * cos(φ) + l * cos(β), x)), Chain((r * sin(φ) + l * sin(β), e if offset else nothing))),
+        "closure": (Chain((r * cos(φ) + l * cos(β), s)), Chain((r * sin(φ) + l * sin(β), e if offset else nothing))),
         "velocity": (
             Chain((-ω1 * r * sin(φ) + signed(-turn, ω2 * l * sin(β)), v)),
             Chain((ω1 * r * cos(φ) + signed(turn, ω2 * l * cos(β)), nothing)),

@@ -14,7 +14,28 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from reportgen.catalogue.driven import natural_lines
-from reportgen.formula import PI, Chain, Expression, Number, Ref, Symbol, acos, asin, cos, ids, signed, sin, sqrt, tan
+from reportgen.formula import (
+    PI,
+    Chain,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    acos,
+    asin,
+    call,
+    cos,
+    ids,
+    minus,
+    over,
+    plus,
+    signed,
+    sin,
+    sqrt,
+    square,
+    tan,
+    times,
+)
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.loads import FULL_TURN, Floats, Stroke
@@ -23,7 +44,7 @@ DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
 """Drawn lengths of a crank (m on paper), the best first."""
 HIGHEST = 0.165
 """A mechanism is drawn no higher than this (m on paper), so that its plans stay on the page."""
-STRAIGHT = Number(180.0, unit="°")
+STRAIGHT, TURN = Number(180.0, unit="°"), Number(360.0, unit="°")
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,8 +194,9 @@ def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
 def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
     """The closed formulas of the ram at φ₁ = `angle` [N].
 
-    Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`, `f.x.E`,
-    `f.omega.4`, `f.v.E`, `f.eps.4`, `f.a.Dx`, `f.a.E`.
+    Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `theta`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`,
+    `f.x.E`, its value `x.0` at the beginning of the stroke, the way `f.s.E` from there, `f.omega.4`, `f.v.E`,
+    `f.eps.4`, `f.a.Dx`, `f.a.E`.
     """
     lever_formulas(q, turn, angle, "l.AB", "a")
     line = natural_lines(q, "l.AB")
@@ -187,10 +209,68 @@ def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
     square3 = l3 * (ω3**2 * sin(φ3) + signed(-turn, ε3 * cos(φ3)))
     ε4 = line("f.eps.4", signed(turn, square3 / (l4 * cos(φ4)) + ω4**2 * tan(φ4)))
     a_D = line("f.a.Dx", -l3 * (signed(turn, ε3 * sin(φ3)) + ω3**2 * cos(φ3)))
+    at_first = q.define(
+        "x.0", l3 * sin(q["theta"]) - sqrt(l4**2 - (q["b"] - l3 * cos(q["theta"])) ** 2), Symbol("x", "0"), "length"
+    )
+    s = line("f.s.E", at_first - x, Symbol("s", "E"), "length")
     a = line("f.a.E", a_D - l4 * (signed(turn, ε4 * sin(φ4)) + ω4**2 * cos(φ4)))
     q.set_out("velocity", q["f.S"], φ3, φ4, x, ω3, q["f.v.r"], ω4, v)
     q.set_out("acceleration", ε3, ε4, a_D, a)
     q.set_out("course", φ1, x, v, a, ω3, ε3, ω4, ε4)
+    q.set_out("functions", q["f.S"], φ3, φ4, x, s, ω3, ω4, v, ε3, ε4, a_D, a)
+
+
+def cutting(q: Sheet, force: Ref, free: Ref | None) -> Ref:
+    """`P.cut`: the force on the ram while φ₁ is in the working stroke, −θ ≤ φ₁ < 180° + θ, and, where its ends are
+    `free` for the shares k of the stroke H, while kH ≤ s ≤ (1 − k)H; s is the ram's way from the beginning."""
+    φ1, θ, s, H = q["phi.A"], q["theta"], q["f.s.E"], q["H"]
+    turned = q.define(ids.angle("cut"), call("around", φ1 + θ), hidden=True)
+    P = force * call("amid", turned, 0.0, STRAIGHT + 2 * θ)
+    if free is not None:
+        P = P * call("amid", s / H, free, 1 - free)
+    return q.define("P.cut", P, Symbol("P"), "force", hidden=True)
+
+
+def ram_torque(q: Sheet, turn: int) -> None:
+    """The balancing torque `f.M` as a function of φ₁: its power and that of all forces and inertia forces is zero.
+
+    Uses what `ram_formulas` enters, `P.cut`, masses and moments of inertia as far as they stand here; y points up, so
+    that a weight has the power −G v_y and an inertia force −m(a·v), a couple −J ε ω.
+    """
+    line = natural_lines(q, "l.AB")
+    ω1, φ1, φ3, φ4 = (q[id] for id in ("omega.1", "phi.A", "phi.3", "phi.4"))
+    ω3, ε3, ω4, ε4 = (signed(turn, q[f]) for f in map(ids.formula, ("omega.3", "eps.3", "omega.4", "eps.4")))
+    powers: list[Expression] = []
+    if P := q.find("P.cut"):
+        powers.append(P * q["f.v.E"])
+    for link, ω, ε in (("3", ω3, ε3), ("4", ω4, ε4)):
+        if J := q.find(ids.inertia(link)):
+            powers.append(minus(times(J, ω, ε)))
+    if G2 := q.find(ids.weight(2)):
+        powers.append(-(G2 * ω1 * q["l.AB"] * cos(φ1)))
+    if (G3 := q.find(ids.weight(3))) and (m3 := q.find(ids.mass(3))):
+        s3 = q["l.CS3"]
+        powers += [minus(times(G3, ω3, s3, cos(φ3))), minus(times(m3, s3**2, ω3, ε3))]
+    if (G4 := q.find(ids.weight(4))) and (m4 := q.find(ids.mass(4))):
+        l3, s4 = q["l.CD"], q["l.DS4"]
+        arms = (l3, ω3, ε3, φ3), (s4, ω4, ε4, φ4)
+        v_x = minus(plus(*(times(r, ω, sin(φ)) for r, ω, _, φ in arms)))
+        v_y = plus(*(times(r, ω, cos(φ)) for r, ω, _, φ in arms))
+        a_x = minus(plus(*(r * plus(times(ε, sin(φ)), square(ω) * cos(φ)) for r, ω, ε, φ in arms)))
+        a_y = plus(*(r * plus(times(ε, cos(φ)), -(square(ω) * sin(φ))) for r, ω, ε, φ in arms))
+        kinds = {"v": "velocity", "a": "acceleration"}
+        (v_x, v_y), (a_x, a_y) = (
+            [
+                line(ids.formula_component(axis, "S4", what), part, Symbol(what, f"S4{axis}"), kinds[what])
+                for axis, part in zip("xy", parts, strict=True)
+            ]
+            for what, parts in (("v", (v_x, v_y)), ("a", (a_x, a_y)))
+        )
+        powers += [-(G4 * v_y), -(m4 * (a_x * v_x + a_y * v_y))]
+    if m5 := q.find(ids.mass(5)):
+        powers.append(-(m5 * q["f.a.E"] * q["f.v.E"]))
+    if powers:
+        q.define("f.M", over(minus(signed(turn, plus(*powers))), ω1), "M", "torque", scale=1.0)
 
 
 def swing(q: Sheet, sine: Expression) -> None:

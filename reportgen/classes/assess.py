@@ -18,7 +18,7 @@ from reportgen.base.files import overwritten, put_files, reported, scratch
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, title, word
 from reportgen.cases import open_case
-from reportgen.classes.platforms import Owner, StudentResult, fill, handed_in, read_sheets, zipped
+from reportgen.classes.platforms import Gradebook, Owner, StudentResult, handed_in, read_sheets, zipped
 from reportgen.classes.roster import RosterEntry, assignment_files, comparable, folder_name, read_roster
 from reportgen.marking.feedback import feedback_book, feedback_document
 from reportgen.marking.grades import class_document, grade_rows, person
@@ -224,14 +224,14 @@ def filled_gradebook(path: Path, out: Path) -> Path:
 
 
 def put_gradebook(
-    graded: Graded, path: Path, column: str, policy: Policy, out: Path, language: Language | None
+    graded: Graded, gradebook: Gradebook, policy: Policy, out: Path, language: Language | None
 ) -> tuple[Path, list[Problem]]:
     """Write a platform's table with the marks below `out`, under its own name, and tell whom it has no row for.
 
-    Raises `AssignmentError` if the table is at fault, `OutputError`.
+    Raises `OutputError`.
     """
-    content, faults = fill(path, graded.results(), policy.scale, column, language)
-    (written,) = put_files(out, {filled_gradebook(path, out).name: content})
+    content, faults = gradebook.filled(graded.results(), policy.scale)
+    (written,) = put_files(out, {filled_gradebook(gradebook.path, out).name: content})
     return written, [as_problem(fault, language) for fault in faults]
 
 

@@ -21,6 +21,7 @@ from pathlib import Path, PurePosixPath
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.files import leads_out
 from reportgen.base.limits import Limits
+from reportgen.base.source import encoding_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem
 from reportgen.classes.pool import each_within
@@ -227,7 +228,6 @@ def _words(name: str) -> set[str]:
 # grade, which is one number throughout. Canvas's gradebook has English headings, a row "Points Possible", and a
 # column `Title (id)` for each assignment.
 
-BOM = "\ufeff"
 DECIMALS = 2
 """Of a grade, where the table does not show how many it has."""
 
@@ -265,34 +265,48 @@ class _Table:
     """The greatest grade, as the table writes it."""
 
 
-def fill(
-    path: Path, results: Sequence[StudentResult], scale: Scale, column: str = "", language: Language | None = None
-) -> tuple[bytes, list[Fault]]:
-    """The file with the grades, and faults for students that it has no row for.
+@dataclass(frozen=True, slots=True)
+class Gradebook:
+    """A platform's table: its text between the `mark` of its encoding and the end, and where its grades go."""
 
-    `column` chooses one of Canvas's assignments by its heading, title or id.  Raises `AssignmentError` if the file
-    cannot be read or is neither of the two tables.
+    path: Path
+    text: str
+    mark: bytes
+    encoding: str
+    separator: str
+    table: _Table
+
+    def filled(self, results: Sequence[StudentResult], scale: Scale) -> tuple[bytes, list[Fault]]:
+        """The file with the grades, and faults for students that it has no row for."""
+        changes: dict[_Cell, str] = {}
+        faults: list[Fault] = []
+        for one in results:
+            cells = _of(one, self.table.rows)
+            if len(cells) == 1:
+                changes[cells[0]] = _grade(scale.mark(one.share) / scale.highest, self.table.highest)
+            else:
+                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": one.who}))
+        return self.mark + _changed(self.text, changes, self.separator).encode(self.encoding), faults
+
+
+def read_gradebook(path: Path, column: str = "", language: Language | None = None) -> Gradebook:
+    """A platform's table; `column` chooses one of Canvas's assignments by its heading, title or id.
+
+    Raises `AssignmentError` if the file cannot be read or is neither of the two tables.
     """
-    mark = Mark(str(path))
     if path.suffix.lower() in BOOKS:
-        raise as_error([Fault("gradebook-no-csv", mark)], language)
+        raise as_error([Fault("gradebook-no-csv", Mark(str(path)))], language)
     # What cannot be read as CSV is refused here, with its place.
     read(path, language)
-    text = path.read_bytes().decode("utf-8")
+    data = path.read_bytes()
+    mark, encoding = encoding_of(data)
+    text = data.removeprefix(mark).decode(encoding)
     separator = _separator(text)
     rows = [row for row in _rows(text, separator) if any(cell.text.strip() for cell in row)]
     found = _canvas(rows, column, path) if _is_canvas(rows) else _moodle(rows, path)
     if isinstance(found, Fault):
         raise as_error([found], language)
-    changes: dict[_Cell, str] = {}
-    faults: list[Fault] = []
-    for one in results:
-        cells = _of(one, found.rows)
-        if len(cells) == 1:
-            changes[cells[0]] = _grade(scale.mark(one.share) / scale.highest, found.highest)
-        else:
-            faults.append(Fault("gradebook-no-row", mark, {"text": one.who}))
-    return _changed(text, changes, separator).encode(), faults
+    return Gradebook(path, text, mark, encoding, separator, found)
 
 
 def _of(one: StudentResult, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
@@ -390,7 +404,7 @@ def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table 
 
 
 def _separator(text: str) -> str:
-    header = next((line for line in text.removeprefix(BOM).splitlines() if line.strip()), "")
+    header = next((line for line in text.splitlines() if line.strip()), "")
     outside = re.sub(r'"[^"]*"?', "", header)
     return max(SEPARATORS, key=outside.count)
 
@@ -398,7 +412,7 @@ def _separator(text: str) -> str:
 def _rows(text: str, separator: str) -> Iterator[list[_Cell]]:
     """The cells of each line with their places; a quoted cell may hold separators and line ends."""
     cell = re.compile(rf'"([^"]*+(?:""[^"]*+)*+)"|([^{re.escape(separator)}\r\n]*+)')
-    at = len(BOM) if text.startswith(BOM) else 0
+    at = 0
     row: list[_Cell] = []
     while at < len(text):
         match = cell.match(text, at)

@@ -71,13 +71,15 @@ class Job:
     file: str
     content: bytes
     making: Making
+    beside: Mapping[str, bytes] = field(default_factory=dict)
+    """A school's words that the file names, by their ways from it."""
     scratch: Path | None = None
     """Where its temporary files go; None: where the system has them, on other machines."""
 
     @property
     def assignment(self) -> str:
-        """SHA-256 of the assignment file."""
-        return sha256(self.content).hexdigest()
+        """SHA-256 of the assignment file, and of what lies beside it."""
+        return sha256(b"".join((self.content, *self.beside.values()))).hexdigest()
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,7 +121,9 @@ def run_job(job: Job) -> Outcome:
         with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
             tempfile.tempdir = scratch
             file = Path(scratch, job.file)
-            file.write_bytes(job.content)
+            for name, content in {**job.beside, job.file: job.content}.items():
+                Path(scratch, name).parent.mkdir(parents=True, exist_ok=True)
+                Path(scratch, name).write_bytes(content)
             return Outcome(files=dict(job.maker(file, engine, language)))
     except AssignmentError as error:
         problems = tuple(problem.in_file(job.file) for problem in error.problems)
@@ -200,16 +204,20 @@ def _dismiss(running: Iterable[Future[Outcome]]) -> None:
 
 LOADED = (
     "reportgen.classes.pool",
+    "reportgen.catalogue.driven",
+    "reportgen.catalogue.sliders",
     "reportgen.machine.analysis",
     "reportgen.plans",
     "reportgen.report.outline",
     "reportgen.drawing.charts",
+    "reportgen.writers.latex",
+    "reportgen.writers.pdflatex",
     "reportgen.writers.typst",
     "jinja2",
     "markdown_it",
-    "matplotlib.path",
-    "matplotlib.ticker",
+    "numpy.polynomial",
     "pint",
+    "pylatex",
     "typst",
 )
 """What the process that workers are forked from has loaded, so that each finds it loaded."""
@@ -225,10 +233,8 @@ def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext
     context.set_forkserver_preload(list(loaded))
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    # matplotlib looks for settings in a folder that is there: a home may be missing.
-    environment = ONE_THREAD | {"MPLCONFIGDIR": tempfile.gettempdir()}
-    before = {name: os.environ.get(name) for name in environment}
-    os.environ |= environment
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ |= ONE_THREAD
     try:
         with _uninterrupted():
             forkserver.ensure_running()
@@ -438,6 +444,6 @@ def _threads(client: Any) -> int:
 
 
 def _run(job: Job) -> Outcome:
-    """The outcome, on a worker; matplotlib is not made for threads, so a process does one job at a time."""
+    """The outcome, on a worker; a process has one folder for scratch files, so it does one job at a time."""
     with _one_at_a_time:
         return run_job(job)

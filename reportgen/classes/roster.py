@@ -10,7 +10,6 @@ The participants' lists of Moodle and the gradebook of Canvas are rosters as the
 
 from __future__ import annotations
 
-import difflib
 import hashlib
 import re
 import unicodedata
@@ -26,7 +25,7 @@ from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.source import Scalar
 from reportgen.base.units import NUMBER, UNIT, Language
-from reportgen.base.words import as_error, as_problem, messages
+from reportgen.base.words import as_error, as_problem, close_or_known, messages
 from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20
@@ -241,9 +240,8 @@ def _normal(column: RosterColumn, faults: list[Fault]) -> RosterColumn:
     section = match[1].casefold()
     if section in SECTIONS:
         return RosterColumn(column.index, f"{section}{match[2]}", column.unit, column.mark)
-    close = difflib.get_close_matches(section, SECTIONS, n=1, cutoff=0.7)
-    if close:
-        faults.append(Fault("unknown-column", column.mark, {"key": column.name, "close": f"{close[0]}{match[2]}"}))
+    if close := close_or_known(section, SECTIONS).get("close"):
+        faults.append(Fault("unknown-column", column.mark, {"key": column.name, "close": f"{close}{match[2]}"}))
     return RosterColumn(column.index, "", "", column.mark)
 
 

@@ -17,10 +17,11 @@ from pydantic import TypeAdapter, ValidationError
 
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
+from reportgen.assignment.reading import words_beside
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
 from reportgen.base.files import contents, held, put_file, put_set, remove_unfinished, reported, scratch
 from reportgen.base.units import Language, write
-from reportgen.base.words import DEFAULT_LANGUAGE, as_problem, counted, word
+from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
 from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
 from reportgen.classes.variants import make_variants
@@ -146,24 +147,17 @@ def _run(
             refused.append((student, read))
             continue
         for product, maker in makers.items():
-            name, content = read
+            file_name, content, beside = read
             job = Job(
-                student.id,
-                student.folder,
-                product,
-                maker,
-                file=name,
-                content=content,
+                *(student.id, student.folder, product, maker, file_name, content),
                 making=how[product],
+                beside=beside,
                 scratch=temporary,
             )
             entry = entries.get((job.student, product))
             (kept if entry is not None and entry.holds(job, out) else jobs).append(job)
     result.kept = len(kept)
-    with (
-        watching(len(assigned) * len(makers), stream, order.language or DEFAULT_LANGUAGE) as watch,
-        journal(out) as record,
-    ):
+    with watching(len(assigned) * len(makers), stream, order.language or spoken()) as watch, journal(out) as record:
 
         def add(entry: ManifestEntry, problems: tuple[Problem | str, ...], exit_code: int) -> None:
             """Each entry stands in the journal before its event is shown."""
@@ -283,12 +277,12 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
     return assigned, notes
 
 
-def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes] | Problem:
-    """Name and content of an assignment file; one that cannot be read must not stop the others."""
+def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, Mapping[str, bytes]] | Problem:
+    """Name and content of an assignment file, and its school's words; one that cannot be read stops no other."""
     if isinstance(file, Problem):
         return file
     try:
-        return file.name, contents(file)
+        return file.name, contents(file), words_beside(file)
     except OSError as error:
         return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
 

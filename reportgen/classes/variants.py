@@ -20,8 +20,9 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.assignment.reading import words_beside
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import contents, overwritten, put_set, version
+from reportgen.base.files import contents, overwritten, put_file, put_set, version
 from reportgen.base.limits import Limits
 from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
 from reportgen.base.units import Language
@@ -121,7 +122,8 @@ def make_variants(
     """Draw for the class of a roster and write each student's assignment file into `out`.
 
     The spec's table may lie below a `shared` folder, too.  Files appear whole; one that was edited since it was made
-    is kept unless `force`.  Also writes `out`/variants.csv, which is for the instructor alone.  Raises
+    is kept unless `force`.  A school's words that the spec names go with them.  Also writes `out`/variants.csv, which
+    is for the instructor alone.  Raises
     `AssignmentError` with the faults of spec and roster, before anything is written.
     """
     spec = read_spec(spec_path, language, shared)
@@ -129,6 +131,10 @@ def make_variants(
     _refuse(spec.column_faults(roster.columns), spec)
     drawn = (out / f"{student.folder}.yaml" for student in roster.students)
     _refuse(list(overwritten((*drawn, out / TABLE), (*spec.files, roster_path))), spec)
+    # What is drawn is judged where it will lie, with the words beside it.
+    for name, content in words_beside(spec_path).items():
+        (out / name).parent.mkdir(parents=True, exist_ok=True)
+        put_file(out / name, content)
     draw, files = Draw(spec, judge_of(spec)), list[StudentFile]()
 
     def each() -> Iterator[StudentFile]:
@@ -309,6 +315,8 @@ def _sharing(draw: Draw, files: Sequence[StudentFile], spec: Spec) -> Iterator[s
 
 def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]:
     """How equal the variants are, by the figures of each student's file."""
+    if len(efforts) < 2:
+        return
     spreads, students = compare(list(efforts.values())), list(efforts.items())
     yield word("variants_table", language, count=len(efforts))
     yield from _lines(spreads, language)

@@ -34,7 +34,9 @@ def main() -> None:
         signal.signal(signal.SIGINT, _leave)
     import warnings
 
-    from reportgen.cli.common import SYSTEM, complain_of_program
+    import typer
+
+    from reportgen.cli.common import SYSTEM, WRONG_USAGE, complain_of_program, language_of_run, misused
 
     for stream in (sys.stdout, sys.stderr):
         # Vietnamese must not fail on a terminal or pipe of another encoding.
@@ -43,7 +45,11 @@ def main() -> None:
     gc.set_threshold(COLLECTED)
     warnings.showwarning = _tell
     try:
-        _app()()
+        language_of_run(sys.argv[1:])
+        sys.exit(_app()(standalone_mode=False, prog_name="reportgen") or 0)
+    except typer.TyperException as error:
+        misused(error)
+        sys.exit(WRONG_USAGE)
     except Exception as error:
         complain_of_program(error)
         sys.exit(SYSTEM)
@@ -64,29 +70,33 @@ def _app() -> typer.Typer:
     import typer
 
     from reportgen.cli import instructor, student
+    from reportgen.cli.common import Commands, begin
 
     made = typer.Typer(
         name="reportgen",
+        cls=Commands,
         help="Coursework reports in the Theory of Machines from one assignment file.",
-        no_args_is_help=True,
-        add_completion=False,
+        invoke_without_command=True,
+        context_settings={"help_option_names": ["-h", "--help"]},
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
     )
+    made.callback()(begin)
     for command in (
-        instructor.variants,
-        instructor.batch,
-        instructor.key,
-        instructor.grade,
+        student.new,
+        student.check,
         student.build,
         student.sheet,
         student.watch,
         student.solve,
-        student.check,
-        student.new,
-        student.kinds,
-        student.schema,
         student.compare,
+        student.kinds,
+        student.samples,
+        student.schema,
+        instructor.variants,
+        instructor.batch,
+        instructor.key,
+        instructor.grade,
     ):
         made.command()(command)
     return made

@@ -1,28 +1,77 @@
-"""What all commands share: their options, and how an outcome becomes words and an exit code."""
+"""What all commands share: their options, their language, and how an outcome becomes words and an exit code."""
 
 from __future__ import annotations
 
+import os
+import re
 import signal
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
+from typer.core import TyperGroup
 
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import overwritten, put_file
+from reportgen.base.files import version as own_version
 from reportgen.base.units import Language
 
-AT_FAULT, SYSTEM, INTERRUPTED = 1, 3, 130
+AT_FAULT, WRONG_USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
+ASSIGNMENTS = frozenset({".yaml", ".yml"})
+"""Endings of assignment files."""
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
 LangOption = Annotated[
     Language | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
 ]
+TemplatesOption = Annotated[
+    Path | None,
+    typer.Option(
+        "--templates",
+        metavar="DIR",
+        envvar="REPORTGEN_TEMPLATES",
+        exists=True,
+        file_okay=False,
+        help="A school's own words.",
+        show_default=False,
+        callback=lambda folder: _use_templates(folder),
+    ),
+]
 EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", help="Typesetter.")]
+
+
+def _use_templates(folder: Path | None) -> Path | None:
+    """Names a school's folder for the whole run, in all processes that it starts."""
+    if folder is not None:
+        os.environ["REPORTGEN_TEMPLATES"] = str(folder.absolute())
+    return folder
+
+
+class Commands(TyperGroup):
+    """The commands, of which an unknown one is told with the one it was probably meant to be."""
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        if args[0] not in self.commands:
+            from reportgen.base.words import unknown
+
+            raise typer.BadParameter(unknown("no_command", args[0], list(self.commands), None), ctx=ctx)
+        return super().resolve_command(ctx, args)
+
+
+def begin(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
+) -> None:
+    """Coursework reports in the Theory of Machines from one assignment file."""
+    if version:
+        print("reportgen", own_version())
+    elif context.invoked_subcommand is None:
+        print(context.get_help(), file=sys.stderr)
+        raise typer.Exit(WRONG_USAGE)
 
 
 @contextmanager
@@ -100,8 +149,9 @@ def listed(text: str, known: Collection[str], option: str, complaint: str, lang:
     names = tuple(dict.fromkeys(name.strip() for name in text.split(",")))
     for name in names:
         if name not in known:
-            text = say(complaint, lang, text=name, known=", ".join(known))
-            raise typer.BadParameter(text, param_hint=option)
+            from reportgen.base.words import unknown
+
+            raise typer.BadParameter(unknown(complaint, name, list(known), lang), param_hint=option)
     return names
 
 
@@ -127,3 +177,83 @@ def write(path: Path, text: str) -> None:
         sys.stdout.write(text)
     else:
         put_file(path, text.encode())
+
+
+# --- in which language ------------------------------------------------------------------------------
+
+
+def language_of_run(arguments: Sequence[str]) -> None:
+    """Speaks the language that a command line asks for: by `--lang`, else by the first assignment that it names.
+
+    A folder stands for the first assignment file in it; where there is none, the locale says it.
+    """
+    from reportgen.base.words import speak
+
+    if language := next(_asked_for(arguments), None):
+        speak(language)
+
+
+def _asked_for(arguments: Sequence[str]) -> Iterator[Language]:
+    from reportgen.base.source import Source, text_in
+    from reportgen.base.words import language_of
+
+    line = " ".join(arguments).replace("--lang=", "--lang ")
+    yield from (language for language in get_args(Language) if re.search(rf"(^| )--lang {language}( |$)", line))
+    for path in map(Path, arguments):
+        # What is no path at all is told by who reads it.
+        with suppress(OSError, ValueError):
+            for file in sorted(path.glob("*.y*ml"))[:1] if path.is_dir() else [path]:
+                text = text_in(file) if file.suffix.lower() in ASSIGNMENTS else ""
+                if isinstance(text, str) and re.search(r"^kind:", text, re.MULTILINE):
+                    yield language_of(Source(str(file), text))
+
+
+# --- wrong usage ------------------------------------------------------------------------------------
+
+
+def misused(error: Any) -> None:
+    """Says what is wrong with a command line, and where its help is.
+
+    What typer finds it says in English alone, so it is told apart by what each of its errors carries.
+    """
+    complain(_told(error))
+    if error.ctx is not None:
+        complain(say("see_help", None, command=f"{error.ctx.command_path} -h"))
+
+
+def _told(error: Any) -> str:
+    from reportgen.base.words import unknown
+
+    if hasattr(error, "possibilities"):
+        known = [name for one in error.ctx.command.params for name in one.opts if name.startswith("-")]
+        return unknown("no_option", error.option_name, known, None)
+    if hasattr(error, "option_name"):
+        given = any(argument.startswith(f"{error.option_name}=") for argument in sys.argv)
+        return say("option_alone" if given else "option_needs", None, option=error.option_name)
+    if not hasattr(error, "param_hint"):
+        extra = re.search(r" \((.*)\)$", error.message)
+        return say("extra_arguments", None, text=extra[1] if extra else error.message)
+    if error.param is None:
+        return f"{error.param_hint}: {error.message}" if error.param_hint else str(error.message)
+    name = error.param.metavar if error.param.param_type_name == "argument" else error.param.opts[0]
+    return say("missing_argument", None, name=name) if hasattr(error, "param_type") else f"{name}: {_allowed(error)}"
+
+
+def _allowed(error: Any) -> str:
+    """What the parameter of an error takes, from the types of the command's own parameters."""
+    hint = get_type_hints(error.ctx.command.callback, include_extras=True)[error.param.name]
+    choices = [choice for one in _within(hint) if get_origin(one) is Literal for choice in get_args(one)]
+    if choices:
+        return say("takes_one_of", None, known=", ".join(choices))
+    least, most = error.param.min, error.param.max
+    if least is None:
+        return say("takes_folder", None)
+    return say("takes_number", None, least=least) if most is None else say("takes_range", None, least=least, most=most)
+
+
+def _within(hint: Any) -> Iterator[Any]:
+    """A type with all those that it is made of."""
+    yield hint
+    if get_origin(hint) is not Literal:
+        for one in get_args(hint):
+            yield from _within(one)

@@ -16,6 +16,7 @@ from reportgen.cli.common import (
     EngineOption,
     Files,
     LangOption,
+    TemplatesOption,
     complain,
     ending,
     for_each,
@@ -52,12 +53,12 @@ def variants(
     lang: LangOption = None,
     shared: SharedOption = None,
 ) -> None:
-    """Draw a variant for each student of ROSTER and freeze it into DIR/<id>.yaml."""
+    """Draw a variant for each student of a class. It is frozen into DIR/<id>.yaml."""
     from reportgen.classes.variants import make_variants
 
     with ending(lang):
         made = make_variants(spec, roster, out, force, lang, _bar, shared=shared or ())
-        print(*(file.path for file in made.files), "", *made.summary, sep="\n")
+        print(*(file.path for file in made.files), *(("", *made.summary) if made.summary else ()), sep="\n")
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
 
 
@@ -78,7 +79,7 @@ def batch(
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
     make: Annotated[
-        str, typer.Option("--make", help="Of task, report, page, key, sheet; parted by commas.")
+        str, typer.Option("--make", help="Of task, report, page, docx, key, sheet; parted by commas.")
     ] = "task,report,key",
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
@@ -91,8 +92,9 @@ def batch(
     ] = None,
     policy: PolicyOption = None,
     shared: SharedOption = None,
+    templates: TemplatesOption = None,
 ) -> None:
-    """Make task, report, key or drawing sheets of everybody on ROSTER; go on where an earlier run was stopped."""
+    """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
     from reportgen.api import MAKERS
     from reportgen.classes.run import NAME, Order, run_batch
     from reportgen.marking.marks import read_policy
@@ -136,8 +138,9 @@ def key(
     engine: EngineOption = "typst",
     lang: LangOption = None,
     policy: PolicyOption = None,
+    templates: TemplatesOption = None,
 ) -> None:
-    """Write the answer key of each FILE to DIR/<id>/: every value with the bands within which it is right."""
+    """Write the answer key of each FILE. It has every value with the bands within which it is right, in DIR/<id>/."""
     from reportgen import api
     from reportgen.base.files import scratch
     from reportgen.marking.marks import read_policy
@@ -180,10 +183,11 @@ def grade(
     column: Annotated[
         str, typer.Option("--column", metavar="NAME", help="The gradebook's assignment.", show_default=False)
     ] = "",
+    templates: TemplatesOption = None,
 ) -> None:
-    """Mark filled answer sheets from each student's own values; write feedback, grades.csv and the class page."""
+    """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen.classes import assess
-    from reportgen.classes.platforms import files_read
+    from reportgen.classes.platforms import files_read, read_gradebook
     from reportgen.marking.marks import Policy, read_policy
 
     with ending(lang):
@@ -191,12 +195,14 @@ def grade(
         filled = () if gradebook is None else (assess.filled_gradebook(gradebook, out),)
         refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook], lang)
         rules = Policy() if policy is None else read_policy(policy, lang)
+        # What is wrong with it is told before an hour's marking, not after.
+        table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         graded = assess.grade(submissions, assignments, rules, lang, roster)
         problems = list(graded.problems)
         for path in assess.put(graded, rules, out, engine, lang):
             print(path, flush=True)
-        if gradebook is not None:
-            written, unknown = assess.put_gradebook(graded, gradebook, column, rules, out, lang)
+        if table is not None:
+            written, unknown = assess.put_gradebook(graded, table, rules, out, lang)
             print(written, flush=True)
             problems += unknown
         print(*assess.summary(graded, lang), sep="\n")

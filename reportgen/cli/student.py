@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.base.files import put_files, reported, standing
+from reportgen.base.files import put_files, put_set, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     EngineOption,
     File,
     Files,
     LangOption,
+    TemplatesOption,
     complain,
     ending,
     for_each,
@@ -40,12 +41,18 @@ def build(
     engine: EngineOption = "typst",
     lang: LangOption = None,
     keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
-    format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, html; parted by commas.")] = "pdf",
+    format: Annotated[
+        str, typer.Option("--format", metavar="LIST", help="Of pdf, html, docx; parted by commas.")
+    ] = "pdf",
     extent: Annotated[
         Literal["full", "short"] | None, typer.Option("--extent", help="Instead of the file's own.", show_default=False)
     ] = None,
+    listing: Annotated[
+        bool, typer.Option("--listing", help="Add a Python program of the closed formulas, also as report.py.")
+    ] = False,
+    templates: TemplatesOption = None,
 ) -> None:
-    """Write the complete report of each FILE to DIR/<id>/report.pdf, or as a page for a browser, report.html."""
+    """Write the complete report of each FILE. It goes to DIR/<id>/report.pdf, .html as a page, .docx for Word."""
     from reportgen import api
 
     formats = listed(format, api.FORMATS, "--format", "no_format", lang)
@@ -53,7 +60,8 @@ def build(
     def work(file: Path) -> None:
         folder = out / file.stem
         refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
-        print(*api.build_each(file, out, engine, lang, keep_source, formats, extent=extent), sep="\n", flush=True)
+        made = api.build_each(file, out, engine, lang, keep_source, formats, extent=extent, listing=listing)
+        print(*made, sep="\n", flush=True)
 
     for_each(files, lang, work)
 
@@ -62,11 +70,12 @@ def sheet(
     files: Files,
     size: Annotated[
         Literal["A0", "A1", "A2", "A3"] | None,
-        typer.Option("--size", help="Of the paper.", show_default="A1, or A0 where a plate needs it"),
+        typer.Option("--size", help="Of the paper.", show_default="the smallest that holds each set"),
     ] = None,
     sets: Annotated[
         Literal["kinematics", "forces", "all"], typer.Option("--set", help="What the sheets show.")
     ] = "all",
+    every: Annotated[bool, typer.Option("--all", help="Every plan of the report, not only those handed in.")] = False,
     format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, dxf; parted by commas.")] = "pdf,dxf",
     block: Annotated[
         str | None,
@@ -79,8 +88,9 @@ def sheet(
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the sheets.")] = Path("out"),
     lang: LangOption = None,
+    templates: TemplatesOption = None,
 ) -> None:
-    """Lay the plans of each FILE out on drawing sheets, true to scale: DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
+    """Lay the plans out on drawing sheets, true to scale. They go to DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
     from reportgen import api
     from reportgen.base.files import scratch
 
@@ -90,7 +100,7 @@ def sheet(
         from reportgen.sheets.frame import blocks
 
         assignment = api.load(file, lang)
-        known = blocks(assignment.report.school or "")
+        known = blocks(assignment.school or "")
         path = None if block is None else known.get(block, Path(block))
         if path is not None and not path.exists():
             raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
@@ -104,6 +114,7 @@ def sheet(
                 sets=() if sets == "all" else (sets,),
                 formats=formats,
                 block=path,
+                every=every,
             )
             print(*put_files(out / assignment.id, made, "sheet"), sep="\n", flush=True)
 
@@ -116,8 +127,9 @@ def watch(
     pdf: Annotated[bool, typer.Option("--pdf", help="Renew DIR/<id>/report.pdf, too.")] = False,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the PDF.")] = Path("out"),
     lang: LangOption = None,
+    templates: TemplatesOption = None,
 ) -> None:
-    """Show the report of FILE in a browser, renewed whenever FILE changes; Ctrl-C ends it."""
+    """Show the report in a browser, renewed whenever FILE changes. Ctrl-C ends it."""
     from reportgen.cases import open_case
     from reportgen.page.watch import nobody
     from reportgen.page.watch import watch as serve
@@ -160,7 +172,7 @@ def solve(
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of these tables.")] = Path("out"),
     lang: LangOption = None,
 ) -> None:
-    """Compute motion, forces and torque; print readable tables, or write them in SI units."""
+    """Compute motion, forces and torque. They are printed as tables, or written in SI units."""
     from reportgen import api
     from reportgen.marking.results import print_tables
 
@@ -183,8 +195,8 @@ def solve(
             write(json_file, text)
 
 
-def check(files: Files, lang: LangOption = None) -> None:
-    """Validate each FILE; silent when all is well but for warnings, and notes where positions have labels."""
+def check(files: Files, lang: LangOption = None, templates: TemplatesOption = None) -> None:
+    """Validate each FILE. All is well where nothing is said but warnings, and notes where positions have labels."""
     from reportgen import api
 
     problems = [problem for file in files for problem in api.examine(file, lang)]
@@ -194,29 +206,65 @@ def check(files: Files, lang: LangOption = None) -> None:
 
 
 def new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.")],
+    kind: Annotated[
+        str, typer.Argument(metavar="KIND", help="A kind of machine, see `kinds`.", autocompletion=lambda: _kinds())
+    ],
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Write here.", show_default=False)
+    ] = None,
+    example: Annotated[
+        str | None,
+        typer.Option("--from", metavar="EXAMPLE", help="Begin with this example, see `samples`.", show_default=False),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Also replace a file that is there.")] = False,
     lang: LangOption = None,
 ) -> None:
-    """Print a commented assignment file to fill in."""
-    from reportgen.base.words import kinds, sample
+    """Print a commented assignment file to fill in, or an example."""
+    from reportgen import catalogue
+    from reportgen.base.words import kinds, sample, spoken, unknown
 
     if kind not in kinds():
-        raise typer.BadParameter(say("no_kind", lang, kind=kind, known=", ".join(kinds())))
+        raise typer.BadParameter(unknown("no_kind", kind, list(kinds()), lang))
+    examples = catalogue.examples(kind) if example is not None else {}
+    if example is not None and example not in examples:
+        raise typer.BadParameter(unknown("no_example", example, list(examples), lang), param_hint="--from")
     with ending(lang):
         if output is not None and os.path.lexists(output) and not force:
             refuse([Fault("already-there", Mark(str(output)))], output, lang)
-        write(output or Path("-"), sample(kind, lang or "vi"))
+        text = sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
+        write(output or Path("-"), text)
+
+
+def _kinds() -> list[str]:
+    from reportgen.base.words import kinds
+
+    return list(kinds())
+
+
+def samples(
+    folder: Annotated[Path, typer.Argument(metavar="DIR", help="Where to, as a rule a new folder.")],
+    force: Annotated[bool, typer.Option("--force", help="Also replace files that are there.")] = False,
+    lang: LangOption = None,
+) -> None:
+    """Copy the examples, and a class to try, to DIR. Every kind of machine has examples."""
+    from reportgen.base.words import samples as packed
+
+    with ending(lang):
+        files = {folder / path.relative_to(packed()): path for path in sorted(packed().rglob("*")) if path.is_file()}
+        if (there := next(filter(os.path.lexists, files), None)) and not force:
+            refuse([Fault("already-there", Mark(str(there)))], there, lang)
+        with reported(folder):
+            for path in files:
+                path.parent.mkdir(parents=True, exist_ok=True)
+            put_set({path: source.read_bytes() for path, source in files.items()})
+        print(folder)
 
 
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
-    from reportgen.base.words import titles
+    from reportgen.base.words import spoken, titles
 
-    known = titles(lang or "vi")
+    known = titles(lang or spoken())
     width = max(map(len, known))
     for kind, title in known.items():
         print(f"{kind:{width}}  {title}")
@@ -236,8 +284,9 @@ def compare(
     ],
     hint: Annotated[bool, typer.Option("--hint", help="Also say where to look.")] = False,
     lang: LangOption = None,
+    templates: TemplatesOption = None,
 ) -> None:
-    """Check your own SHEET before handing it in: where it first leaves the assignment, without answers."""
+    """Check your own SHEET before handing it in. It is told where it first leaves the assignment, without answers."""
     from reportgen.cases import open_case
     from reportgen.marking.marking import compare as compared
 

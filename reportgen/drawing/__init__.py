@@ -106,6 +106,8 @@ class Label:
     """Degrees anticlockwise, 0 or 90."""
     background: bool = False
     """White paper under the box, for a label that must stand on a line."""
+    narrow: float = 1.0
+    """The width of its letters, as a share of the usual one."""
 
 
 Item = Line | Arrow | Circle | Arc | Polyline | Hatch | Label

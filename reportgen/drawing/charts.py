@@ -1,18 +1,10 @@
-"""Charts: curves over the driver's angle, the polar diagram of a load, bars and histograms of counts.
-
-matplotlib chooses the ticks of curves and simplifies their paths; the typesetter draws and sets all text.
-This is the only module that imports matplotlib, and only when a curve is drawn.
-"""
+"""Charts: curves over the driver's angle, the polar diagram of a load, bars and histograms of counts."""
 
 from __future__ import annotations
 
 import cmath
 import math
-import os
-import sys
-import tempfile
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,11 +13,13 @@ from numpy.typing import ArrayLike, NDArray
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import box, clusters
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import LEFT_OUT, Canvas, Request, finish, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
 """The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
+SHEET_WIDTH, SHEET_HEIGHT = 90.0, 45.0
+"""Of that area on a drawing sheet at most, mm."""
 HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
 """Of a chart with its text and of the area inside its axes, where two charts stand side by side, mm."""
 CHART_MARGIN = 1.5
@@ -65,7 +59,12 @@ TICKS = 6
 BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
 
-_HOME = "MPLCONFIGDIR"
+STEPS = (1.0, 2.0, 2.5, 5.0)
+"""Of the ticks of curves, times a power of ten."""
+CLOSE = 0.025
+"""Points of a curve so close (mm) to the line through others are left out: a sixteenth of the pen."""
+TINY = 1e-12
+"""Square of a length (mm²) that counts as none."""
 
 Vertices = NDArray[np.float64]
 
@@ -100,18 +99,18 @@ class Inclination:
 class Area:
     """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
 
-    They are round once the chart is `enlarged` so many times.  `scales` across and upwards, in the units of the axes
-    per mm, are kept whatever room they take.
+    Room and scales are those of the chart once it is `enlarged` so many times.  `scales` across and upwards, in the
+    units of the axes per mm, are kept whatever room they take.
     """
 
-    width: float = WIDTH
-    height: float = HEIGHT
+    width: float = SHEET_WIDTH
+    height: float = SHEET_HEIGHT
     enlarged: float = 1.0
     scales: tuple[float, float] | None = None
 
     def per_mm(self, length: float, room: float) -> float:
         """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
-        return nice_up(length / (room * self.enlarged))
+        return nice_up(length / room)
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,8 +194,10 @@ def plotted(
         items += drawn
         requests.append(request)
     items += _titles(window, x_label, y_label, items, area is not None)
-    scales = _scale(x_label, window.x, window.width, turn), _scale(y_label, window.y, window.height)
-    notes = scales if area is not None else ()
+    notes: Sequence[Content] = ()
+    if area is not None:
+        across, up = window.width * area.enlarged, window.height * area.enlarged
+        notes = _scale(x_label, window.x, across, turn), _scale(y_label, window.y, up)
     scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
@@ -218,19 +219,20 @@ def polar(
     """
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
-    (x0, x1), (y0, y1) = _rounded(x, step), _rounded(y, step)
+    x_ticks, y_ticks = (_around(min(0.0, float(np.nanmin(of))), max(0.0, float(np.nanmax(of))), step) for of in (x, y))
+    (x0, *_, x1), (y0, *_, y1) = x_ticks, y_ticks
     per = size / max(x1 - x0, y1 - y0)
     if area is not None:
         per = 1 / area.per_mm(max((x1 - x0) / area.width, (y1 - y0) / area.height), 1.0) / area.enlarged
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
-    items = _frame(window, _steps(x0, x1, step), _steps(y0, y1, step), "")
+    items = _frame(window, x_ticks, y_ticks, "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
     vertices = window.vertices(x, y)
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, x_label, y_label, items, area is not None)
-    notes = () if area is None else (_scale(x_label, window.x, window.width),)
+    notes = () if area is None else (_scale(x_label, window.x, window.width * area.enlarged),)
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
 
 
@@ -283,23 +285,19 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
 def _window(
     series: Sequence[PlottedCurve], levels: Sequence[float], turn: bool, half: bool, area: Area | None
 ) -> tuple[_Window, list[float], list[float]]:
-    """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, matplotlib's choice upwards."""
-    with _at_home_nowhere():
-        from matplotlib.ticker import MaxNLocator, MultipleLocator
-
+    """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, of a round step upwards."""
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
     values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
     if not (np.isfinite(x).any() and np.isfinite(values).any()):
         raise ValueError("a chart needs finite values")
     y = np.concatenate((values, [0.0, *levels]))
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
-    ticks = MaxNLocator(6 if half else 7, steps=[1, 2, 2.5, 5, 10]).tick_values(np.nanmin(y), np.nanmax(y))
-    y_ticks = [float(t) for t in ticks]
+    y_ticks = _ticks(float(np.nanmin(y)), float(np.nanmax(y)), 6 if half else 7)
     if turn:
-        locator = MultipleLocator((45 if x1 - x0 <= 450 else 90) * (2 if half else 1))
-        x_ticks = [float(t) for t in locator.tick_values(x0, x1) if x0 - 1e-6 <= t <= x1 + 1e-6]
+        step = (45.0 if x1 - x0 <= 450 else 90.0) * (2 if half else 1)
+        x_ticks = [tick for tick in _around(x0, x1, step) if x0 - 1e-6 <= tick <= x1 + 1e-6]
     else:
-        x_ticks = [float(t) for t in MaxNLocator(5 if half else 9).tick_values(x0, x1)]
+        x_ticks = _ticks(x0, x1, 5 if half else 9)
         x0, x1 = x_ticks[0], x_ticks[-1]
     across, up = x1 - x0, y_ticks[-1] - y_ticks[0]
     if area is not None:
@@ -329,15 +327,15 @@ def _beside(x_ticks: Sequence[float], y_ticks: Sequence[float]) -> float:
     return widest + AXIS_NAME + last / 2 + 2 * CHART_MARGIN
 
 
-def _rounded(values: Vertices, step: float) -> tuple[float, float]:
-    """Whole steps around the values and 0; at least one."""
-    low, high = min(0.0, float(np.nanmin(values))), max(0.0, float(np.nanmax(values)))
+def _ticks(low: float, high: float, most: int) -> list[float]:
+    """Ticks of a round step around a range, about so many steps at most."""
+    return _around(low, high, nice_up((high - low) / most, STEPS) if high > low else 1.0)
+
+
+def _around(low: float, high: float, step: float) -> list[float]:
+    """Whole steps around a range; at least one."""
     first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
-    return first * step, max(last, first + 1) * step
-
-
-def _steps(low: float, high: float, step: float) -> list[float]:
-    return [low + k * step for k in range(round((high - low) / step) + 1)]
+    return [k * step for k in range(first, max(last, first + 1) + 1)]
 
 
 def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], unit: str) -> list[Item]:
@@ -409,22 +407,32 @@ def _lines(name: Content) -> list[Content]:
 
 
 def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
-    """The curve on paper with points left out that lie within a fortieth of a millimetre, split at gaps."""
-    with _at_home_nowhere():
-        from matplotlib.path import Path
+    """The curve on paper, split at gaps, without points that lie close to the line through others."""
+    places = vertices[:, 0] + 1j * vertices[:, 1]
+    gaps = np.flatnonzero(~np.isfinite(places))
+    runs = (run[np.isfinite(run)] for run in np.split(places, gaps))
+    return [tuple(complex(place) for place in run[_telling(run)]) for run in runs if len(run) > 1]
 
-    # matplotlib simplifies to a ninth of its own unit: that unit is made small enough here.
-    scale = 4.0
-    parts: list[list[complex]] = []
-    path = Path(vertices * scale)
-    path.simplify_threshold = 1 / 9
-    path.should_simplify = True
-    for corner, code in path.iter_segments(simplify=True, curves=False, remove_nans=True):
-        if code == Path.MOVETO:
-            parts.append([])
-        if code in (Path.MOVETO, Path.LINETO):
-            parts[-1].append(complex(corner[0], corner[1]) / scale)
-    return [tuple(part) for part in parts if len(part) > 1]
+
+def _telling(places: NDArray[np.complex128]) -> list[int]:
+    """Indices of the points that a broken line keeps: the ends, and of each part what is too far from its chord.
+
+    D. H. Douglas and T. K. Peucker, 1973.
+    """
+    kept, parts = {0, len(places) - 1}, [(0, len(places) - 1)]
+    while parts:
+        first, last = parts.pop()
+        inner = places[first + 1 : last] - places[first]
+        if not len(inner):
+            continue
+        chord = places[last] - places[first]
+        share = np.clip((inner * np.conj(chord)).real / max(abs(chord) ** 2, TINY), 0.0, 1.0)
+        off = np.abs(inner - share * chord)
+        middle = first + 1 + int(off.argmax())
+        if off.max() > CLOSE:
+            kept.add(middle)
+            parts += [(first, middle), (middle, last)]
+    return sorted(kept)
 
 
 def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item]) -> list[Request]:
@@ -434,7 +442,7 @@ def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item
     items += [Circle(at, MARK, solid, style.PAPER) for at in where if np.isfinite(at)]
     named = [(at, name) for at, name in zip(where, series.names, strict=False) if np.isfinite(at)]
     return [
-        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL, short=())
+        label(group[0][0], *joined(name for _, name in group), gap=MARK + 0.4, size=style.SMALL, short=LEFT_OUT)
         for group in clusters(named, 0.6, lambda mark: mark[0])
     ]
 
@@ -471,23 +479,3 @@ def _whole_steps(largest: int) -> tuple[int, int]:
 
 def _bar(low: complex, high: complex) -> Polyline:
     return _box(low, high, OUTLINE, style.TINT)
-
-
-@contextmanager
-def _at_home_nowhere() -> Iterator[None]:
-    """Loads matplotlib without the user's settings and without a word about a home that is missing or read-only.
-
-    What is drawn needs neither settings nor fonts, so it looks for them in an empty folder.
-    """
-    if "matplotlib" in sys.modules:
-        yield
-        return
-    before = os.environ.get(_HOME)
-    with tempfile.TemporaryDirectory(prefix="matplotlib-") as nowhere:
-        os.environ[_HOME] = nowhere
-        try:
-            yield
-        finally:
-            del os.environ[_HOME]
-            if before is not None:
-                os.environ[_HOME] = before

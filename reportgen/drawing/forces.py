@@ -8,7 +8,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal
 
@@ -28,8 +28,10 @@ ON_EACH_OTHER = math.radians(9)
 COUPLE_RADIUS = 6.0
 LEAST_ARM = 0.5
 """An arm shorter than this (mm) is not drawn: the force goes through the point."""
-TOGETHER = 0.3
-"""Arms whose ends are nearer than this (mm) share one dimension."""
+TOGETHER, EQUAL = 0.3, 0.002
+"""Arms whose ends are nearer than this (mm) share one label, and one dimension."""
+ROUNDING = 0.05
+"""An arm that is printed differs by less (mm) from the one that is drawn."""
 BEYOND, BESIDE = 22.0, -34.0
 """Ends of a guide's line (mm from the point); the sense of ω is drawn at the second, clear of the vectors."""
 QUARTER = 8.0
@@ -58,11 +60,15 @@ class Couple:
 
 @dataclass(frozen=True, slots=True)
 class ArmOf:
-    """The distance from the moment point `about` to the line of the force with the id `force`."""
+    """The distance from the moment point `about` to the line of the force with the id `force`.
+
+    `length` is what is printed for it (mm on the drawing).
+    """
 
     label: Content
     about: complex
     force: str
+    length: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +148,57 @@ def coriolis(sliding: Sliding) -> Scene:
     return finish(guide + ends + vectors + turning)
 
 
+# --- what the plans stand on ------------------------------------------------------------------------
+# Links of no machine, with motions that are easily seen.
+
+ARM = 44 * polar(math.radians(25))
+"""A point A of a link that turns about O (mm)."""
+NORMAL_SHARE, TANGENT_SHARE = 0.5, 0.3
+"""aⁿ and aᵗ of A as shares of OA: ε/ω² = 0.6."""
+TRIANGLE = {"B": 0j, "C": 42 + 6j, "E": 15 + 27j}
+"""Points of a link (mm)."""
+RATE = {"v": 0.9j, "a": 0.9 * (-1 + 0.6j)}
+"""What makes of a line on the link (mm) that on its plan: iω, and −ω² + iε with the same ε/ω²."""
+OF_B = {"v": 34 + 10j, "a": -20 - 12j}
+"""The velocity and the acceleration of B on paper (mm)."""
+
+
+def inclination() -> Scene:
+    """The normal and the tangential acceleration of a point A about O, and the angle α of their sum with AO."""
+    normal, tangent = -NORMAL_SHARE * ARM, 1j * TANGENT_SHARE * ARM
+    whole, inward = normal + tangent, cmath.phase(-ARM)
+    angle = cmath.phase(whole / normal)
+    arrows = (("n", normal, style.KNOWN), ("τ", tangent, style.KNOWN), ("", whole, style.ACTIVE))
+    items: list[Item] = [Line(0j, ARM, style.HEAVY), *style.pivot(0j), style.point(ARM)]
+    items += [Arrow(ARM, ARM + vector, pen, style.HEAD) for _, vector, pen in arrows]
+    items += [Line(ARM + part, ARM + whole, style.CONSTRUCTION) for part in (normal, tangent)]
+    items.append(Arc(ARM, QUARTER / 2, inward, inward + angle, style.DIMENSION, style.DIMENSION_HEAD))
+    names = [label(ARM + vector, Symbol("a", "A", part, "vector")) for part, vector, _ in arrows]
+    names.append(label(ARM + QUARTER / 2 * polar(inward + angle / 2), Symbol("α"), size=style.SMALL))
+    names += [label(0j, Symbol("O"), gap=style.JOINT + 0.4), label(ARM, Symbol("A"), gap=1.0)]
+    turning = draw_couples((Couple(Symbol("ω, ε"), 0j, 1.0),))
+    return finish(Canvas(tuple(items), tuple(names)) + turning)
+
+
+def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
+    """A link with its points B, C, E, and its plan: of velocities, with the lines that meet in e, or accelerations."""
+    places = {name: OF_B[what] + RATE[what] * place for name, place in TRIANGLE.items()}
+    link = (*style.body(tuple(TRIANGLE.values())), *(style.point(place) for place in TRIANGLE.values()))
+    named = tuple(label(place, Symbol(name), gap=1.0) for name, place in TRIANGLE.items())
+    prime, pole = ("", Symbol("p")) if what == "v" else ("′", Symbol("π"))
+    shown = ("B", "C") if what == "v" else tuple(TRIANGLE)
+    plan: list[Item] = [Arrow(0j, places[name], style.KNOWN, style.HEAD) for name in shown]
+    sides = tuple(combinations(places, 2))
+    plan += [Line(places[one], places[other], style.RELATIVE) for one, other in sides]
+    if what == "v":
+        plan.append(Arrow(0j, places["E"], style.FOUND, style.HEAD))
+        plan += [
+            Line(places[one], places["E"] + 6 * unit(places["E"] - places[one]), style.CONSTRUCTION) for one in "BC"
+        ]
+    letters = [label(place, Symbol(name.lower(), "", prime), gap=0.8) for name, place in places.items()]
+    return finish(Canvas(link, named)), finish(Canvas(tuple(plan), (*letters, label(0j, pole, gap=0.8))))
+
+
 # --- arrows and arcs ------------------------------------------------------------------------------
 
 
@@ -153,7 +210,8 @@ def draw_forces(
     A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
     would lie on another force beside it, a thin line from its point.
     """
-    shown = [force for force in forces if force.direction != 0]
+    printed = {arm.force: arm for arm in arms if arm.length is not None}
+    shown = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
     items: list[Item] = []
     requests: list[Request] = []
     shafts: dict[str, tuple[complex, complex]] = {}
@@ -180,10 +238,21 @@ def draw_forces(
             if abs(other.about - arm.about) < TOGETHER and abs(feet[other.force] - end) < TOGETHER
         ]
         items += _extension(end, *shafts[arm.force])
+        equal = [other for other in same if abs(feet[other.force] - end) < EQUAL]
+        if equal[0] is arm:
+            items += _dimension(arm.about, end, *shafts[arm.force], name=" ".join(["h", *(one.force for one in equal)]))
         if same[0] is arm:
-            items += _dimension(arm.about, end, *shafts[arm.force])
             requests.append(_arm_name(arm.about, end, same))
     return Canvas(tuple(items), tuple(requests))
+
+
+def _as_printed(force: Force, arm: ArmOf | None) -> Force:
+    """A force at the printed distance from the moment point: rounding moves it by hundredths of a millimetre."""
+    if arm is None or arm.length is None:
+        return force
+    reach = foot(arm.about, force.at, force.at + force.direction) - arm.about
+    further = arm.length - abs(reach)
+    return replace(force, at=force.at + further * unit(reach)) if abs(further) < ROUNDING else force
 
 
 def draw_couples(couples: Sequence[Couple]) -> Canvas:
@@ -262,10 +331,10 @@ def _extension(base: complex, start: complex, end: complex) -> list[Item]:
     return []
 
 
-def _dimension(about: complex, base: complex, start: complex, end: complex) -> list[Item]:
+def _dimension(about: complex, base: complex, start: complex, end: complex, name: str) -> list[Item]:
     """The arm with a head at each end where there is room, and the right angle at its foot."""
     reach = base - about
-    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD)]
+    items: list[Item] = [Arrow(about, base, style.DIMENSION, style.DIMENSION_HEAD, name)]
     if abs(reach) > 4 * style.DIMENSION_HEAD:
         items.append(Arrow(about + reach / 2, about, style.DIMENSION, style.DIMENSION_HEAD))
     if abs(reach) > 3:

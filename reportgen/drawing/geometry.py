@@ -24,6 +24,8 @@ Flags = NDArray[np.bool_]
 Part = TypeVar("Part")
 
 CIRCLE_SIDES = 24
+CELL = 0.25
+"""Side of the cells of paper (mm) in which strokes are looked up."""
 
 
 def ends(item: Item) -> Complexes:
@@ -70,7 +72,7 @@ def segments(items: Iterable[Item]) -> Complexes:
 def frame(label: Label) -> tuple[complex, complex]:
     """Centre and half size (width + i height, mm) of a label's box on the sheet."""
     extent = box(label.content, label.size)
-    width, height = extent.width, extent.height + extent.depth
+    width, height = extent.width * label.narrow, extent.height + extent.depth
     if label.turn == 90:
         width, height = height, width
     right = ("left" in label.anchor) - ("right" in label.anchor)
@@ -161,6 +163,34 @@ def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[
     return (start + enter * d, start + leave * d) if enter < leave else None
 
 
+@dataclass(frozen=True, slots=True)
+class HalfPlane:
+    """What lies on the side of `inward` of a line through `at`."""
+
+    at: complex
+    inward: complex
+
+    def depth(self, point: complex) -> float:
+        return ((point - self.at) * self.inward.conjugate()).real
+
+
+def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
+    """What of a convex polygon lies in all half-planes."""
+    corners = list(box)
+    for plane in planes:
+        kept: list[complex] = []
+        for one, other in zip(corners, [*corners[1:], *corners[:1]], strict=True):
+            here, there = plane.depth(one), plane.depth(other)
+            if here >= 0:
+                kept.append(one)
+            if here * there < 0:
+                kept.append(one + (other - one) * here / (here - there))
+        corners = kept
+        if not corners:
+            break
+    return corners
+
+
 def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
     """Parts of a figure grouped, in order, so that those with places `at` within `reach` mm share a group."""
     parts = list(parts)
@@ -220,6 +250,36 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
     dy -= dx
     touching &= np.abs(dy, out=dy) < hw * ry + hh * rx
     return touching
+
+
+class Ink:
+    """The strokes of a figure in cells of paper, and how many inked cells lie to the lower left of each corner.
+
+    Whether a box touches a stroke is told by its four corners, however many strokes there are.
+    """
+
+    def __init__(self, strokes: Complexes) -> None:
+        self.strokes = strokes
+        self.low, high = corners_of(strokes.ravel()) if len(strokes) else (0j, 0j)
+        ways = strokes[:, 1] - strokes[:, 0]
+        steps = np.ceil(np.abs(ways) / CELL).astype(np.intp) + 1
+        stroke = np.repeat(np.arange(len(steps)), steps)
+        step = np.arange(len(stroke)) - np.repeat(np.cumsum(steps) - steps, steps)
+        dots = (strokes[stroke, 0] + ways[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
+        self.size = int((high - self.low).real / CELL) + 2, int((high - self.low).imag / CELL) + 2
+        # Counts modulo 2¹⁶ tell boxes apart from empty ones: a label has fewer cells.
+        inked = np.zeros((self.size[0] + 1, self.size[1] + 1), dtype=np.uint16)
+        inked[dots.real.astype(np.intp) + 1, dots.imag.astype(np.intp) + 1] = 1
+        np.cumsum(inked, axis=1, out=inked)
+        self.inked = np.cumsum(inked, axis=0, out=inked)
+
+    def touches(self, centres: Complexes, half: Complexes) -> Flags:
+        """Which boxes touch a stroke, to half a cell."""
+        low, high = (centres - half - self.low) / CELL, (centres + half - self.low) / CELL
+        x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
+        y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))
+        inked = self.inked
+        return np.asarray(inked[x1, y1] - inked[x0, y1] - inked[x1, y0] + inked[x0, y0] != 0)
 
 
 # --- how much paper a label takes, from a table of glyph sizes ------------------------------------

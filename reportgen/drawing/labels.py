@@ -2,17 +2,18 @@
 
 Each label tries spots around its point, the preferred directions first, nearest first, and never one that is nearer
 to a point that another label names.  The label with the fewest free spots chooses first.  If no spot nearby is free,
-the label moves out and a short leader, which crosses no other, ties it to its point; if that fails too, the labels
-without room are said shorter and choose first in a new attempt.  The same figure always gets the same labels.
+the label moves out and a short leader, which crosses no other, ties it to its point.  One that finds no room so
+chooses first in a new attempt, said shorter if it can be; one that did so already shares the label of its neighbour.
+The same figure always gets the same labels.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, reduce
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from reportgen.drawing.geometry import (
     Complexes,
     Flags,
     Floats,
+    Ink,
     bounds,
     box,
     corners_of,
@@ -47,12 +49,12 @@ CLEAR = 0.55
 """White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
 FIRST = 72
 """This many spots are tested at once; the others only if none of these is free."""
-CHEAPEST = 6
-"""Of the spots farther out, this many are rated in full before the worse ones are left out."""
-ATTEMPTS = 3
-"""How often the labels that found no room may choose first."""
 KEPT = 1024
 """For so many sizes of labels and sets of preferred directions the spots are cached."""
+FIGURES = 16
+"""Of so many figures the labels are kept: some are drawn once to see whether they fit and then again."""
+PLACES = np.linspace(0.15, 0.95, 9)
+"""Where on a leader it is seen whether it meets strokes, in shares of its length."""
 APART = 0.7
 """White kept between two labels."""
 
@@ -83,11 +85,11 @@ def label(
 ) -> Request:
     """A label whose `parts` stand in a row on one baseline, near the point `at`.
 
-    Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer`
-    are directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the
-    radius of the circle drawn there).  A `ring` goes round a link's number.  A label that names its point, or `each`
-    of several, stands nearer to it than to any point that another label names.  Where there is no room for it, what is
-    `short` stands there: less, nothing, or the number of a `KEY`.
+    Of several points (places along an arrow, say) it belongs to the first, but may stand at any.  `prefer` are
+    directions in radians, any where empty; `gap` is the distance in mm kept from the point itself (the radius of the
+    circle drawn there).  A `ring` goes round a link's number, which stands on a leader.  A label that names its point,
+    or `each` of several, stands nearer to it than to any point that another label names.  Where there is no room for
+    it, what is `short` stands there: less, nothing, or the number of a `KEY`.
     """
     points = tuple(at) if isinstance(at, Sequence) else (at,)
     named = points if each or len(points) == 1 else ()
@@ -97,6 +99,8 @@ def label(
 
 KEY = ("№",)
 """Short for a label: a number, which a line below the figure explains."""
+LEFT_OUT = ()
+"""Short for one of many marks of a curve: on a leader it may stand past others; without room it is left out."""
 
 
 def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
@@ -119,69 +123,88 @@ def _row(at: complex, parts: Sequence[Content], size: float, over: bool = False)
     return tuple(result)
 
 
-class _Ink:
-    """The strokes of a figure with their bounding boxes, to find those near a place fast."""
-
-    def __init__(self, strokes: Complexes) -> None:
-        first, last = strokes[:, 0], strokes[:, 1]
-        self.strokes = strokes
-        self.left, self.right = np.minimum(first.real, last.real), np.maximum(first.real, last.real)
-        self.low, self.high = np.minimum(first.imag, last.imag), np.maximum(first.imag, last.imag)
-
-    def near(self, centres: Complexes, half: complex) -> Complexes:
-        """Only the strokes that any of the boxes could touch."""
-        x, y = half.real + CLEAR, half.imag + CLEAR
-        keep = (self.left <= centres.real.max() + x) & (self.right >= centres.real.min() - x)
-        keep &= (self.low <= centres.imag.max() + y) & (self.high >= centres.imag.min() - y)
-        return np.asarray(self.strokes[keep])
-
-
 class _Taken:
     """The labels already placed, as boxes, and the leaders of some of them."""
 
-    def __init__(self, frames: Sequence[tuple[complex, complex]]) -> None:
-        self.centres = [centre for centre, _ in frames]
-        self.halves = [half for _, half in frames]
+    def __init__(self, frames: Sequence[tuple[complex, complex]], further: int) -> None:
+        """The boxes of labels that stand where they are, with room for `further` ones."""
+        self.count = len(frames)
+        boxes = np.zeros((self.count + further, 2), dtype=np.complex128)
+        boxes[: self.count] = np.reshape(frames, (-1, 2))
+        self._centres, self._halves = boxes[:, 0], boxes[:, 1]
         self.leaders: list[Segment] = []
 
+    @property
+    def centres(self) -> Complexes:
+        return self._centres[: self.count]
+
+    @property
+    def halves(self) -> Complexes:
+        return self._halves[: self.count]
+
     def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
-        self.centres.append(centre)
-        self.halves.append(half)
+        self._centres[self.count], self._halves[self.count] = centre, half
+        self.count += 1
         if leader:
             self.leaders.append(leader)
 
     def clear(self, centres: Complexes, half: complex) -> Flags:
         """Which of the boxes keep apart from every label and leader."""
-        free: Flags = np.ones(len(centres), dtype=np.bool_)
-        if self.centres:
-            apart = centres[:, None] - np.asarray(self.centres)
-            room = np.asarray(self.halves) + (half + APART * (1 + 1j))
-            free = ((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1)
+        apart, room = centres[:, None] - self.centres, self.halves + (half + APART * (1 + 1j))
+        free: Flags = np.asarray(((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1))
         if self.leaders:
             free &= ~_touched(centres, half, np.array(self.leaders))
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
         """Which leaders run through a label or another leader."""
-        through = np.zeros(len(leaders), dtype=np.bool_)
-        if self.centres:
-            through |= overlap(np.array(self.centres), np.array(self.halves), leaders, 0.2).any(axis=0)
+        through: Flags = np.asarray(overlap(self.centres, self.halves, leaders, 0.2).any(axis=0))
         if self.leaders:
             through |= _crossings(leaders, np.array(self.leaders)) > 0
         return through
 
 
-class _Spots:
-    """The spots a label may stand at, in the order of preference."""
+class _Field:
+    """What is on paper before labels are placed: strokes, and the points that labels name, each with its label."""
 
-    def __init__(self, request: Request, ink: _Ink, others: Complexes) -> None:
-        self.request = request
-        self.half = _half(request)
-        self.own, self.others = np.array(request.points), others if request.named else others[:0]
-        offsets = _nearby(self.half, request.gap)
-        self.centres = (self.own[:, None] + offsets).ravel()[_ranking(request.prefer, len(self.own))]
-        self.ink = ink
-        self.first = self._free(0)
+    def __init__(self, items: Sequence[Item], requests: Sequence[Request]) -> None:
+        self.ink = Ink(segments(items))
+        self.points = np.array([point for request in requests for point in request.named], dtype=np.complex128)
+        self.owners = np.repeat(np.arange(len(requests)), [len(request.named) for request in requests])
+
+    def spots(self, requests: Mapping[int, Request]) -> dict[int, _Spots]:
+        """The spots of some labels by their numbers; all their first ones are tested together."""
+        offered = {i: _offered(request) for i, request in requests.items()}
+        first = np.array([centres[:FIRST] for _, centres in offered.values()])
+        half = np.array([half for half, _ in offered.values()])
+        free = ~self.ink.touches(first, half[:, None] + CLEAR * (1 + 1j))
+        row, spot = np.nonzero(free)
+        free[row, spot] = self.nearest(first[row, spot], half[row], np.array(list(offered))[row])
+        rows = zip(offered.items(), free, strict=True)
+        return {i: _Spots(self, i, requests[i], half, centres, flags) for (i, (half, centres)), flags in rows}
+
+    def nearest(self, centres: Complexes, half: Complexes, labels: Indices) -> Flags:
+        """Where boxes [K] of labels are nearer to a point of their own than to any that another label names."""
+        apart = centres[:, None] - self.points
+        aside, above = np.abs(apart.real) - half.real[:, None], np.abs(apart.imag) - half.imag[:, None]
+        away = np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0))
+        own = labels[:, None] == self.owners
+        to_own = np.where(own, away, np.inf).min(axis=1, initial=np.inf)
+        to_others = np.where(own, np.inf, away).min(axis=1, initial=np.inf)
+        return np.asarray((to_own <= to_others) | ~own.any(axis=1))
+
+
+@dataclass
+class _Spots:
+    """The spots a label may stand at, in the order of preference, and which of the first are free of strokes."""
+
+    field: _Field
+    number: int
+    request: Request
+    half: complex
+    centres: Complexes
+    first: Flags
+    far: dict[complex, tuple[Complexes, Complexes]] = dataclasses.field(default_factory=dict)
 
     @property
     def room(self) -> int:
@@ -191,68 +214,116 @@ class _Spots:
     def best(self, taken: _Taken) -> complex | None:
         """The first spot free of strokes, labels and leaders; None where there is none."""
         for start in range(0, len(self.centres), FIRST):
-            free = self.first if start == 0 else self._free(start)
-            found = np.flatnonzero(free) + start
-            if found.size and (clear := taken.clear(self.centres[found], self.half)).any():
-                return complex(self.centres[found[int(np.argmax(clear))]])
+            free = self.first if start == 0 else self.free(self.centres[start : start + FIRST])
+            centres = self.centres[start : start + FIRST][free]
+            if centres.size and (clear := taken.clear(centres, self.half)).any():
+                return complex(centres[int(np.argmax(clear))])
         return None
 
-    def _free(self, start: int) -> Flags:
-        """Which of the next spots are free of strokes and nearest to their own point."""
-        centres = self.centres[start : start + FIRST]
-        free = ~_touched(centres, self.half, self.ink.near(centres, self.half))
-        free[free] = self.nearest(centres[free])
+    def free(self, centres: Complexes, nearest: bool = True) -> Flags:
+        """Which spots are free of strokes and nearest to their own point."""
+        free: Flags = ~self.field.ink.touches(centres, np.array(self.half + CLEAR * (1 + 1j)))
+        if nearest:
+            free[free] = self.nearest(centres[free])
         return free
 
     def nearest(self, centres: Complexes) -> Flags:
         """Where the label is nearer to its own point than to any that another label names."""
-        return np.asarray(_distance(centres, self.half, self.own) <= _distance(centres, self.half, self.others))
+        return self.field.nearest(centres, np.array([self.half]), np.array([self.number]))
+
+    def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
+        """The free spots farther out from a point, the cheapest first, and their leaders [K, 2]."""
+        if at not in self.far:
+            offsets, cost, ways = _beyond(self.half, self.request.gap, self.request.prefer)
+            free = self.free(at + offsets, self.request.short != LEFT_OUT)
+            centres, leaders = at + offsets[free], at + ways[free]
+            past = ~self.nearest(centres)
+            order = np.argsort(cost[free] + 0.3 * _inked(self.field.ink, leaders) + past, kind="stable")
+            self.far[at] = centres[order], leaders[order]
+        return self.far[at]
 
 
-def place(items: Sequence[Item], requests: Sequence[Request]) -> tuple[tuple[Item, ...], list[tuple[Content, ...]]]:
+def _offered(request: Request) -> tuple[complex, Complexes]:
+    """Half the size of a label, and its spots [72 × points] nearby in the order of preference."""
+    half = _half(request)
+    spots = (np.array(request.points)[:, None] + _nearby(half, request.gap)).ravel()
+    return half, spots[_ranking(request.prefer, len(request.points))]
+
+
+@lru_cache(maxsize=FIGURES)
+def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> tuple[tuple[Item, ...], list[tuple[Content, ...]]]:
     """Labels (and leaders) for the requests among the items, in their order, and the key's lines, each of parts."""
-    ink = _Ink(segments(items))
+    field = _Field(items, requests)
     frames = [frame(item) for item in items if isinstance(item, Label)]
-    named = np.array([point for request in requests for point in request.named])
-    spots = {i: _Spots(request, ink, named) for i, request in enumerate(requests)}
+    spots = field.spots(dict(enumerate(requests))) if requests else {}
     order = sorted(spots, key=lambda i: (spots[i].room, i))
-    placed, crowded = _place_in(order, spots, frames)
+    first: set[int] = set()
     keyed: list[int] = []
-    for _ in range(ATTEMPTS):
-        if not crowded:
+    placed, crowded = _place_in(order, spots, frames)
+    while crowded:
+        before = len(first), len(spots)
+        changed: dict[int, Request] = {}
+        for i in crowded:
+            request = changed.get(i) or spots[i].request
+            if request.short is not None:
+                keyed += [i] if request.short == KEY else []
+                changed[i] = replace(request, parts=request.short, short=None)
+            elif i in first and (to := _neighbour(i, spots)) is not None:
+                pair = {j: changed.pop(j, spots[j].request) for j in sorted((i, to))}
+                names = (replace(one, parts=requests[j].parts) if j in keyed else one for j, one in pair.items())
+                changed[to] = _shared(*names)
+                keyed = [j for j in keyed if j not in pair]
+                field.owners[field.owners == i] = to
+                del spots[i]
+            first.add(i)
+        for n, i in enumerate(keyed, 1):
+            if (one := changed.get(i, spots[i].request)).parts != (str(n),):
+                changed[i] = replace(one, parts=(str(n),))
+        if changed:
+            spots |= field.spots(changed)
+        if before == (len(first), len(spots)):
             break
-        # What found no room is said shorter and chooses first.
-        for i in sorted(crowded):
-            short = requests[i].short
-            if short == KEY and i not in keyed:
-                keyed.append(i)
-                short = (str(len(keyed)),)
-            if short and spots[i].request.short is not None:
-                spots[i] = _Spots(replace(requests[i], parts=short, short=None), ink, named)
-        order = [*crowded, *(i for i in order if i not in crowded)]
+        order = [i for i in (*crowded, *(i for i in order if i not in crowded)) if i in spots]
         placed, crowded = _place_in(order, spots, frames)
     key = [(f"{number} – ", *requests[i].parts) for number, i in enumerate(keyed, 1)]
-    return tuple(item for i in range(len(requests)) for item in placed[i]), key
+    return tuple(item for i in sorted(placed) for item in placed[i]), key
+
+
+def _neighbour(i: int, spots: Mapping[int, _Spots]) -> int | None:
+    """The label, of those that name points, whose point is the nearest to one that label `i` names."""
+    own = spots[i].request.named
+    others = [j for j, spot in spots.items() if spot.request.named and j != i]
+    if not own:
+        return None
+    return min(others, key=lambda j: min(abs(p - q) for p in own for q in spots[j].request.named), default=None)
+
+
+def _shared(one: Request, other: Request) -> Request:
+    """One label for the points of two."""
+    points, parts = (*one.points, *other.points), (*one.parts, ", ", *other.parts)
+    gap, size = max(one.gap, other.gap), min(one.size, other.size)
+    return replace(one, points=points, named=points, parts=parts, gap=gap, size=size, short=None)
 
 
 def _place_in(
     order: Sequence[int], spots: Mapping[int, _Spots], frames: Sequence[tuple[complex, complex]]
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
     """The labels placed one after the other, and those for which no place is free."""
-    taken = _Taken(frames)
+    taken = _Taken(frames, len(order))
     placed: dict[int, tuple[Item, ...]] = {}
     crowded: list[int] = []
     for i in order:
         spot = spots[i]
         request = spot.request
-        centre, leader = spot.best(taken), None
+        centre, leader = (_away(spot, taken) if request.ring else None) or (spot.best(taken), None)
         if centre is None:
-            centre, leader, free = _away(spot, taken)
-            if not free and request.short == ():
+            found = _away(spot, taken)
+            if found is None and request.short == LEFT_OUT:
                 placed[i] = ()
                 continue
-            if not free:
+            if found is None:
                 crowded.append(i)
+            centre, leader = found or _least_touched(spot, taken)
         labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over=i in crowded)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)
@@ -297,66 +368,56 @@ def _turned(prefer: tuple[float, ...]) -> Floats:
     return np.asarray((1 - (DIRECTIONS[:, None] * wanted).real).min(axis=1))
 
 
-def _distance(centres: Complexes, half: complex, points: Complexes) -> Floats:
-    """From each box to the nearest of some points, mm; infinite for none."""
-    apart = centres[:, None] - points
-    aside, above = np.abs(apart.real) - half.real, np.abs(apart.imag) - half.imag
-    return np.asarray(np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0)).min(axis=1, initial=math.inf))
-
-
 def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
     """Which boxes come too close to any stroke."""
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
-def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment, bool]:
-    """The nearest free spot farther out, the leader to it, which crosses no label, and whether it is free.
+@lru_cache(maxsize=KEPT)
+def _beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
+    """Of the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
+    centres = _ring(half, np.asarray(FAR) + gap).ravel()
+    cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(prefer)).ravel()
+    leaders = _leaders(gap, centres, half)
+    order = np.argsort(cost, kind="stable")
+    order = order[np.abs(leaders[order, 1] - leaders[order, 0]) <= LONGEST]
+    return centres[order], cost[order], leaders[order]
+
+
+def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment] | None:
+    """The best free spot farther out, and the leader to it, which crosses no label; None where there is none.
 
     The leader starts at the label's first point, or at another one if no spot around the first is free.
     """
-    tried = (_off(spot, at, taken) for at in spot.request.points)
-    first = next(tried)
-    return first if first[2] else next((other for other in tried if other[2]), first)
+    for at in spot.request.points:
+        centres, leaders = spot.beyond(at)
+        some = np.flatnonzero(taken.clear(centres, spot.half))
+        some = some[~taken.crossed(leaders[some])]
+        if some.size:
+            first, last = leaders[some[0]]
+            return complex(centres[some[0]]), (complex(first), complex(last))
+    return None
 
 
-def _off(spot: _Spots, at: complex, taken: _Taken) -> tuple[complex, Segment, bool]:
-    """As `_away`, around one point of the label."""
-    request, half = spot.request, spot.half
-    centres = (at + _ring(half, np.asarray(FAR) + request.gap)).ravel()
-    cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(request.prefer)).ravel()
-    leaders = _leaders(at, request.gap, centres, half)
-    near = spot.ink.near(centres, half)
-    apart = np.flatnonzero(np.abs(leaders[:, 1] - leaders[:, 0]) <= LONGEST)
-    apart = apart[taken.clear(centres[apart], half)]
-    apart = apart[~taken.crossed(leaders[apart])]
-    free = apart[~_touched(centres[apart], half, near)]
-    nearest = free[spot.nearest(centres[free])]
-    # If any spot is free, only free spots are rated, and of these only those nearest to their own point.
-    rated = next(spots for spots in (nearest, free, apart, np.arange(len(centres))) if spots.size)
-    if not free.size:
-        cost[rated] += overlap(centres[rated], np.array([half]), near, CLEAR).sum(axis=1)
-
-    def full_cost(spots: Indices) -> Floats:
-        tried = leaders[spots]
-        return np.asarray(cost[spots] + 0.3 * _crossings(tried, near) + 0.8 * _grazes(tried, near))
-
-    # Crossings only add to the cost: a spot dearer without them than another with them cannot be best.
-    cheapest = rated[np.argsort(cost[rated], kind="stable")[:CHEAPEST]]
-    rated = rated[cost[rated] <= full_cost(cheapest).min()]
-    best = int(rated[np.argmin(full_cost(rated))])
-    # What may be said shorter rather stands beside its point.
-    room = nearest if request.short else free
-    return complex(centres[best]), (complex(leaders[best, 0]), complex(leaders[best, 1])), best in room
+def _least_touched(spot: _Spots, taken: _Taken) -> tuple[complex, Segment]:
+    """Where none is free: the cheapest spot farther out, off all labels if any is, then off strokes."""
+    at, half = spot.request.points[0], spot.half
+    offsets, cost, ways = _beyond(half, spot.request.gap, spot.request.prefer)
+    centres = at + offsets
+    touches = spot.field.ink.touches(centres, np.array(half))
+    apart = taken.clear(centres, half) & ~taken.crossed(at + ways)
+    best = int(np.argmin(cost + len(cost) * (touches + 2.0 * ~apart)))
+    first, last = at + ways[best]
+    return complex(centres[best]), (complex(first), complex(last))
 
 
-def _leaders(at: complex, gap: float, centres: Complexes, half: complex) -> Complexes:
-    """From the point's edge to just before the nearest place on each box: segments [K, 2]."""
-    away = centres - at
-    foot = (away.real - np.clip(away.real, -half.real, half.real)) + 1j * (
-        away.imag - np.clip(away.imag, -half.imag, half.imag)
+def _leaders(gap: float, centres: Complexes, half: complex) -> Complexes:
+    """From a point's edge to just before the nearest place on each box, seen from the point: segments [K, 2]."""
+    foot = (centres.real - np.clip(centres.real, -half.real, half.real)) + 1j * (
+        centres.imag - np.clip(centres.imag, -half.imag, half.imag)
     )
     u = foot / np.abs(foot)
-    return np.column_stack((at + u * min(gap, 0.8), at + foot - u * (CLEAR + 0.1)))
+    return np.column_stack((u * min(gap, 0.8), foot - u * (CLEAR + 0.1)))
 
 
 def _crossings(leaders: Complexes, strokes: Complexes) -> Floats:
@@ -371,25 +432,17 @@ def _crossings(leaders: Complexes, strokes: Complexes) -> Floats:
     return np.asarray(across.sum(axis=1), dtype=np.float64)
 
 
-def _grazes(leaders: Complexes, strokes: Complexes) -> Floats:
-    """At how many of four places each leader lies on a stroke and would be taken for part of it."""
-    shares = np.array([0.35, 0.55, 0.75, 0.95])
-    places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * shares
-    on = overlap(places.ravel(), np.array([0.25 + 0.25j]), strokes, 0.0).any(axis=1)
-    return np.asarray(on.reshape(places.shape).sum(axis=1), dtype=np.float64)
+def _inked(ink: Ink, leaders: Complexes) -> Floats:
+    """At how many of `PLACES` each leader meets strokes: where it crosses one, or lies on it like a part of it."""
+    places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * PLACES
+    return np.asarray(ink.touches(places, np.array(0.25 + 0.25j)).sum(axis=1), dtype=np.float64)
 
 
-# --- from drafts to finished scenes, and scenes of one scale together on sheets of paper ------------
+# --- from drafts to finished scenes ---------------------------------------------------------------
 # Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added. `finish` places the
 # labels, crops to the content and gives the `Scene`.
 
-Part = TypeVar("Part")
-
 MARGIN = 6.0
-TITLE_HEIGHT = 4.5
-NOTE_HEIGHT = 6.0
-TRIM = 3.5
-"""What of a drawing's white margin (mm, each side) its neighbours on a sheet may use."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -445,53 +498,3 @@ def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item
         lines += _row(complex(x, y - height / 2), note, style.LABEL)
         y -= height + 1.5
     return tuple(lines)
-
-
-def sheets(
-    scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
-) -> tuple[Scene, ...]:
-    """The scenes in true size on as many sheets of `width` × `height` mm as they need.
-
-    Rows are filled in order and spread over the width; each scene's title stands below it and `note` (the
-    common scale) below all.  Of each scene's margin `trim` mm are given up.  A scene larger than the sheet
-    gets one of its own size.
-    """
-    foot = NOTE_HEIGHT if note is not None else 0.0
-
-    def wide(scene: Scene) -> float:
-        return scene.width - 2 * trim
-
-    def high(row: Sequence[Scene]) -> float:
-        return max(scene.height for scene in row) - 2 * trim + TITLE_HEIGHT
-
-    def sheet(rows: Sequence[Sequence[Scene]]) -> Scene:
-        """As high as its rows; the scenes of a row stand on a common base line."""
-        across = max(width, *(sum(map(wide, row)) for row in rows))
-        top = full = foot + sum(map(high, rows))
-        items: list[Item] = []
-        for row in rows:
-            top -= high(row)
-            x = space = (across - sum(map(wide, row))) / (len(row) + 1)
-            for scene in row:
-                corner = complex(x - trim, top + TITLE_HEIGHT - trim)
-                items += [moved(item, corner) for item in scene.items]
-                if scene.title:
-                    items.append(Label(complex(x + wide(scene) / 2, top + TITLE_HEIGHT / 2), scene.title))
-                x += wide(scene) + space
-        if note is not None:
-            items.append(Label(complex(across / 2, NOTE_HEIGHT / 3), note))
-        return Scene(across, full, tuple(items))
-
-    rows = _filled(scenes, wide, width)
-    return tuple(map(sheet, _filled(rows, high, height - foot)))
-
-
-def _filled(parts: Iterable[Part], size: Callable[[Part], float], room: float) -> list[list[Part]]:
-    """The parts in groups, in order, each group as large as the room allows."""
-    groups: list[list[Part]] = []
-    for part in parts:
-        if groups and sum(map(size, groups[-1])) + size(part) <= room:
-            groups[-1].append(part)
-        else:
-            groups.append([part])
-    return groups

@@ -15,7 +15,7 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import Complexes, box, clusters, polar, unit
-from reportgen.drawing.labels import CLEAR, Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import CLEAR, LEFT_OUT, Canvas, Request, finish, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
@@ -30,6 +30,10 @@ VELOCITY, ANGLE = 20.0, 11.0
 """Length of a velocity's arrow and radius of an angle's arc (mm) beside instant centres."""
 LEAST_ANGLE = 0.03
 """A smaller angle (radians) has no arc that can be seen."""
+ARC_OVER = 9.0
+"""How far (mm) an arc through a point goes on to either side."""
+BEYOND_BOTH = 0.7
+"""Where on the way to the nearer end the arc of a small angle is drawn."""
 BEYOND = 3.0
 """How far (mm) a normal goes on beyond the centre."""
 
@@ -185,6 +189,47 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
     return Canvas(tuple(items), tuple(requests))
 
 
+@dataclass(frozen=True, slots=True)
+class SwingMarks:
+    """How both ends of a pin's way are found: the crank's `centre`, the rocker's `pivot`, the pin's `ends` (m).
+
+    Angles with their names are those between the lines to the ends; `seen_from` is the centre of a circle through
+    the ends and the crank's centre, with its name, where it is constructed.
+    """
+
+    centre: complex
+    pivot: complex
+    ends: tuple[complex, complex]
+    angles: tuple[Content, Content]
+    circle: tuple[complex, Content] | None = None
+
+
+def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
+    """Arcs of the radii to both ends about the crank's centre, the lines to them and the angles between these."""
+    centre, pivot = marks.centre * scale, marks.pivot * scale
+    ends = [end * scale for end in marks.ends]
+    items: list[Item] = []
+    requests: list[Request] = []
+    for end in ends:
+        middle, radius = cmath.phase(end - centre), abs(end - centre)
+        half = ARC_OVER / radius
+        items += [Line(centre, end, style.CONSTRUCTION), Arc(centre, radius, middle - half, middle + half, style.THIN)]
+    for at, radius, name in zip(
+        (centre, pivot), (abs(ends[1] - centre) * BEYOND_BOTH, ANGLE), marks.angles, strict=True
+    ):
+        start, turn = cmath.phase(ends[0] - at), cmath.phase((ends[1] - at) / (ends[0] - at))
+        items.append(Arc(at, radius, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
+        middle = start + turn / 2
+        requests.append(label(at + radius * polar(middle), name, prefer=(middle,), size=style.SMALL))
+    if marks.circle is not None:
+        at, radius = marks.circle[0] * scale, abs(ends[0] - marks.circle[0] * scale)
+        turns = sorted(cmath.phase((one - at) / (ends[0] - at)) for one in (*ends, centre))
+        start, over = cmath.phase(ends[0] - at), ARC_OVER / radius
+        items.append(Arc(at, radius, start + turns[0] - over, start + turns[-1] + over, style.NORMAL))
+        requests.append(label(at + radius * polar(start + turns[0] - over), marks.circle[1], size=style.SMALL))
+    return Canvas(tuple(items), tuple(requests))
+
+
 def _covers(one: Complexes, other: Complexes) -> bool:
     """Whether a curve lies on another one."""
     starts, ways = one[:-1], np.diff(one)
@@ -272,8 +317,6 @@ STROKES = (
 """Pens of the branches in their order, told apart by dashes and width as well as by colour."""
 WIDTH = 80.0
 """Of the diagram at most, mm."""
-NARROW, SHAPE = 46.0, 1.5
-"""On a sheet it is so wide at least (mm), and so many times as wide as high at most."""
 AWAY = 0.94
 """How far beside the cylinder it stands, in its widths."""
 AXIS_PEN = Pen(0.2)
@@ -321,20 +364,14 @@ class Frame:
 
 
 def beside(
-    top: complex, bottom: complex, side: complex, highest: float, enlarged: float | None = None
+    top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """The ends of the diagram's axis beside the cylinder, and the μ_p that makes it fit.
+    """The ends of the diagram's axis beside the cylinder, and the round μ_p that makes it fit.
 
-    μ_p is round once the drawing is `enlarged` so many times, as on a drawing sheet; there the diagram is no wider than
-    goes with its stroke.
+    μ_p is that of the drawing once it is `enlarged` so many times.
     """
-    width = WIDTH
-    if enlarged is not None:
-        width = min(WIDTH, max(NARROW, SHAPE * abs(top - bottom)))
-    else:
-        enlarged = 1.0
-    away = unit(side) * AWAY * width
-    return top + away, bottom + away, nice_up(highest / width / enlarged) * enlarged
+    away = unit(side) * AWAY * WIDTH / enlarged
+    return top + away, bottom + away, nice_up(highest / WIDTH)
 
 
 def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Canvas:
@@ -352,7 +389,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     for group in clusters(read, 0.3, lambda one: one[0]):
         numbers = joined(number for _, number in group)
         outward = (cmath.phase(unit(frame.side)),)
-        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=()))
+        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=LEFT_OUT))
     if frame.axis:
         tip = frame.at(0.0, highest) + 12 * unit(frame.side)
         requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))

@@ -5,15 +5,13 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from itertools import pairwise
+from typing import TypeVar
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import POINT, SCRIPT, box, enlarged, moved
-from reportgen.formula import Chain, Number, Symbol
 
 GAP = 5.0
 """White between plates, and between them and the frame, mm."""
@@ -21,16 +19,12 @@ GAP = 5.0
 
 @dataclass(frozen=True, slots=True)
 class PlacedScene:
-    """A scene on a sheet with its lower left corner `at`; `name` groups its items, `layer` says what it shows.
-
-    `table` is the width and height of what of it may be stretched, nothing if it is no table.
-    """
+    """A scene on a sheet with its lower left corner `at`; `name` groups its items, `layer` says what it shows."""
 
     name: str
     layer: str
     scene: Scene
     at: complex = 0j
-    table: complex = 0j
 
     @property
     def box(self) -> tuple[complex, complex]:
@@ -59,23 +53,13 @@ class Room:
     high: complex
     block: complex
 
-    @property
-    def area(self) -> float:
-        size = self.high - self.low
-        return size.real * size.imag - self.block.real * self.block.imag
-
 
 class TooLargeError(ValueError):
-    """A plate has no place on a sheet of the size asked for."""
+    """A plate of a name, so wide and high (mm), has no place on a sheet of the size asked for."""
 
-    def __init__(self, part: PlacedScene) -> None:
-        super().__init__(part.name)
-        self.part = part
-
-
-def filled(parts: Iterable[PlacedScene], room: Room) -> float:
-    """The share of a sheet's free area that the boxes of plates, captions included, take."""
-    return sum(part.scene.width * part.scene.height for part in parts) / room.area
+    def __init__(self, name: str, width: float, height: float) -> None:
+        super().__init__(name)
+        self.name, self.width, self.height = name, width, height
 
 
 # --- a report's figure with the letters, pens and arrowheads of a drawing sheet -------------------
@@ -98,6 +82,8 @@ HEAD = 5.5
 
 LINE_GAP = 2.5
 """White between the lines of a heading, mm."""
+TALLEST = "Ồg"
+"""Letters that reach as far up and down as any."""
 
 
 def font_size(height: float) -> float:
@@ -112,18 +98,22 @@ LETTERS = ENLARGED * style.SMALL
 
 
 def lettered(scene: Scene) -> Scene:
-    """A figure of a report as a sheet shows it, `ENLARGED` times as large.
-
-    The scales that it prints are as much smaller, as after any enlargement.
-    """
-    items = tuple(_standard(enlarged(item, ENLARGED)) for item in scene.items)
-    return Scene(ENLARGED * scene.width, ENLARGED * scene.height, items, scene.title)
+    """A figure of a report, drawn small, as a sheet shows it, `ENLARGED` times as large; its title stands below it."""
+    items = [_standard(enlarged(item, ENLARGED)) for item in scene.items]
+    width, height = ENLARGED * scene.width, ENLARGED * scene.height
+    if not scene.title:
+        return Scene(width, height, tuple(items))
+    title = box(scene.title, LETTERS)
+    by, below = max(title.width - width, 0.0) / 2, title.height + title.depth + LINE_GAP / 2
+    items = [moved(item, complex(by, below)) for item in items]
+    items.append(Label(complex(by + width / 2, 0), scene.title, "bottom", LETTERS))
+    return Scene(width + 2 * by, height + below, tuple(items))
 
 
 def _standard(item: Item) -> Item:
     match item:
-        case Label(_, content):
-            return replace(item, content=_rescaled(content), size=LETTERS)
+        case Label():
+            return replace(item, size=LETTERS)
         case Arrow(_, _, stroke, head) | Arc(_, _, _, _, stroke, head):
             return replace(item, stroke=_pen(stroke), head=HEAD if head > 0 else 0.0)
         case Line(_, _, stroke) | Hatch(_, _, stroke):
@@ -137,27 +127,19 @@ def _pen(stroke: Pen) -> Pen:
     return replace(stroke, width=WIDE if stroke.width >= ENLARGED * OUTLINE else NARROW)
 
 
-def _rescaled(content: Content) -> Content:
-    """A printed scale after the enlargement: μ = 4 N/mm becomes μ = 2 N/mm where all is twice as long."""
-    match content:
-        case Chain((Symbol("μ") as symbol, Number(value) as number), note):
-            return Chain((symbol, replace(number, value=float(f"{value / ENLARGED:.5g}"), decimals=None)), note)
-        case _:
-            return content
-
-
-def headed(scene: Scene, name: str, place: str) -> Scene:
-    """A plate: its name in larger letters, below it what it shows of this in a line, then the scene."""
-    lines = [(name, font_size(HEADING)), *([(place, LETTERS)] if place else [])]
-    boxes = [box(content, size) for content, size in lines]
-    width = max(scene.width, *(one.width for one in boxes))
-    items: list[Item] = [moved(item, complex((width - scene.width) / 2, 0)) for item in scene.items]
-    top = scene.height + sum(one.height + one.depth + LINE_GAP for one in boxes)
-    height = top
-    for (content, size), extent in zip(lines, boxes, strict=True):
-        items.append(Label(complex(width / 2, top), content, "top", size))
-        top -= extent.height + extent.depth + LINE_GAP
-    return Scene(width, height, tuple(items))
+def headed(name: str, *lines: Content) -> Scene:
+    """The head of a plate: its name in larger letters, and lines below it, on base lines that no letter moves."""
+    rows: list[tuple[Content, float]] = [(name, font_size(HEADING)), *((line, LETTERS) for line in lines)]
+    boxes = [box(content, size) for content, size in rows]
+    widest = max(extent.width for extent in boxes)
+    items: list[Item] = []
+    base = 0.0
+    for (content, size), extent in zip(rows, boxes, strict=True):
+        tall = box(TALLEST, size)
+        base -= tall.height
+        items.append(Label(complex(widest / 2, base - extent.depth), content, "bottom", size))
+        base -= tall.depth + LINE_GAP
+    return Scene(widest, -base, tuple(moved(item, -1j * base) for item in items))
 
 
 # --- a ruled table as a drawing, for sheets on which everything is drawn --------------------------
@@ -166,29 +148,6 @@ ROW = 5.0
 PADDING = 1.4
 """White beside the widest content of a column, mm."""
 EDGE, RULE = Pen(0.35), Pen(0.15)
-
-
-@dataclass(frozen=True, slots=True)
-class Form:
-    """How a sheet sets what has no size of its own.
-
-    Of a long table: how wide it may be (mm), how many rows it may have; of curves: their `shape`, width over height.
-    """
-
-    widest: float = 180.0
-    rows: int = 100
-    parts: int = 1
-    """It is broken into so many parts at least."""
-    shape: float = 2.0
-
-    def broken(self, positions: Sequence[int]) -> list[Sequence[int]]:
-        """The positions in parts of about as many rows each."""
-        count = min(max(math.ceil(len(positions) / self.rows), self.parts), len(positions))
-        ends = [round(n * len(positions) / count) for n in range(count + 1)]
-        return [positions[start:end] for start, end in pairwise(ends)]
-
-
-USUAL_FORM = Form()
 
 
 def widths(rows: Sequence[Sequence[Content]]) -> list[float]:
@@ -218,28 +177,61 @@ def grid(head: Sequence[Sequence[Content]], rows: Sequence[Sequence[Content]]) -
     return Scene(width, height, tuple(items))
 
 
-def stretched(scene: Scene, table: complex, stretch: complex) -> Scene:
-    """A table of a width and a height, and what stands above it, in the middle: the table so many times as large.
+# --- scenes of one scale together -----------------------------------------------------------------
 
-    Letters stay as they are.
+Part = TypeVar("Part")
+
+TITLE_HEIGHT = 4.5
+NOTE_HEIGHT = 6.0
+TRIM = 3.5
+"""What of a drawing's white margin (mm, each side) its neighbours on a sheet may use."""
+
+
+def sheets(
+    scenes: Sequence[Scene], width: float, height: float, note: Content | None = None, trim: float = TRIM
+) -> tuple[Scene, ...]:
+    """The scenes in true size on as many sheets of `width` × `height` mm as they need.
+
+    Rows are filled in order and spread over the width; each scene's title stands below it and `note` (the
+    common scale) below all.  Of each scene's margin `trim` mm are given up.  A scene larger than the sheet
+    gets one of its own size.
     """
-    width = max(scene.width, table.real * stretch.real)
-    left = (scene.width - table.real) / 2
-    begin = (width - table.real * stretch.real) / 2
+    foot = NOTE_HEIGHT if note is not None else 0.0
 
-    def at(point: complex) -> complex:
-        return complex(begin + (point.real - left) * stretch.real, point.imag * stretch.imag)
+    def wide(scene: Scene) -> float:
+        return scene.width - 2 * trim
 
-    higher = complex((width - scene.width) / 2, table.imag * (stretch.imag - 1))
-    items: list[Item] = []
-    for one in scene.items:
-        match one:
-            case Label(place):
-                items.append(replace(one, at=place + higher if place.imag > table.imag else at(place)))
-            case Line(start, end):
-                items.append(replace(one, start=at(start), end=at(end)))
-            case Polyline(points):
-                items.append(replace(one, points=tuple(map(at, points))))
-            case _:
-                raise TypeError(one)
-    return Scene(width, scene.height + higher.imag, tuple(items), scene.title)
+    def high(row: Sequence[Scene]) -> float:
+        return max(scene.height for scene in row) - 2 * trim + TITLE_HEIGHT
+
+    def sheet(rows: Sequence[Sequence[Scene]]) -> Scene:
+        """As high as its rows; the scenes of a row stand on a common base line."""
+        across = max(width, *(sum(map(wide, row)) for row in rows))
+        top = full = foot + sum(map(high, rows))
+        items: list[Item] = []
+        for row in rows:
+            top -= high(row)
+            x = space = (across - sum(map(wide, row))) / (len(row) + 1)
+            for scene in row:
+                corner = complex(x - trim, top + TITLE_HEIGHT - trim)
+                items += [moved(item, corner) for item in scene.items]
+                if scene.title:
+                    items.append(Label(complex(x + wide(scene) / 2, top + TITLE_HEIGHT / 2), scene.title))
+                x += wide(scene) + space
+        if note is not None:
+            items.append(Label(complex(across / 2, NOTE_HEIGHT / 3), note))
+        return Scene(across, full, tuple(items))
+
+    rows = _filled(scenes, wide, width)
+    return tuple(map(sheet, _filled(rows, high, height - foot)))
+
+
+def _filled(parts: Iterable[Part], size: Callable[[Part], float], room: float) -> list[list[Part]]:
+    """The parts in groups, in order, each group as large as the room allows."""
+    groups: list[list[Part]] = []
+    for part in parts:
+        if groups and sum(map(size, groups[-1])) + size(part) <= room:
+            groups[-1].append(part)
+        else:
+            groups.append([part])
+    return groups

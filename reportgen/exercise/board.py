@@ -133,8 +133,8 @@ class Board:
         return self.q.give(id, value, exact=is_short(value))
 
     def given(self, id: str, value: float) -> Ref:
-        """A size that the file gives."""
-        return self.q.give(id, abs(value), exact=is_short(abs(value)))
+        """A size that the file gives, entered once."""
+        return self.q.find(id) or self.q.give(id, abs(value), exact=is_short(abs(value)))
 
     def knows(self, id: str) -> bool:
         return id in self.q

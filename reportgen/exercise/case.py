@@ -8,11 +8,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Never
+from typing import TYPE_CHECKING, Any
 
-from reportgen.base.errors import NotOfferedError
 from reportgen.base.units import Given
-from reportgen.base.words import word
 from reportgen.exercise import file
 from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solved import SolvedExercise
@@ -119,12 +117,22 @@ class ExerciseCase(SolvedExercise):
     def film(self) -> None:
         """Nothing moves at one instant."""
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        """Raises `NotOfferedError`: there is no machine to draw."""
-        self._no_machine()
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its figures on a sheet; there are no sets of them to choose from."""
+        from reportgen.drawing.sheet import ENLARGED, lettered
+        from reportgen.sheets import on_sheets
+        from reportgen.sheets.packing import DrawingPlate
 
-    def _no_machine(self) -> Never:
-        raise NotOfferedError(word("no_machine", self.assignment.language, kind=self.assignment.kind))
+        words = self.words["instant"]
+        drawn = {what: FIGURES[what](self, ENLARGED) for what in ("velocity", "acceleration")}
+        plates = [
+            DrawingPlate(words[what], (found[1],) if found[1] else (), what, (lettered(found[0]),))
+            for what, found in drawn.items()
+            if found
+        ]
+        return on_sheets(self, {"motion": plates}, size, block)
 
 
 def _task(case: SolvedExercise, key: Key, by_section: bool) -> Document:

@@ -178,12 +178,12 @@ def _names(points: Mapping[str, complex]) -> list[Request]:
 # --- what is drawn of an exercise -----------------------------------------------------------------
 
 
-def system_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
+def system_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
     """The system alone, with no rates on it."""
-    return _draw(case, {}, "", {}, [])
+    return _draw(case, enlarged, {}, "", {}, [])
 
 
-def velocity_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
+def velocity_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
     """The system with the velocities of its points and the normals through the instant centres."""
     motion, layout = case.exercise.motion, case.worked.layout
     vectors = {
@@ -200,10 +200,10 @@ def velocity_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
     extra = {name: at for name, at in layout.points.items() if name in contacts}
     extra |= {one.name: one.at for one in centres}
     normals = [(layout.points[name], one.at) for one in centres for name in one.points]
-    return _draw(case, vectors, "v", extra, normals)
+    return _draw(case, enlarged, vectors, "v", extra, normals)
 
 
-def acceleration_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | None:
+def acceleration_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
     """The system with the accelerations that are asked or used; None where there are none."""
     motion, ledger = case.exercise.motion, case.worked.ledger
     # A part is that of the first of its points: a.BA.n is one of B.
@@ -211,25 +211,30 @@ def acceleration_figure(case: SolvedExercise) -> tuple[Scene, Chain | None] | No
     names = [name for name in motion.system.points if name in used]
     known = [name for name in names if motion.system.body_of(name) and motion.knows_acceleration(name)]
     vectors = {name: (motion.a(name), Symbol("a", name)) for name in known if motion.a(name)}
-    return _draw(case, vectors, "a", {}, []) if vectors else None
+    return _draw(case, enlarged, vectors, "a", {}, []) if vectors else None
 
 
 def _draw(
     case: SolvedExercise,
+    enlarged: float,
     vectors: dict[str, tuple[complex, Symbol]],
     what: str,
     extra: dict[str, complex],
     normals: list[tuple[complex, complex]],
 ) -> tuple[Scene, Chain | None]:
-    """The system in mm; vectors are to the scale that is printed below."""
+    """The system in mm; vectors are to the scale that is printed below.
+
+    Scales are those of the drawing once it is `enlarged` so many times, as on a drawing sheet.
+    """
     exercise = case.exercise
     system, given = exercise.motion.system, exercise.given
     projections = Axes((case.worked, *case.further))
-    scale = _scale(case, [*extra.values()])
+    true = _scale(case, [*extra.values()])
+    scale = true / enlarged
     points = {name: at * scale for name, at in {**system.points, **extra}.items()}
     per_mm = nice_up(max((abs(vector) for vector, _ in vectors.values()), default=1.0) / LONGEST)
     arrows = [
-        (points[name], points[name] + vector / per_mm, vocabulary.vector(symbol))
+        (points[name], points[name] + vector / per_mm / enlarged, vocabulary.vector(symbol))
         for name, (vector, symbol) in vectors.items()
     ]
     discs = [
@@ -257,7 +262,7 @@ def _draw(
         pen=style.ACTIVE if what == "v" else style.REACTION,
     )
     unit = "m/(s·mm)" if what == "v" else "m/(s²·mm)"
-    length = Chain((Symbol("μ", "l"), Number(float(f"{1 / scale:.6g}"), None, "m/mm")))
+    length = Chain((Symbol("μ", "l"), Number(float(f"{1 / true:.6g}"), None, "m/mm")))
     note = Chain((Symbol("μ", what), Number(float(f"{per_mm:.6g}"), None, unit))) if vectors else None
     return scene_of(drawn, (length,)), note
 

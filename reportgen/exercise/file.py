@@ -320,7 +320,7 @@ class AskedId(Reader):
         return {"type": "string", "pattern": f"^{_ASKED.pattern.replace('?P<what>', '').replace('?P<of>', '')}$"}
 
 
-Method = Literal["instant centre", "base point", "projection", "moving frame"]
+Method = Literal["instant centre", "base point", "projection", "moving frame", "equations"]
 
 
 SymbolTable = Annotated[
@@ -337,7 +337,7 @@ class Parameters(Part):
     joints: Annotated[tuple[Joint, ...], Field(max_length=MOST_NAMES)] = ()
     given: Annotated[tuple[GivenRate, ...], Field(min_length=1, max_length=MOST_NAMES)]
     find: Annotated[tuple[Annotated[Asked, AskedId()], ...], Field(min_length=1, max_length=MOST_NAMES)]
-    methods: Annotated[tuple[Method, ...], Field(max_length=4)] = ()
+    methods: Annotated[tuple[Method, ...], Field(max_length=5)] = ()
 
     @model_validator(mode="before")
     @classmethod

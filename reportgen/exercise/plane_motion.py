@@ -18,6 +18,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.functions_of_angle import motion_laws, rod_on_crank
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Negative, Ref
@@ -283,6 +284,11 @@ def why_not(method: file.Method, layout: Layout) -> str:
     match method:
         case "moving frame":
             return "" if layout.given.slots else "no-moving-frame"
+        case "equations":
+            find = layout.given.find
+            moving = {body for one in find for body in ([one.body] if one.of_body else _bodies_of(layout, one.of))}
+            laws = [motion_laws(layout, body) or rod_on_crank(layout, body) for body in moving if body]
+            return "" if any(laws) else "no-equations"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":
@@ -295,6 +301,10 @@ def why_not(method: file.Method, layout: Layout) -> str:
             # It tells no angular velocity.
             asked = any(one.what in ("v", "a") for one in layout.given.find)
             return "" if asked and any(_projects(layout, body) for body in plane) else "no-projection"
+
+
+def _bodies_of(layout: Layout, point: str) -> list[int]:
+    return [body for body, names in layout.members.items() if point in names]
 
 
 def _in_plane_motion(layout: Layout) -> Iterator[int]:

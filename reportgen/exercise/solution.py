@@ -15,6 +15,7 @@ from reportgen.exercise.accelerations import Parts, about_points, by_slots, ente
 from reportgen.exercise.board import Board, Quantities, Step
 from reportgen.exercise.centres import SAME_PLACE, InstantCentre, Layout, lay_out, name_of_centre
 from reportgen.exercise.file import Asked, Method
+from reportgen.exercise.functions_of_angle import by_equations
 from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
 from reportgen.exercise.places import Exercise
 from reportgen.exercise.speeds import (
@@ -194,6 +195,7 @@ OWN: Mapping[Method, tuple[Finder, ...]] = {
     "base point": (from_base_point, by_base_point),
     "projection": (by_projection,),
     "moving frame": (by_guided_frame,),
+    "equations": (by_equations,),
 }
 
 _KINDS: Mapping[Method, tuple[str, ...]] = {
@@ -209,6 +211,7 @@ _KINDS: Mapping[Method, tuple[str, ...]] = {
     "base point": ("base-", "two-bases"),
     "projection": ("projection",),
     "moving frame": ("slot-",),
+    "equations": ("equations",),
 }
 
 

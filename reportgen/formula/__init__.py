@@ -13,10 +13,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
+from operator import mul
 from typing import Any, Literal, cast
 
-from reportgen.base.units import printed
+from reportgen.base.units import rounded
 
 
 class _Algebra:
@@ -94,7 +95,7 @@ class Number(_Algebra):
     @property
     def shown(self) -> float:
         """The value a reader of the page sees."""
-        return self.value if self.decimals is None else printed(self.value, self.decimals)
+        return self.value if self.decimals is None else rounded(self.value, self.decimals)
 
     @property
     def half_unit(self) -> float:
@@ -264,6 +265,86 @@ def atan2(across: Operand, along: Operand) -> Call:
 def branch(number: Operand, *branches: Operand) -> Call:
     """What is worked out otherwise at each position: the branch of its number, from 0; its line prints that one."""
     return call("branch", number, *branches)
+
+
+# --- sums and products without what is nothing ------------------------------------------------------
+
+NOTHING, ONE, MINUS_ONE = map(Number, (0.0, 1.0, -1.0))
+
+
+def plus(*terms: Expression) -> Expression:
+    """The sum of terms, those that are 0 left out."""
+    parts = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,)) if part != NOTHING]
+    return total(parts) if parts else NOTHING
+
+
+def minus(of: Expression) -> Expression:
+    """The same with the other sign, term by term."""
+    match of:
+        case Sum(terms):
+            return Sum(tuple(map(minus, terms)))
+        case Negative(inner):
+            return inner
+        case Number(value):
+            return replace(of, value=-value if value else 0.0)
+    return Negative(of)
+
+
+def times(*factors: Expression) -> Expression:
+    """The product of factors, 0 if one of them is 0; factors 1 are left out, −1 gives its sign."""
+    if NOTHING in factors:
+        return NOTHING
+    kept = [factor for factor in factors if factor not in (ONE, MINUS_ONE)] or [ONE]
+    negative = factors.count(MINUS_ONE) + sum(map(_begins_negative, kept))
+    product = reduce(mul, (minus(one) if _begins_negative(one) else one for one in kept))
+    return Negative(product) if negative % 2 else product
+
+
+def _begins_negative(of: Expression) -> bool:
+    first = of.terms[0] if isinstance(of, Sum) else of
+    return isinstance(first, Negative) or (isinstance(first, Number) and first.value < 0)
+
+
+def over(top: Expression, bottom: Expression) -> Expression:
+    """A fraction; 0 where its top is."""
+    if top == NOTHING:
+        return NOTHING
+    if bottom in (ONE, MINUS_ONE):
+        return times(top, bottom)
+    if isinstance(bottom, Negative):
+        return over(minus(top), bottom.of)
+    return top / bottom
+
+
+def square(of: Expression) -> Expression:
+    return NOTHING if of == NOTHING else Power(of.of if isinstance(of, Negative) else of, Number(2.0))
+
+
+def between(one: Expression, other: Expression) -> Expression:
+    """one − other."""
+    if isinstance(one, Number) and isinstance(other, Number):
+        return Number(one.value - other.value, unit="°")
+    return plus(one, NOTHING if is_zero(other) else minus(other))
+
+
+def sine(of: Expression) -> Expression:
+    quarters = _quarters(of)
+    return sin(of) if quarters is None else Number((0.0, 1.0, 0.0, -1.0)[quarters])
+
+
+def cosine(of: Expression) -> Expression:
+    quarters = _quarters(of)
+    return cos(of) if quarters is None else Number((1.0, 0.0, -1.0, 0.0)[quarters])
+
+
+def _quarters(angle: Expression) -> int | None:
+    """How many right angles a typed angle is, of a turn's four; None for any other angle."""
+    square = isinstance(angle, Number) and angle.value % 90 == 0
+    return int(angle.value // 90) % 4 if isinstance(angle, Number) and square else None
+
+
+def is_zero(angle: Expression) -> bool:
+    return isinstance(angle, Number) and angle.value == 0
 
 
 # --- constructions: what is drawn and measured, with points and vectors as complex numbers ----------------

@@ -53,6 +53,20 @@ def branch(number: Value, *branches: Value) -> Value:
     return np.select([number == index for index in range(len(shaped))], shaped, np.nan)
 
 
+EDGE = 1e-9
+"""An angle (rad) or a share this little below an edge belongs to what begins there."""
+
+
+def around(angle: Value) -> Value:
+    """The angle within one turn from 0; one just below a whole turn is 0."""
+    return np.mod(angle + EDGE, 2 * np.pi) - EDGE
+
+
+def amid(value: Value, least: Value, most: Value) -> Value:
+    """1 from `least` up to `most`, 0 elsewhere."""
+    return np.where((value >= least - EDGE) & (value < most - EDGE), 1.0, 0.0)
+
+
 def mean(values: Value, weights: Value = 1.0) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
@@ -110,6 +124,8 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "if_zero": if_zero,
     "within": within,
     "branch": branch,
+    "around": around,
+    "amid": amid,
 }
 """What a `Call` may name.  sin, cos and tan take radians; a `Number` in degrees converts itself."""
 

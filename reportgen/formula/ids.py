@@ -199,6 +199,10 @@ formula_sliding = Name("f.{what}.{slide}")
 formula_angular_velocity = Name("f.omega.{link}")
 formula_angular_acceleration = Name("f.eps.{link}")
 slider_way = Name("x.{slider}")
+loop_distance = Name("f.d.{group}")  # of the outer joints of a group, or of one from its guide
+slide_way = Name("f.s.{joint}")  # of the second link over the first
+slide_velocity = Name("f.v.{joint}")
+slide_acceleration = Name("f.a.{joint}")
 matrix_entry = Name("{matrix}.{number}")
 numerator = Name("q.{link}")
 

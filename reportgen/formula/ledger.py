@@ -236,25 +236,6 @@ class Ledger:
                     entered(id, values)
         return values
 
-    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Ledger:
-        """The same ledger with drawings to other scales (SI, by id), one or [N]: what is on paper is as much longer as
-        its scale is smaller, at every position.  Nothing else changes.
-        """
-        if "scale" in self and "mu.l" in scales:
-            # The scale that the crank was drawn to.
-            scales = {**scales, "scale": scales["mu.l"]}
-        families = dict(self.families)
-        for id, family in self.families.items():
-            if id in scales:
-                families[id] = replace(family, values=np.atleast_1d(scales[id]), definition=None, written=None)
-            elif (scale := vocabulary.scale_on_paper(id)) in scales:
-                longer = self.families[scale].values / scales[scale]
-                # One that was as long as another of another drawing is so no longer.
-                again = isinstance(family.definition, Ref) and vocabulary.scale_on_paper(family.definition.id) != scale
-                definition = None if again else family.definition
-                families[id] = replace(family, values=family.values * longer, definition=definition)
-        return replace(self, families=families, decimals=dict.fromkeys(scales))
-
     def ancestors(self, id: str) -> tuple[str, ...]:
         """Every quantity that one stands on, directly or through others, nearest first."""
         found: dict[str, None] = {}

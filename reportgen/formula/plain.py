@@ -1,9 +1,24 @@
-"""A formula as plain text: v_BA = ω_2·l_AB."""
+"""A formula as plain text: v_BA = ω_2·l_AB, or as a line of Python: v_BA = omega_2 * l_AB."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from reportgen.base.units import Language
-from reportgen.formula import Expression, Number, Symbol, VectorEquation
+from reportgen.formula import (
+    Call,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    Symbol,
+    VectorEquation,
+)
 from reportgen.formula.setting import Sign, TextSetter, Written, known_of, written
 
 
@@ -44,3 +59,56 @@ def formula(node: Expression, language: Language) -> str:
 def quantity(number: Number, language: Language) -> str:
     """A number as printed, with its unit."""
     return written(number, language).text(" ")
+
+
+# --- Python -----------------------------------------------------------------------------------------
+
+NUMPY: Mapping[str, str] = {
+    **{name: f"np.{name}({{}})" for name in ("sin", "cos", "tan", "arcsin", "arccos", "arctan")},
+    "arctan2": "np.arctan2({}, {})",
+    "min": "np.minimum({}, {})",
+    "max": "np.maximum({}, {})",
+    "abs": "np.abs({})",
+    "size": "np.abs({})",
+    "sign": "np.sign({})",
+    "around": "np.mod({} + 1e-9, 2 * np.pi) - 1e-9",
+    "amid": "np.where(({0} >= {1} - 1e-9) & ({0} < {2} - 1e-9), 1, 0)",
+}
+"""Functions of an expression in numpy."""
+
+
+def python(node: Expression, names: Mapping[str, str]) -> str:
+    """An expression in Python, with numpy as np and the `names` of quantities by ids.
+
+    Raises `KeyError` for a quantity without a name and for a function that is no formula.
+    """
+
+    def inside(part: Expression) -> str:
+        text = python(part, names)
+        return f"({text})" if isinstance(part, Sum | Negative) else text
+
+    match node:
+        case Number():
+            return f"np.radians({node.shown:g})" if node.unit == "°" else repr(node.shown).removesuffix(".0")
+        case Symbol(value=float()):
+            return "np.pi"
+        case Ref(id):
+            return names[id]
+        case Sum(terms):
+            parts = [python(term, names) for term in terms]
+            return parts[0] + "".join(f" - {part[1:]}" if part[0] == "-" else f" + {part}" for part in parts[1:])
+        case Negative(of):
+            return f"-{inside(of)}"
+        case Product(factors):
+            return " * ".join(inside(factor) for factor in factors)
+        case Fraction(top, bottom):
+            below = python(bottom, names)
+            return f"{inside(top)} / {below if isinstance(bottom, Ref | Number | Call | Root) else f'({below})'}"
+        case Power(base, exponent):
+            simple = isinstance(base, Ref | Call | Root)
+            return f"{python(base, names) if simple else f'({python(base, names)})'}**{python(exponent, names)}"
+        case Root(of):
+            return f"np.sqrt({python(of, names)})"
+        case Call(name, arguments):
+            return NUMPY[name].format(*(python(argument, names) for argument in arguments))
+    raise KeyError(type(node).__name__)

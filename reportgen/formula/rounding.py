@@ -7,50 +7,20 @@ they are written.  What is chosen (senses, arms, branches) and what is nothing i
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
 
-from reportgen.base.units import significant_decimals
+from reportgen.base.units import figure_decimals, rounded
 from reportgen.formula import Call, Expression, Negative, Ref, ids
-from reportgen.formula.ledger import Ledger, follow, standing_on
+from reportgen.formula.ledger import Ledger, follow
 from reportgen.formula.sheet import ZERO, Family, is_short, is_typed
-
-TIE = 1e-9
-"""Units of the last digit by which floats may miss a five that is rounded up."""
-OFF = 0.01
-"""A result that lies further from the unrounded one than this share of its own largest value needs finer operands."""
-FINER = 2
-"""Figures that operands get beyond the usual ones, at most."""
 
 
 def printed(ledger: Ledger) -> Ledger:
-    """The ledger with every value as it is written down, and the decimals that each is written with.
-
-    The operands of a result that a cancellation spoils get one figure more, and with them what they stand on; twice at
-    most.
-    """
-    finer: dict[str, int] = {}
-    for _ in range(FINER):
-        written = _written(ledger, finer)
-        spoilt = [id for id, family in ledger.families.items() if _is_spoilt(family, written[id])]
-        if not spoilt:
-            return written
-        operands = {other for id in spoilt for other in standing_on(ledger, id)}
-        finer |= {id: finer.get(id, 0) + 1 for id in operands}
-    return _written(ledger, finer)
-
-
-def rounded(values: np.ndarray, decimals: int) -> np.ndarray:
-    """Values rounded half up, as by hand; never a negative zero."""
-    step = 10.0**decimals
-    found: np.ndarray = np.copysign(np.floor(np.abs(values) * step + 0.5 + TIE) / step, values) + 0.0
-    return found
-
-
-def _written(ledger: Ledger, finer: Mapping[str, int]) -> Ledger:
-    decimals = _decimals(ledger, finer)
+    """The ledger with every value as it is written down, and the decimals that each is written with."""
+    decimals = _decimals(ledger)
     lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
 
     def enter(id: str, values: dict[str, np.ndarray]) -> None:
@@ -100,25 +70,23 @@ def _without_dust(values: np.ndarray) -> np.ndarray:
 # --- decimals ---------------------------------------------------------------------------------------
 
 
-def _decimals(ledger: Ledger, finer: Mapping[str, int]) -> dict[str, int | None]:
+def _decimals(ledger: Ledger) -> dict[str, int | None]:
     """The decimals of every family, one number for all that prints under one symbol; None for what was typed."""
     together: dict[object, list[Family]] = {}
     names = _names(ledger)
     for id, family in ledger.families.items():
         together.setdefault(names[id], []).append(family)
-    found = {
-        name: _of_quantity(members, max(finer.get(one.id, 0) for one in members)) for name, members in together.items()
-    }
+    found = {name: _of_quantity(members) for name, members in together.items()}
     chosen = {id: None if _is_typed(family) else found[names[id]] for id, family in ledger.families.items()}
     return {**chosen, **ledger.decimals}
 
 
-def _of_quantity(members: Collection[Family], finer: int) -> int:
+def _of_quantity(members: Collection[Family]) -> int:
     """Decimals that show the largest value of a quantity with the figures of its kind; whole ones whole."""
     how = next(iter(members)).how
     if how.decimals is not None:
         return how.decimals
-    return max(significant_decimals(max(map(_largest, members)), how.digits + finer), 0)
+    return figure_decimals(max(map(_largest, members)), how.digits)
 
 
 def _largest(family: Family) -> float:
@@ -149,14 +117,3 @@ def _names(ledger: Ledger) -> dict[str, object]:
         same = again in names and ledger[again].kind == family.kind
         names.setdefault(id, names[again] if same else (family.symbol, family.kind))
     return names
-
-
-# --- what a cancellation spoils ----------------------------------------------------------------------
-
-
-def _is_spoilt(family: Family, written: Family) -> bool:
-    """Whether a computed result lies further from the unrounded one than a small share of its own largest value."""
-    if family.definition is None or family.is_plane or family.hidden or family.constructed:
-        return False
-    largest = _largest(family) * family.how.scale
-    return bool(largest and np.any(np.abs(written.values - family.values) > OFF * largest))

@@ -13,7 +13,7 @@ from itertools import repeat
 from typing import ClassVar, Generic, Literal, TypeVar
 
 from reportgen.base.errors import TypesetterError
-from reportgen.base.units import Language, write
+from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.formula import (
     Call,
     Chain,
@@ -152,6 +152,10 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
         match node:
             case Symbol():
                 return node
+            case Number(value, decimals, unit) if parts := by_power_of_ten(value, decimals):
+                factor = Written(write(parts.factor, parts.decimals, language), "")
+                power = of(Power(Number(10.0), Number(float(parts.exponent))))
+                return MathRow((factor, DOT, power, *([Written("", unit)] if unit else [])))
             case Number():
                 return written(node, language)
             case Ref(id):
@@ -231,7 +235,8 @@ def level(node: Expression, linear: bool = False) -> int:
         case Sum() | Negative():
             return SUM
         case Number():
-            return SUM if node.shown < 0 else MARKED if node.unit else ATOM
+            large = by_power_of_ten(node.value, node.decimals)
+            return SUM if node.shown < 0 else PRODUCT if large else MARKED if node.unit else ATOM
         case Product():
             return PRODUCT
         case Fraction() | Power() | Call("cross" | "dot"):

@@ -93,6 +93,11 @@ class Family:
         return vocabulary.row(self.id).around
 
     @property
+    def is_of_vector(self) -> bool:
+        """Whether it is an angle of the vector of size `of`, which has none where that is nothing."""
+        return bool(self.of) and self.how.unit == "°"
+
+    @property
     def is_signed_rotation(self) -> bool:
         """Whether it is an angular velocity or acceleration with its sign, whose size is another quantity."""
         return bool(self.of) and self.kind in ("angular velocity", "angular acceleration")

@@ -61,7 +61,7 @@ KINDS: dict[str, QuantityKind] = {
     "phase share": QuantityKind("", decimals=5),
     "follower velocity": QuantityKind("mm/s", 1e-3),
     "follower acceleration": QuantityKind("mm/s²", 1e-3),
-    "graph value": QuantityKind("", decimals=6),
+    "graph value": QuantityKind("", decimals=5),
     "swing": QuantityKind("°", math.pi / 180, decimals=4),
     "arc": QuantityKind("rad", digits=6),
     "wheel length": QuantityKind("mm", 1e-3, decimals=3),
@@ -267,6 +267,10 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.angle, "φ", "angle", name="angle"),
     VocabularyRow(ids.formula_angle, "φ", "angle", name="angle"),
     VocabularyRow(ids.inclination, "β", "angle", name="inclination"),
+    VocabularyRow(ids.loop_distance, "d", "length", name="loop distance"),
+    VocabularyRow(ids.slide_way, "s", "length", name="slide way"),
+    VocabularyRow(ids.slide_velocity, "v", "velocity", name="slide velocity"),
+    VocabularyRow(ids.slide_acceleration, "a", "acceleration", name="slide acceleration"),
     VocabularyRow(ids.formula_velocity, "v", "velocity", name="formula velocity"),
     VocabularyRow(ids.formula_acceleration, "a", "acceleration", name="formula acceleration"),
     VocabularyRow(ids.formula_sliding.only(what="v"), "v", "velocity"),
@@ -468,17 +472,6 @@ def plan(id: str) -> str:
     """The id of the scale that a length on paper is measured with; "" for anything else."""
     found, parts = _found(id)
     return found.plan.format(**parts)
-
-
-def scale_on_paper(id: str) -> str:
-    """The id of the scale of a length or a point on paper; "" for anything else."""
-    if is_laid(id):
-        return "mu.l"
-    if found := ids.plan_point.read(id):
-        return ids.scale(found["what"])
-    if found := ids.force_corner.read(id):
-        return ids.force_scale(found["group"])
-    return plan(id)
 
 
 def is_laid(id: str) -> bool:

@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
-from reportgen.base.errors import SheetError
 from reportgen.base.units import MM, nice_up
-from reportgen.base.words import word
 from reportgen.drawing import Arrow, Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
 from reportgen.drawing.labels import Canvas, Request, finish, label
-from reportgen.drawing.sheet import ENLARGED, GAP, DrawingSheet, PlacedScene, Room, headed, lettered
+from reportgen.drawing.sheet import ENLARGED, DrawingSheet, lettered
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears.train import ALPHA, turned
 from reportgen.gears.train_solution import OTHER, STEPS, SolvedTrain
-from reportgen.sheets.frame import DEFAULT, SIZES, blocks, fields_of, frame_scene, read_block, room
+from reportgen.sheets import on_sheets
+from reportgen.sheets.packing import DrawingPlate
 
 FRONT = 80.0
 """What the scheme seen along its axis may fill on a page (mm)."""
@@ -41,9 +40,6 @@ APART = 16.0
 SAMPLES = 360
 FILMED = 110.0
 """What the wheels may fill on a page (mm)."""
-USUAL_SIZES = ("A3", "A2", "A1")
-LARGER = (2.0, 1.6, 1.25, 1.0, 0.75, 0.6)
-"""So many times as large as in a report the drawings are tried on a sheet; triangles stay 2:1 or 1:1."""
 
 
 def radii(case: SolvedTrain) -> dict[str, float]:
@@ -311,46 +307,11 @@ def _values(case: SolvedTrain) -> Iterator[MomentValue]:
 
 
 def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
-    """The sheet of a size, else of the file's, else of the least that has room; raises `SheetError` where none has."""
-    language = case.assignment.language
-    frame = read_block(block or blocks(case.assignment.report.school or "")[DEFAULT[language]], language)
-    wanted = size or case.assignment.report.sheets or ""
-    for paper in (wanted,) if wanted else USUAL_SIZES:
-        space = room(paper, frame.margins, frame.size)
-        parts = next(filter(None, (_beside(_plates(case, larger), space) for larger in LARGER)), None)
-        if parts is None:
-            continue
-        title = {"title": str(case.words["train"]["sheet"]), "sheet": "1", "sheets": "1", "format": paper}
-        fields = fields_of(case) | title
-        corner = complex(space.high.real - frame.size[0], space.low.imag)
-        own = (
-            PlacedScene("frame", "frame", frame_scene(paper, frame.margins, frame.note(fields))),
-            PlacedScene("title block", "frame", frame.scene(fields), corner),
-        )
-        return [DrawingSheet(paper, *SIZES[paper], (*own, *parts))]
-    raise SheetError(word("train_sheet", language, size=paper))
-
-
-def _plates(case: SolvedTrain, larger: float) -> Iterator[tuple[str, str, Scene]]:
-    """Name, layer and drawing of each plate; scales are round once plates are enlarged."""
+    """The sheet of scheme and triangles, scales round once they are enlarged; raises as `on_sheets` does."""
     drawn = (
-        ("scheme", "scheme", scheme_views(case, FRONT * larger, ENLARGED)),
-        ("triangles", "plans", velocity_triangles(case, (2.0 if larger > 1 else 1.0) / ENLARGED)),
+        ("scheme", "scheme", scheme_views(case, FRONT, ENLARGED)),
+        ("triangles", "plans", velocity_triangles(case, 1.0 / ENLARGED)),
     )
-    for name, layer, scene in drawn:
-        yield name, layer, headed(lettered(scene), str(case.words["train"]["captions"][f"figure-{name}"]), "")
-
-
-def _beside(plates: Iterable[tuple[str, str, Scene]], space: Room) -> list[PlacedScene]:
-    """The plates in a row from the upper left, above the title block where it is in their way; none without room."""
-    parts: list[PlacedScene] = []
-    left = space.low.real + GAP
-    for name, layer, scene in plates:
-        right = left + scene.width
-        floor = space.low.imag + (space.block.imag if right > space.high.real - space.block.real else 0.0) + GAP
-        at = complex(left, space.high.imag - GAP - scene.height)
-        if right > space.high.real - GAP or at.imag < floor:
-            return []
-        parts.append(PlacedScene(name, layer, scene, at))
-        left = right + GAP
-    return parts
+    captions = case.words["train"]["captions"]
+    plates = [DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(one),)) for name, layer, one in drawn]
+    return on_sheets(case, {"train": plates}, size, block)

@@ -8,7 +8,7 @@ compute.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
@@ -121,6 +121,12 @@ class Linkage:
     def links(self) -> tuple[int, ...]:
         """Numbers of the moving links, the driver first."""
         return (DRIVER, *(link for dyad in self.dyads for link in dyad.links))
+
+
+def under(name: str, link: int, taken: Collection[str]) -> str:
+    """The name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
+    plain = f"{name}{link}"
+    return f"{name}′{link}" if plain in taken else plain
 
 
 # --- joints and freedom ---------------------------------------------------------------------------

@@ -137,7 +137,7 @@ def breaks(machine: Machine) -> np.ndarray:
     laws = [*(force.law for force in machine.applied), *(torque.law for torque in machine.torques)]
     found = [corner for law in laws for corner in law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
-    return np.unique(np.mod(found, whole).round(13)) if found else np.array([])
+    return np.array(sorted(set(np.mod(found, whole).round(13).tolist())))
 
 
 def _work(machine: Machine) -> float:

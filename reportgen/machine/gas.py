@@ -99,7 +99,7 @@ class StrokeIndicator:
         wanted = np.tile(inner, starts.size)
         outward = np.repeat(np.asarray(OUTWARD), inner.size)
         found = crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
-        return tuple(float(angle) for angle in np.unique(np.concatenate((edges, found))))
+        return tuple(sorted({*edges.tolist(), *found.tolist()}))
 
     def work(self, area: float, stroke: float) -> float:
         """Indicated work of one cylinder per cycle (J), W = A H Σ ±∫ p d(s/H), exact for the table.

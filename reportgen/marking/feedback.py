@@ -10,7 +10,7 @@ from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.errors import Problem
-from reportgen.base.units import MINUS, Language, printed, write
+from reportgen.base.units import MINUS, Language, rounded, write
 from reportgen.formula import Number
 from reportgen.marking.key import shown_number, words_of
 from reportgen.marking.key_files import band, band_decimals
@@ -234,7 +234,7 @@ def sentence(words: str, /, **parts: Inline | str) -> Inlines:
 
 def points_text(points: float, language: Language) -> str:
     """Points to at most two decimals."""
-    return write(printed(points, 2), None, language)
+    return write(rounded(points, 2), None, language)
 
 
 def _given_value(row: KeyRow, value: float) -> Inline:

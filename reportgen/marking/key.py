@@ -134,7 +134,7 @@ def _values(ledger: Ledger, id: str) -> np.ndarray:
     """The values of a quantity (SI) as a key has them: a direction and an arm by their size."""
     family = ledger[id]
     values = np.array([family.at(k + 1).real for k in range(len(family.values))])
-    if family.is_direction:
+    if family.is_of_vector:
         # A vector of no length has none.
         exists = [ledger[family.of].at(k + 1) != 0 for k in range(len(values))]
         values = np.where(exists, values, np.nan)

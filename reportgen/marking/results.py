@@ -14,7 +14,16 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.units import MM, Language, significant_decimals, write
+from reportgen.base.units import (
+    LARGE,
+    MM,
+    MOST_DECIMALS,
+    Language,
+    figure_decimals,
+    rounded,
+    significant_decimals,
+    write,
+)
 from reportgen.base.words import word
 from reportgen.formula import ids
 from reportgen.formula.ledger import Ledger
@@ -139,7 +148,8 @@ def pair(value: complex) -> list[float] | None:
 
 
 DIGITS = 5
-MOST_DECIMALS = 4
+NOTHING = 1e-9
+"""Of its scale: less is what rounding left over."""
 LEADS = ("position", "crank_angle", "driver_way")
 """Headings that stand in every table: the position, and where the driver is."""
 MOST_COLUMNS = 7
@@ -156,13 +166,15 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
 
     # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
     console = Console(width=500)
+    scales = _scales(results["positions"])
     for name, rows in tables(results["positions"]).items():
         for headings in _split(rows[0]):
             table = Table(title=word(name, language), title_justify="left", title_style="bold")
             for heading in headings:
                 text = word(heading, language) if heading in WORDS else heading
                 table.add_column(text, justify="right", no_wrap=True)
-            for cells in zip(*(_column(rows, heading, language) for heading in headings), strict=True):
+            columns = [_column([row.get(one) for row in rows], _scale(name, one, scales), language) for one in headings]
+            for cells in zip(*columns, strict=True):
                 table.add_row(*cells)
             console.print(table)
             console.print()
@@ -243,20 +255,50 @@ def _size(vector: Any) -> float | None:
     return None if parts is None else math.hypot(*parts)
 
 
-def _column(rows: Sequence[Row], heading: str, language: Language) -> list[str]:
-    """The column's numbers, all with the decimals that give the largest of them `DIGITS` digits."""
-    values = [row.get(heading) for row in rows]
+def _column(values: Sequence[float | str | None], scale: float, language: Language) -> list[str]:
+    """The column's numbers with the decimals that give the largest of them `DIGITS` figures.
+
+    What is nothing beside its `scale` is 0.  What these decimals would make nothing has figures of its own, and so have
+    all where the largest is very large or very small.
+    """
     numbers = [value for value in values if not (value is None or isinstance(value, str))]
     largest = max(map(abs, numbers), default=0.0)
-    whole = all(float(value).is_integer() for value in numbers)
-    decimals = 0 if whole else min(max(significant_decimals(largest, DIGITS), 0), MOST_DECIMALS)
+    whole = largest < LARGE and all(float(value).is_integer() for value in numbers)
+    decimals = 0 if whole else figure_decimals(largest, DIGITS)
 
     def cell(value: float | str | None) -> str:
-        if value is None:
-            return "–"
-        return value if isinstance(value, str) else write(value, decimals, language)
+        if value is None or isinstance(value, str):
+            return value or "–"
+        if abs(value) <= NOTHING * max(scale, largest):
+            return write(0.0, decimals if 0 <= decimals <= MOST_DECIMALS else 0, language)
+        alike = 0 <= decimals <= MOST_DECIMALS and rounded(value, decimals) != 0
+        return write(value, decimals if alike else significant_decimals(value, DIGITS), language)
 
     return [cell(value) for value in values]
+
+
+def _scale(name: str, heading: str, scales: Mapping[str, float]) -> float:
+    """The scale of a column: of its table, of links by their letter; none for where the driver is."""
+    return 0.0 if heading in LEADS else scales[heading[:1] if name == "links" else name]
+
+
+def _scales(positions: Sequence[Mapping[str, Any] | None]) -> Mapping[str, float]:
+    """How large the values of each table are at their largest, torques by the forces and the lengths that make them."""
+    found: dict[str, float] = defaultdict(float)
+    for position in filter(None, positions):
+        points, links = position["points"].values(), position["links"].values()
+        for name, sizes in {
+            "velocities": [_size(point["v"]) for point in points],
+            "accelerations": [_size(point["a"]) for point in points],
+            "length": [_size(point["p"]) for point in points],
+            "ω": [link["omega"] for link in links],
+            "ε": [link["epsilon"] for link in links] + [link["omega"] ** 2 for link in links],
+            "reactions": [_size(force) for force in position.get("reactions", {}).values()],
+        }.items():
+            found[name] = max([found[name], *(abs(size) for size in sizes if size is not None)])
+    found["loads"] = found["force"] = found["reactions"]
+    found["torque"] = found["reactions"] * found["length"]
+    return found
 
 
 # --- results as files -----------------------------------------------------------------------------

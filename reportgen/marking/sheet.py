@@ -374,15 +374,6 @@ _NUMBER = re.compile(
     r"(?P<sign>[+-]?)\s*(?P<body>[0-9]+(?:[ '][0-9]{3}(?![0-9])|[.,][0-9]+)*[.,]?|[.,][0-9]+)"
     r"(?:[eE](?P<power>[+-]?[0-9]{1,3}))?(?P<unit>\s*[^\s0-9].*|\s+1/.*)?"
 )
-_JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
-SPELLED = {
-    "độ": "deg",
-    **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
-    "%": "percent",
-    "1/s": "s-1",
-    **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
-}
-"""Units that students write and `units` does not know."""
 
 
 def is_blank(text: str) -> bool:
@@ -462,12 +453,11 @@ def _factor(given: str, unit: str, text: str) -> float:
     """What one of the unit given is in the unit asked for."""
     if not unit:
         raise QuantityFault("unexpected-unit", text=text)
-    spelled = SPELLED.get(given.casefold(), _JOINED.sub(r"\1 ", given).replace("º", "°"))
     try:
-        factor, dimension = units.scale(spelled)
+        factor, dimension = units.scale(given)
     except ValueError:
         raise QuantityFault("unknown-unit", given=given, unit=unit) from None
-    wanted_factor, wanted = units.scale(SPELLED.get(unit, unit))
+    wanted_factor, wanted = units.scale(unit)
     if dimension not in (wanted, _without_radian(wanted)):
         raise QuantityFault("wrong-unit", given=given, unit=unit)
     return factor / wanted_factor

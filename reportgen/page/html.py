@@ -246,6 +246,8 @@ class Blocks:
                 return self.cover(block)
             case tree.Contents(title):
                 return self.contents(title)
+            case tree.Listing(lines):
+                return f'<pre class="listing">{escape(chr(10).join(lines))}</pre>'
             case tree.BlankLine(label):
                 return f'<p class="blank">{escape(label)}</p>'
             case _:

@@ -11,6 +11,7 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from http import HTTPStatus
@@ -23,7 +24,7 @@ from reportgen import report as tree
 from reportgen.base.errors import AssignmentError, ReportgenError
 from reportgen.base.files import reported
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path, templates, unexpected
+from reportgen.base.words import load_words, search_path, spoken, templates, unexpected
 from reportgen.page import html, moving_part
 from reportgen.page.html import Live, Panel, WrittenReport
 from reportgen.report import Document
@@ -79,7 +80,7 @@ class Desk:
     closed: bool = False
 
     def __post_init__(self) -> None:
-        first = self.language or "vi"
+        first = self.language or spoken()
         self.edition = Edition(first, load_words(search_path(first)))
         self._asked = 0
         self._worker = threading.Thread(target=self._write_reports, daemon=True)
@@ -334,7 +335,7 @@ def watch(
     threads = (
         threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True),
         threading.Thread(target=_follow, args=(path, desk, stop, _state(path)), daemon=True),
-        threading.Thread(target=_follow_templates, args=(desk, stop), daemon=True),
+        threading.Thread(target=_follow_templates, args=(desk, stop, _school(path, opens)), daemon=True),
     )
     try:
         for thread in threads:
@@ -353,6 +354,13 @@ def watch(
         desk.close()
         server.shutdown()
         server.server_close()
+
+
+def _school(path: Path, opens: Opener) -> Path | None:
+    """The school's folder that a file names when it is opened first."""
+    with suppress(ReportgenError):
+        return opens(path, None).assignment.school
+    return None
 
 
 def _follow(path: Path, desk: Desk, stop: threading.Event, shown: object) -> None:
@@ -378,12 +386,12 @@ def _state(path: Path) -> tuple[float, ...]:
     return about.st_dev, about.st_ino, about.st_mode, about.st_size, about.st_mtime_ns, about.st_ctime_ns
 
 
-def _follow_templates(desk: Desk, stop: threading.Event) -> None:
-    """Renew the desk whenever a file of the templates changes."""
+def _follow_templates(desk: Desk, stop: threading.Event, school: Path | None) -> None:
+    """Renew the desk whenever a file of the templates changes, or of a school's folder."""
     from watchfiles import watch as changes
 
     for _ in changes(
-        templates(),
+        *filter(None, (templates(), school and templates() / school)),
         watch_filter=None,
         debounce=LONGEST,
         step=QUIET,

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.base.units import significant_decimals
+from reportgen.base.units import rounded, significant_decimals
 from reportgen.formula import PI, Expression, Number, Ref, Symbol, atan, call, circle_line, ids, sqrt, total
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.rounding import rounded
 from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
@@ -143,7 +142,7 @@ def _stroke(q: Sheet, piston: Piston) -> Ref:
     """The stroke of a piston: H as given, or with five figures as its dead centres are found."""
     if "H" in q and abs(q.si("H") - piston.stroke) <= ZERO * piston.stroke:
         return q["H"]
-    found = rounded(np.array([piston.stroke]), significant_decimals(piston.stroke, KINDS["length"].digits))
+    found = rounded(piston.stroke, significant_decimals(piston.stroke, KINDS["length"].digits))
     return q.give(ids.stroke(piston.link), found, Symbol("H", str(piston.link)), "length", hidden=True)
 
 

@@ -170,7 +170,7 @@ def _rpp(g: Group) -> Polygon:
     polygon = _close(g, turned(g.q[ids.slot(g.j)]), turned(g.q[ids.guide(g.j)]), from_between=True)
     _slide(g, g.inner, g.start, g.on_i)
     q, back = g.q, ids.joint(g.i, g.j)
-    reaction = opposite(q, back, g.inner, g.j, g.start)
+    reaction = opposite(q, back, g.inner, g.j, g.start, g.name)
     if ids.reaction_couple(g.inner) in q:
         q.construct(ids.couple(ids.reaction_force(back)), q[ids.reaction_couple(g.inner)])
     _slide(g, g.end, g.dyad.middle, (reaction, *g.on_j))
@@ -218,13 +218,9 @@ def _close(
     if tangents[1]:
         path.lay(ids.reaction_force(g.end, "t"), g.j)
     after = path.last
-    for load in g.on_j:
-        if load.point:
-            path.lay(load.name, g.j)
+    path.lay_loads(g.on_j)
     between = path.last
-    for load in g.on_i:
-        if load.point:
-            path.lay(load.name, g.i)
+    path.lay_loads(g.on_i)
     before = path.last
     if tangents[0]:
         path.lay(ids.reaction_force(g.outer, "t"), g.i)
@@ -337,9 +333,7 @@ def _driving_slide(statics: Statics, pin: str, own: tuple[LoadOn, ...]) -> Polyg
 
 def _laid(statics: Statics, own: tuple[LoadOn, ...]) -> ForceChain:
     path = ForceChain(statics.q)
-    for load in own:
-        if load.point:
-            path.lay(load.name, DRIVER)
+    path.lay_loads(own)
     return path
 
 

@@ -34,7 +34,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length, on_plan, segment
-from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint
+from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, under
 from reportgen.plans.motion import (
     NOWHERE,
     POLES,
@@ -46,7 +46,7 @@ from reportgen.plans.motion import (
     enter_centres,
     slide,
 )
-from reportgen.plans.sides import Side, image, scheme, sides, under
+from reportgen.plans.sides import Side, image, scheme, sides
 
 
 def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = ()) -> None:

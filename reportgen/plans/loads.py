@@ -39,7 +39,10 @@ class Origin(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class LoadOn:
-    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, what its arm is called."""
+    """A load: its name, its link, the point it acts at ("" for a couple alone), its size, what its arm is called.
+
+    A force that was read from the plan of another group has the scale of that plan.
+    """
 
     name: str
     link: int
@@ -47,6 +50,7 @@ class LoadOn:
     size: Ref
     origin: Origin
     letters: str = ""
+    read_at: Ref | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,17 +181,18 @@ def carried_reactions(statics: Statics, links: tuple[int, ...]) -> tuple[LoadOn,
                 continue
             here, there = ids.joint(link, carrier), ids.joint(carrier, link)
             place = outer if isinstance(outer, str) else dyad.middle
-            loads.append(opposite(q, here, there, carrier, place))
+            loads.append(opposite(q, here, there, carrier, place, ids.joint(*dyad.links)))
             if ids.reaction_couple(there) in q:
                 q.construct(ids.couple(ids.reaction_force(here)), q[ids.reaction_couple(there)])
     return tuple(loads)
 
 
-def opposite(q: Sheet, here: str, there: str, link: int, point: str) -> LoadOn:
-    """Enter a reaction as that of the other link turned round: R42 = −R24."""
+def opposite(q: Sheet, here: str, there: str, link: int, point: str, plan: str) -> LoadOn:
+    """Enter a reaction, which a group's plan gave, as that of the other link turned round: R42 = −R24."""
     size = q.define(ids.reaction(here), q[ids.reaction(there)], scale=q.families[ids.reaction(there)].scale)
     q.construct(ids.force_vector(ids.reaction_force(here)), -q[ids.force_vector(ids.reaction_force(there))], of=size.id)
-    return LoadOn(ids.reaction_force(here), link, point, size, Origin.reaction, here)
+    read_at = q[ids.force_scale(plan)]
+    return LoadOn(ids.reaction_force(here), link, point, size, Origin.reaction, letters=here, read_at=read_at)
 
 
 # --- moments --------------------------------------------------------------------------------------
@@ -303,6 +308,14 @@ class ForceChain:
         self.first = self.last = next(self._letters)
         self.corners: dict[str, Expression] = {self.first: Number(0.0)}
         self.edges: list[Edge] = []
+        self.read_at: list[Ref] = []
+
+    def lay_loads(self, loads: Iterable[LoadOn]) -> None:
+        """Lay the forces among some loads on from the last vertex."""
+        for load in loads:
+            if load.point:
+                self.lay(load.name, load.link)
+                self.read_at += [load.read_at] if load.read_at else []
 
     def lay(self, name: str, link: int) -> None:
         """Lay the force `F.name` on from the last vertex."""
@@ -325,7 +338,8 @@ def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closin
     corners = path.corners | ({} if closing is None else {"n": closing(path.corners, Number(1.0))})
     values = {id: family.values for id, family in q.families.items()}
     sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
-    μ = q.give(ids.force_scale(name), own_scales(sizes, LEAST_FORCES), Symbol("μ", title))
+    scales = own_scales(sizes, LEAST_FORCES, [q.value(one) for one in path.read_at])
+    μ = q.give(ids.force_scale(name), scales, Symbol("μ", title))
     vertices: dict[str, Expression] = {path.first: q.construct(ids.force_corner(name, path.first), Number(0.0))}
     for edge in path.edges:
         laid = q.construct(ids.laid_force(name, edge.name), q[ids.force_vector(edge.name)] / μ)

@@ -364,7 +364,7 @@ def _enter_centre(k: Kinematics, turn: Side) -> None:
     q.define(ids.centre_velocity(link), v * (PC / PB), Symbol("v", end), scale=sizes.velocity)
     for name in (base, end):
         to_link = abs(arg(quotient(k.image("v", name), q[ids.rod(link)])))
-        q.define(ids.rod_angle(link, name), to_link, scale=1.0)
+        q.define(ids.rod_angle(link, name), to_link, scale=1.0, of=ids.velocity(name))
     for name in (base, end):
         along = q[ids.velocity(name)] * cos(q[ids.rod_angle(link, name)])
         q.define(ids.projection(link, name), along, scale=sizes.velocity)

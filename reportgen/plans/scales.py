@@ -56,14 +56,17 @@ def common_scale(sizes: np.ndarray, worked: Sequence[int], least: float) -> floa
     return max(filling(shown, least), fitting(shown, TEXT_BOX), on_sheet) or PER_MM
 
 
-def own_scales(sizes: np.ndarray, least: float) -> np.ndarray:
+def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
     """A scale for the plan of each position [N]: it is at least so long, or fits a page of text just so.
 
-    The largest of them therefore serves all plans together.  A position without forces takes that one.
+    The largest of them therefore serves all plans together.  A position without forces takes that one.  Forces
+    `read_at` other scales are laid off at none that is finer: what a ruler left of them would be drawn larger.
     """
     known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > UNLOADED * np.nanmax(sizes, initial=0.0))
     scales = [
         max(filling(one[:, None], least), fitting(one[:, None], TEXT_BOX)) if there else 0.0
         for one, there in zip(sizes.T, known, strict=True)
     ]
-    return np.array([scale or max(scales) or PER_MM for scale in scales])
+    own = np.array([scale or max(scales) or PER_MM for scale in scales])
+    coarsest: np.ndarray = np.max([own, *read_at], axis=0)
+    return coarsest

@@ -20,22 +20,16 @@ RPP  P's point of j slides over P      it slides over the guide's link
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from reportgen.formula import ids
-from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners
+from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners, under
 
 
 def image(name: str) -> str:
     """A point's letter on a plan: S2 → s2."""
     return name.lower()
-
-
-def under(name: str, link: int, taken: Collection[str]) -> str:
-    """The name of the point of a link that lies under a pin now: B on link 3 → B3, B′3 where B3 is taken."""
-    plain = f"{name}{link}"
-    return f"{name}′{link}" if plain in taken else plain
 
 
 @dataclass(frozen=True, slots=True)

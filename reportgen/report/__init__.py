@@ -210,11 +210,20 @@ class BlankLine:
 
 
 @dataclass(frozen=True, slots=True)
+class Listing:
+    """Lines of a program, set as they stand in letters of one width."""
+
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class PageBreak:
     pass
 
 
-Block = Section | Paragraph | List | Equation | Table | Figure | Plate | Cover | Contents | BlankLine | PageBreak
+Block = (
+    Section | Paragraph | List | Equation | Table | Figure | Plate | Cover | Contents | BlankLine | Listing | PageBreak
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,6 +297,8 @@ def lines_of(block: Block, document: Document) -> Iterator[str]:
             yield heading
         case BlankLine(label):
             yield f"{label} …".strip()
+        case Listing(code):
+            yield from code
         case PageBreak():
             pass
 

@@ -22,8 +22,6 @@ from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
-from reportgen.drawing.film import Film
-from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Expression, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
@@ -34,6 +32,8 @@ from reportgen.report import Cover, Document
 if TYPE_CHECKING:
     import numpy as np
 
+    from reportgen.drawing.film import Film
+    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
     from reportgen.machine.flywheel import RegulatedCycle
@@ -124,8 +124,13 @@ class Case(Protocol):
     def film(self) -> Film | None:
         """What moves on its page, if anything does."""
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
-        """Its drawing sheets; raises `SheetError` where there is nothing to draw or a plate is too large."""
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its drawing sheets, with `every` plate or those usually handed in.
+
+        Raises `SheetError` where there is nothing to draw, and `AssignmentError` where a plate is too large.
+        """
 
 
 # --- an assignment opened once with its words -----------------------------------------------------
@@ -148,7 +153,7 @@ class Opened:
 
         A school's templates are rendered in a process that can be ended.  Raises `TemplateError` where that was done.
         """
-        if not self.assignment.report.school:
+        if self.assignment.school is None:
             return make(self)
         from reportgen.base.limits import TEMPLATES, LimitError, call_within
 
@@ -163,7 +168,7 @@ class Opened:
     def places(self) -> tuple[Path, ...]:
         """Where the words of this language, machine and school are looked for."""
         assignment = self.assignment
-        return search_path(assignment.language, assignment.kind, assignment.report.school or "", self.root)
+        return search_path(assignment.language, assignment.kind, assignment.school or "", self.root)
 
     @cached_property
     def words(self) -> Mapping[str, Any]:
@@ -231,9 +236,6 @@ class Opened:
 class Calculation(Opened):
     """A machine: its assignment with all that is computed of it."""
 
-    found: tuple[Analysis, PlannedLedger] | None = field(default=None, compare=False, repr=False)
-    """What is known already of a calculation whose drawings alone are others."""
-
     @cached_property
     def analysis(self) -> Analysis:
         """Everything computed, as arrays over the positions.
@@ -242,8 +244,6 @@ class Calculation(Opened):
         """
         from reportgen.machine.analysis import analyse
 
-        if self.found is not None:
-            return self.found[0]
         kind, language = self.assignment.kind, self.assignment.language
         machine = getattr(catalogue.module(kind), "machine", None)
         if machine is None:
@@ -255,8 +255,6 @@ class Calculation(Opened):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.plans import write_ledger
 
-        if self.found is not None:
-            return self.found[1]
         written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
@@ -279,11 +277,6 @@ class Calculation(Opened):
     def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
-
-    def redrawn(self, scales: Mapping[str, float | np.ndarray]) -> Self:
-        """The same with drawings to other scales (SI, by id), one or [N]."""
-        written = replace(self.written, ledger=self.ledger.redrawn(scales))
-        return replace(self, found=(self.analysis, written))
 
 
 # --- the answer key of an assignment, as data -----------------------------------------------------

@@ -3,14 +3,36 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+import re
+import textwrap
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import islice
+from keyword import iskeyword
 
+import numpy as np
+
+from reportgen.base.errors import NotOfferedError
+from reportgen.base.words import word
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary, walk
-from reportgen.formula.vocabulary import on_plan
-from reportgen.machine.loads import Applied
-from reportgen.report import Block, Cell, Column, Inline, InlineMath, Inlines, Paragraph, Table, Text, Value, listed
+from reportgen.formula.plain import python
+from reportgen.formula.vocabulary import Chapter, on_plan
+from reportgen.machine import DRIVER
+from reportgen.machine.loads import FULL_TURN, Applied
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Inline,
+    InlineMath,
+    Inlines,
+    Listing,
+    Paragraph,
+    Table,
+    Text,
+    Value,
+    listed,
+)
 from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 from reportgen.report.phrases import sign
 from reportgen.report.report import Report
@@ -251,3 +273,117 @@ def images(report: Report) -> Inlines:
     """The images of the crank pin on the plans, for the conventions: a and a′."""
     pin = report.driver.pin
     return listed([InlineMath(on_plan(pin)), InlineMath(on_plan(pin, prime=True))])
+
+
+def theory_of(report: Report, what: str) -> list[str]:
+    """The parts of the theory that the plans of velocities ("v") or accelerations ("a") of this report stand on."""
+    points = [place for place in report.machine.linkage.points if place.link != DRIVER]
+    if what == "v":
+        return report.parts("theory-two-equations") if any(abs(place.local.imag) > 0 for place in points) else []
+    inclined = ["theory-inclination"] if report.has_turning_links else []
+    similar = ["theory-similarity"] if any(group.similar("a") for group in report.groups) else []
+    return report.parts(*inclined, *similar)
+
+
+# --- a program of the closed formulas -----------------------------------------------------------------
+
+KINDS_SI = {
+    "angle": "rad",
+    "diameter": "m",
+    "area": "m2",
+    "speed of rotation": "rpm",
+    "length": "m",
+    "velocity": "m/s",
+    "acceleration": "m/s2",
+    "angular velocity": "rad/s",
+    "angular acceleration": "rad/s2",
+    "weight": "N",
+    "force": "N",
+    "mass": "kg",
+    "moment of inertia": "kg m2",
+    "torque": "N m",
+    "gravity": "m/s2",
+}
+"""SI units in letters that every keyboard has."""
+LONGEST = 100
+"""Characters that a line of the program has room for."""
+TABULATED = """names = list(table)
+for first in range(0, len(names), 4):
+    shown = names[first:first + 4]
+    print("position " + " ".join(f"{name:>23}" for name in shown))
+    for k in range(N):
+        print(f"{k + 1:8d} " + " ".join(f"{table[name][k]:23.15e}" for name in shown))"""
+
+
+def program(report: Report) -> Listing:
+    """The closed formulas as a program of its own: given data, the formulas in their order, a table of all they give.
+
+    Its quantities are in SI units and rad, none is rounded.  What no formula gives stands with its values.
+    Raises `NotOfferedError` for a machine without closed formulas.
+    """
+    ledger, kind = report.case.ledger, report.assignment.kind
+    changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
+    found = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
+    if not found:
+        raise NotOfferedError(word("no_listing", report.assignment.language, kind=kind))
+    needed = {other for id in found for other in (id, *ledger.ancestors(id))}
+    data: list[str] = []
+    formulas: list[str] = []
+    names: dict[str, str] = {}
+    for id, family in ledger.families.items():
+        if id not in needed:
+            continue
+        names[id] = name = _python_name(id, names.values())
+        note = "  # " + ", ".join(filter(None, (KINDS_SI.get(family.kind, ""), report.given_names.get(id, ""))))
+        try:
+            assert family.definition is not None
+            formulas += _assigned(name, python(family.definition, names), note)
+        except (AssertionError, KeyError):
+            data += _assigned(name, _given(family.values, report.machine.count), note)
+    table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in found), LONGEST - 4)
+    title, given, worked, shown = report.words["listing"]
+    return Listing(
+        (
+            f"# {title.format(machine=report.case.title, id=report.assignment.id)}",
+            "import numpy as np",
+            "",
+            f"N = {report.cycle_count}",
+            f"# {given}",
+            *data,
+            f"# {worked}",
+            *formulas,
+            f"# {shown}",
+            "table = dict(",
+            *(f"    {line}" for line in table),
+            ")",
+            *TABULATED.splitlines(),
+        )
+    )
+
+
+def _python_name(id: str, taken: Collection[str]) -> str:
+    """A quantity's name in Python, by its id: f.omega.3 is omega_3."""
+    plain = re.sub(r"[^0-9A-Za-z]+", "_", id.removeprefix("f.")).strip("_")
+    name = f"{plain}_" if iskeyword(plain) or plain in ("N", "np") else plain
+    return name if name not in taken else _python_name(f"{id}.f", taken)
+
+
+def _given(values: np.ndarray, count: int) -> str:
+    """Values as they stand; angles that go round evenly by their law."""
+    if len(values) == 1:
+        return repr(float(values[0].real))
+    for turn in (1, -1):
+        even = values[0] + turn * np.arange(len(values)) * (FULL_TURN / count)
+        if np.allclose(np.exp(1j * even), np.exp(1j * values), rtol=0, atol=1e-12):
+            sign = "+" if turn > 0 else "-"
+            return f"np.mod({float(values[0])!r} {sign} 2 * np.pi / {count} * np.arange(N), 2 * np.pi)"
+    return f"np.array([{', '.join(repr(float(value)) for value in values.real)}])"
+
+
+def _assigned(name: str, formula: str, note: str) -> list[str]:
+    """A line `name = formula  # note`, broken where it is too long."""
+    line = f"{name} = {formula}"
+    if len(line) <= LONGEST:
+        return [line + note if len(line + note) <= LONGEST else line]
+    parts = textwrap.wrap(formula, LONGEST - 4, break_long_words=False, break_on_hyphens=False)
+    return [f"{name} = ({note}", *(f"    {part}" for part in parts), ")"]

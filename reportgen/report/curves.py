@@ -21,7 +21,8 @@ from reportgen.plans.sides import scheme
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
 from reportgen.report.figures import FigureScenes
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import lower_digits
+from reportgen.report.report import Report
 
 THINNED = 4
 """Every fourth of the samples is enough for a curve of the flywheel."""

@@ -6,7 +6,7 @@ All functions here are called by templates under their own names; they take ever
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -21,15 +21,19 @@ from reportgen.formula import (
     ids,
     rebuild,
     refs,
+    sqrt,
     substitute,
+    tan,
     vocabulary,
 )
+from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.sides import Side
 from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.groups import Contact, GroupView
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import lower_digits
+from reportgen.report.report import Report
 
 # --- numbers and symbols
 
@@ -222,16 +226,68 @@ def _worked(report: Report, id: str, position: int | None, note: str) -> Chain:
 
 
 def equations(report: Report, name: str, position: int | None = None) -> Equation:
-    """Equations of the machine's own, with the numbers at a position if they name quantities."""
+    """Equations of the machine's own; quantities that they name by their symbols, or at a position by their numbers."""
 
-    def number_of(ref: Ref) -> Number:
+    def shown(ref: Ref) -> Expression:
+        if position is None:
+            return report.ledger.symbol(ref.id)
         number = report.ledger.number(ref.id, position)
         return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
 
     def in_words(node: Expression) -> Expression:
         return report.named(node) if isinstance(node, Symbol) else rebuild(node, in_words)
 
-    return Equation(tuple(in_words(substitute(row, number_of)) for row in report.machine.equations[name]))
+    return Equation(tuple(in_words(substitute(row, shown)) for row in report.machine.equations[name]))
+
+
+ω, ε = Symbol("ω"), Symbol("ε")
+THEORY: Mapping[str, tuple[Expression, ...]] = {
+    "inclination": (Chain((tan(Symbol("α")), Symbol("a", "A", "τ") / Symbol("a", "A", "n"), ε / ω**2)),),
+    "two-equations": (
+        VectorEquation(
+            tuple(
+                tuple(Term(Symbol("v", of, over="vector")) for of in side) for side in ("E", ("B", "EB"), ("C", "EC"))
+            )
+        ),
+    ),
+    "similarity": (
+        Chain(
+            (
+                Symbol("a", "CB"),
+                sqrt(Symbol("a", "CB", "n") ** 2 + Symbol("a", "CB", "τ") ** 2),
+                Symbol("l", "BC") * sqrt(ω**4 + ε**2),
+            )
+        ),
+        Chain(
+            (
+                *(segment(on_plan(p, True), on_plan(q, True)) / Symbol("l", p + q) for p, q in ("BC", "BE", "CE")),
+                sqrt(ω**4 + ε**2) / Symbol("μ", "a"),
+            )
+        ),
+    ),
+}
+"""Equations of no machine that the words for the plans show."""
+
+
+def theory(report: Report, name: str) -> Equation:
+    """An equation that the plans stand on."""
+    return Equation(tuple(report.named(row) if isinstance(row, Symbol) else row for row in THEORY[name]))
+
+
+def functions(report: Report, quantities: Sequence[str]) -> Equation:
+    """Quantities as functions of the driver's place: what is constant by its number, what changes by its symbol."""
+
+    def shown(ref: Ref) -> Expression:
+        family = report.ledger[ref.id]
+        if len(family.values) > 1:
+            return family.symbol
+        number = report.ledger.number(ref.id)
+        return Number(number.value, number.decimals, "°" if number.unit == "°" else "")
+
+    lines = ((id, report.ledger[id].definition) for id in quantities)
+    return Equation(
+        tuple(Chain((report.ledger.symbol(id), substitute(formula, shown))) for id, formula in lines if formula)
+    )
 
 
 def mobility_line(report: Report) -> Equation:

@@ -16,13 +16,25 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
-from reportgen.drawing.forces import Sliding
+from reportgen.drawing.forces import Sliding, link_and_plan
 from reportgen.drawing.forces import coriolis as coriolis_figure
+from reportgen.drawing.forces import inclination as inclination_figure
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.labels import Canvas, sheets
-from reportgen.drawing.positions import DrawnCentre, PlaneMotion, PositionPlan, centre_plan, position_plan
+from reportgen.drawing.labels import Canvas
+from reportgen.drawing.positions import (
+    DrawnCentre,
+    PlaneMotion,
+    PositionPlan,
+    SwingMarks,
+    centre_plan,
+    position_plan,
+    swing_marks,
+)
 from reportgen.drawing.scheme import Looks
+from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Number, Symbol, ids, vocabulary
+from reportgen.formula.constructions import circle_circle
+from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.flywheel import SAME_ANGLE
 from reportgen.machine.gas import StrokeIndicator
@@ -30,7 +42,7 @@ from reportgen.machine.loads import FULL_TURN, Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
-from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH
+from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH, in_rows
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.report import DENSE, Report
 
@@ -52,6 +64,8 @@ CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
 SCHEME_BOX = (120.0, 75.0)
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
+LEGIBLE = 0.4
+"""Of the scheme's size: groups drawn smaller yet would be hard to read."""
 SHOWN_AT = 1
 """The position (from 0) at which schemes are drawn: the first one away from the start."""
 
@@ -110,7 +124,7 @@ def beside_one_another(*scenes: Scene) -> FigureScenes:
 
 def drawing_scale(report: Report) -> float:
     """mm of paper for a metre, of drawings to μ_l."""
-    return MM / float(report.ledger["mu.l"].values[0])
+    return MM / float(report.ledger["mu.l"].values[0]) / report.enlarged
 
 
 def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = None) -> Chain:
@@ -155,19 +169,24 @@ def scheme_scene(report: Report, factor: float) -> Scene:
 
 
 def groups(report: Report) -> FigureScenes:
-    """The driver and each group by itself."""
-    factor = _reduction(report)
+    """The driver and each group by itself, as large as the scheme, or smaller if they then stand in one row."""
+    own = _reduction(report)
+    drawn = (_groups(report, factor) for factor in REDUCTIONS if own >= factor >= own * LEGIBLE)
+    first = next(drawn)
+    return FigureScenes(next((row for row in (first, *drawn) if len(in_rows(row)) == 1), first))
+
+
+def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
     scale, words = drawing_scale(report) * factor, report.words["figure"]
     titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
-    motion = report.analysis.motion
-    return FigureScenes(scheme_figure.groups(report.machine.linkage, motion, SHOWN_AT, scale, look, titles))
+    return scheme_figure.groups(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look, titles)
 
 
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
     points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
-    size = np.array(points)[np.isfinite(points)] * drawing_scale(report)
+    size = np.array(points)[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
@@ -195,17 +214,49 @@ def positions_scene(report: Report, beside: Canvas | None = None) -> Scene:
 
 
 def extremes(report: Report) -> FigureScenes:
-    """The mechanism where its first slider turns back: I as its stroke begins, II as it ends."""
+    """The mechanism where its first slider turns back (I, II: its stroke begins and ends), as large as the scheme."""
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
     shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
-    return on_paper(_position_plan(report, motion, shows))
+    return on_paper(_position_plan(report, motion, shows, factor=_reduction(report)))
 
 
-def _position_plan(report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None) -> Scene:
-    dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
+def swing(report: Report) -> FigureScenes:
+    """Both extreme positions of the rocker of the first group, with the arcs by which they are found."""
+    machine, ledger = report.machine, report.ledger
+    linkage, first = machine.linkage, machine.linkage.dyads[0]
+    assert isinstance(linkage.driver, Crank)
+    assert isinstance(first.end, str)
+    centre, pivot = (linkage.ground[name] for name in (linkage.driver.centre, first.end))
+    crank, (coupler, rocker) = linkage.driver.length, first.lengths
+    ends = (
+        complex(circle_circle(centre, coupler + crank, pivot, rocker, first.sign)),
+        complex(circle_circle(centre, coupler - crank, pivot, rocker, first.sign)),
+    )
+    # Folded over the coupler the crank points away from the end.
+    angles = np.angle([ends[0] - centre, centre - ends[1]])
+    circle = None
+    if "rho" in ledger:
+        bisector = sum((end - pivot) / abs(end - pivot) for end in ends)
+        at = pivot + float(ledger["l.DO"].values[0]) * bisector / abs(bisector)
+        circle = at, Symbol("ρ")
+    marks = SwingMarks(centre, pivot, ends, (ledger.symbol("theta"), ledger.symbol("swing")), circle)
     scale = drawing_scale(report)
+    points = tuple(point for point in linkage.points if point.link in (DRIVER, *first.links))
+    four_bar = replace(linkage, dyads=(first,), points=points)
+    motion = solve_motion(four_bar, angles, machine.turn * machine.speed)
+    dense = _motion(machine, np.linspace(0.0, FULL_TURN, DENSE))
+    shows = PositionPlan((linkage.driver.pin, first.middle), (first.middle,), labels=("1", "2"))
     notes = looks(report, scale).notes
+    return on_paper(position_plan(four_bar, motion, dense, scale, shows, notes, beside=swing_marks(marks, scale)))
+
+
+def _position_plan(
+    report: Report, motion: Motion, shows: PositionPlan, beside: Canvas | None = None, factor: float = 1.0
+) -> Scene:
+    dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
+    scale = drawing_scale(report) * factor
+    notes = looks(report, scale, factor).notes
     return position_plan(report.machine.linkage, motion, dense, scale, shows, notes, beside=beside)
 
 
@@ -238,10 +289,9 @@ def indicator(report: Report) -> FigureScenes:
     # What lies below zero stands between diagram and cylinder, where there is half the room.
     highest = max(highest, -2 * lowest)
     side = _free_side(machine)
-    enlarged = report.area.enlarged if report.area else None
-    start, end, mu = indicator_figure.beside(top, bottom, side, highest, enlarged)
+    start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
-    frame = indicator_figure.Frame(start, end, side, mu, Chain((Symbol("p"),), "N/cm²"), note)
+    frame = indicator_figure.Frame(start, end, side, mu * report.enlarged, Chain((Symbol("p"),), "N/cm²"), note)
     branches = [
         indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
         for name, x, pressures in _branches(first, machine, report.words["strokes"])
@@ -303,6 +353,21 @@ def coriolis(report: Report, k: int, group: GroupView, side: Side) -> FigureScen
         (ledger.symbol(side.omega), float(np.sign(omega))),
     )
     return FigureScenes((coriolis_figure(sliding),))
+
+
+def inclination(report: Report) -> FigureScenes:
+    """The angle of an acceleration with the line to the centre."""
+    return FigureScenes((inclination_figure(),))
+
+
+def two_equations(report: Report) -> FigureScenes:
+    """A link and the velocities of its points."""
+    return FigureScenes(link_and_plan("v"))
+
+
+def similarity(report: Report) -> FigureScenes:
+    """A link and the accelerations of its points."""
+    return FigureScenes(link_and_plan("a"))
 
 
 # --- instant centres of velocity ------------------------------------------------------------------

@@ -78,8 +78,7 @@ class _Bodies:
 
     def arms(self, known: Sequence[str], pin: str) -> list[ArmOf]:
         """The arms about a pin that are not zero."""
-        ledger, about = self.report.ledger, self.at(pin)
-        return [ArmOf(ledger.symbol(id), about, ledger[id].of) for id in known if not self.report.is_zero(id, self.k)]
+        return [arm_of(self.report, id, self.k, self.at(pin)) for id in known if not self.report.is_zero(id, self.k)]
 
     # --- reactions
 
@@ -114,6 +113,12 @@ class _Bodies:
         sense = true_sense(self.report, ids.reaction_force(group.inner), self.k) * (1 if on_i else -1)
         digits = group.inner if on_i else group.across
         return Force(Symbol("R", digits, over="vector"), at, sense, "reaction", ids.reaction_force(digits))
+
+
+def arm_of(report: Report, id: str, k: int, about: complex) -> ArmOf:
+    """An arm as it is printed."""
+    length = report.ledger.number(id, k, size=True).value / report.enlarged
+    return ArmOf(report.ledger.symbol(id), about, report.ledger[id].of, length)
 
 
 def true_sense(report: Report, name: str, k: int) -> complex:
@@ -260,7 +265,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
 def lever(report: Report, k: int) -> FigureScenes:
     """The velocity plan turned by 90° against ω1, every load at its image, arms about the pole."""
     ledger, machine, motion, index = report.ledger, report.machine, report.analysis.motion, k - 1
-    per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0])
+    per = -1j * machine.turn * MM / float(ledger["mu.v"].values[0]) / report.enlarged
     forces, arms = [], []
     for load in report.analysis.loads:
         if not _has_force(report, load, k):
@@ -270,7 +275,7 @@ def lever(report: Report, k: int) -> FigureScenes:
         shown = report.force_vector(load.name)
         forces.append(Force(shown, image, complex(load.force[index]), "load", load.name))
         if not report.is_zero(ids.lever_arm(load.name), k):
-            arms.append(ArmOf(ledger.symbol(ids.lever_arm(load.name)), 0j, load.name))
+            arms.append(arm_of(report, ids.lever_arm(load.name), k, 0j))
     if machine.span and not report.is_zero("R.cb", k):
         # The force that balances a sliding driver acts on the lever too; that of a crank is a torque.
         image = complex(motion.points[report.driver.pin].v[index]) * per

@@ -365,13 +365,23 @@ class GroupView:
         return [*self.tangential, *self.ledger.known([ids.reaction(self.across, "s")])]
 
     @property
+    def across_by_moments(self) -> bool:
+        """Whether moments give the whole force between the links, which is then laid off like a load."""
+        return ids.reaction(self.across, "s") in self.ledger
+
+    @property
     def tangential(self) -> list[str]:
         """The components across links that moments give."""
         return self.ledger.known((ids.reaction(self.outer, "t"), ids.reaction(self.guide, "t")))
 
+    @property
+    def pulls_across(self) -> bool:
+        """Whether a tangential component is anything at some position, and so has a column."""
+        return any(self.ledger[id].values.any() for id in self.tangential)
+
     def components(self, k: int) -> list[str]:
-        """The components that are found by moments; none where all of them are zero."""
-        found = self.tangential
+        """What moments have given before the plan; none where all of it is zero."""
+        found = self.by_moments
         return found if any(self.ledger.number(id, k).value != 0 for id in found) else []
 
     @property
@@ -417,6 +427,7 @@ class PlaneLink:
         self.link, self.rod, self.group = turn.link, turn.rod, group
         self.base, self.point = NamedPoint(turn.base), NamedPoint(turn.point)
         self.omega = ids.angular_velocity(self.link)
+        self.velocities = [ids.velocity(point) for point in (self.base, self.point)]
         self.rates = [ids.centre_omega(self.link), ids.centre_velocity(self.link)]
         self.distances, self.angles, self.projections = (
             [name(self.link, point) for point in (self.base, self.point)]

@@ -166,7 +166,7 @@ def _changed(block: tree.Block, change: Change) -> tree.Block:
         case tree.Table():
 
             def cells(rows: tuple[tuple[tree.Cell, ...], ...]) -> tuple[tuple[tree.Cell, ...], ...]:
-                return tuple(tuple(replace(cell, inlines=change(cell.inlines)) for cell in row) for row in rows)
+                return tuple(tuple(tree.Cell(change(cell.inlines), cell.span) for cell in row) for row in rows)
 
             return replace(block, head=cells(block.head), rows=cells(block.rows), caption=change(block.caption))
         case tree.Figure() | tree.Plate():

@@ -92,6 +92,7 @@ PROPERTIES = (
     "has_turning_links",
     "loads_crank",
     "needs_flywheel",
+    "synthesised",
     "speed_in_rpm",
 )
 """Properties of the `Report`."""
@@ -162,6 +163,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "groups": ("fig.groups", figures.groups),
     "positions": ("fig.positions", figures.positions),
     "extremes": ("fig.extremes", figures.extremes),
+    "swing": ("fig.swing", figures.swing),
     # motion
     "velocity": ("fig.v", VELOCITY.whole),
     "velocity-stages": ("fig.v.stages", VELOCITY.in_stages),
@@ -170,6 +172,9 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "acceleration-stages": ("fig.a.stages", ACCELERATION.in_stages),
     "acceleration-plates": ("fig.a.plates", ACCELERATION.on_plates),
     "coriolis": ("fig.coriolis", figures.coriolis),
+    "inclination": ("fig.inclination", figures.inclination),
+    "two-equations": ("fig.twice", figures.two_equations),
+    "similarity": ("fig.similarity", figures.similarity),
     "centres": ("fig.centres", centres.centres),
     "motion": ("fig.motion", curves.motion),
     # forces
@@ -340,6 +345,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "images": overview.images,
     "known": equations.known,
     "letters": equations.letters,
+    "listing": chapters.program,
     "line": equations.line,
     "lines": equations.lines,
     "lowered": equations.lowered,
@@ -352,11 +358,14 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "v": equations.v,
     "value": equations.value,
     "vector": equations.vector,
+    "theory": equations.theory,
+    "theory_of": chapters.theory_of,
     "zero": Report.is_zero,
     # equations of the machine and of its groups
     "acceleration_equation": equations.acceleration_equation,
     "driver_equation": equations.driver_equation,
     "equations": equations.equations,
+    "functions": equations.functions,
     "force_equation": equations.force_equation,
     "link_equation": equations.link_equation,
     "mobility_line": equations.mobility_line,

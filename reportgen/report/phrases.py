@@ -19,8 +19,8 @@ from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.prose import NamedPoint
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import NamedPoint, lower_digits
+from reportgen.report.report import Report
 
 if TYPE_CHECKING:
     from reportgen.catalogue.linkage import GroupRow
@@ -340,7 +340,8 @@ def base_motion(report: Report, side: Side) -> Inlines:
 
 def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) -> bool:
     """Whether a figure shows the turn that gives the Coriolis acceleration of a slot its sense."""
-    return group.kind == "RPR" and not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
+    moves = not any(report.is_zero(id, position) for id in (side.velocity, side.omega))
+    return group.kind == "RPR" and moves and bool(report.parts("coriolis-turn"))
 
 
 def found_senses(report: Report, group: GroupView, position: int) -> Inlines:

@@ -13,7 +13,6 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
-from reportgen.drawing.labels import sheets
 from reportgen.drawing.plan import (
     Construction,
     Plan,
@@ -27,6 +26,7 @@ from reportgen.drawing.plan import (
     stages,
 )
 from reportgen.drawing.scheme import thumbnail
+from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
@@ -83,33 +83,38 @@ class MotionFigures:
         return _stages(report, until, ids.scale(self.what), titles, begin)
 
     def on_plates(self, report: Report) -> FigureScenes:
-        told = _mirrored(report, self.what).at
-        return _plates(report, self._plan, [k for k in _one_turn(report) if k not in told], ids.scale(self.what))
+        return self.series(report).figure
+
+    def series(self, report: Report) -> PlanSeries:
+        """The plans of one turn without those that mirror others."""
+        told = positions_mirrored(report, self.what).at
+        return PlanSeries(report, self._plan, [k for k in one_turn(report) if k not in told], ids.scale(self.what))
 
     def _plan(self, report: Report, k: int) -> Plan:
         return motion_plan(report, self.what, k)
 
 
-def _one_turn(report: Report) -> list[int]:
+def one_turn(report: Report) -> list[int]:
     """The positions of one turn whose plans are drawn."""
     return sorted({(k - 1) % report.count + 1 for k in report.plates})
 
 
-def _mirrored(report: Report, what: What) -> Mirrored:
+def positions_mirrored(report: Report, what: What) -> Mirrored:
     """The positions whose plans of velocity (v) or acceleration (a) mirror drawn ones."""
-    return mirrored({k: motion_plan(report, what, k) for k in _one_turn(report)})
+    return mirrored({k: motion_plan(report, what, k) for k in one_turn(report)})
 
 
 def mirror_images(report: Report, what: What) -> Inlines:
     """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
-    found = _mirrored(report, what)
+    found = positions_mirrored(report, what)
     drawn = ", ".join(str(report.machine.position(k)) for k in found.of)
     return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
 
 
 def _at(construction: Construction[str], report: Report, k: int) -> Plan:
     """A construction on paper (mm) as it is at a position."""
-    return construction.placed(lambda id: 0j if id == POLE else complex(report.ledger[id].at(k)) * MM)
+    scale = MM / report.enlarged
+    return construction.placed(lambda id: 0j if id == POLE else complex(report.ledger[id].at(k)) * scale)
 
 
 def motion_plan(report: Report, what: What, k: int) -> Plan:
@@ -166,35 +171,53 @@ def _stages(
     return FigureScenes(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
-def _plates(
-    report: Report, drawing: Callable[[Report, int], Plan], positions: Sequence[int], scale: str, at: int | None = None
-) -> FigureScenes:
-    """Plans of one scale, that of the position `at`, in rows, at the largest of the shares at which each has room.
+@dataclass(frozen=True, slots=True)
+class PlanSeries:
+    """Plans of one `scale`, that of the position `at`, in rows; insets are for worked plans."""
 
-    If none fits the text block, they stand on A3 sheets.  Insets are for worked plans.
-    """
-    word = report.words["table"]["position"]
-    plans = {k: replace(drawing(report, k).lettered, scale=None, lines=()) for k in positions}
-    largest = max(shown.extent for shown in plans.values())
+    report: Report
+    drawing: Callable[[Report, int], Plan]
+    positions: Sequence[int]
+    scale: str
+    at: int | None = None
 
-    def scenes(share: float) -> Iterator[Scene]:
-        for k, shown in plans.items():
-            title = f"{word} {report.machine.position(k)}"
-            yield plan(shown.scaled(share), title=title, enlarged=False, margin=CLOSE_MARGIN)
+    @property
+    def figure(self) -> FigureScenes:
+        """The plans in the text, on A3 sheets if they have no room there."""
+        share, scenes = self.fitted()
+        note = self.note(share)
+        if scenes:
+            return FigureScenes(tuple(scenes), note=note)
+        return FigureScenes(sheets(tuple(self.scenes(share)), *SHEET, note, trim=0.0), A3_ACROSS)
 
-    for share in SHARES:
-        last = share == SHARES[-1]
-        room = FIGURE_ROOM if last else ROOM
-        if share * largest > LARGEST and not last:
-            continue
-        drawn: list[Scene] = []
-        for scene in scenes(share):
-            if scene.width > room[0] or scene.height > room[1]:
-                break
-            drawn.append(scene)
-        else:
-            return FigureScenes(tuple(drawn), note=scale_note(report, scale, share, at))
-    return FigureScenes(sheets(tuple(scenes(share)), *SHEET, scale_note(report, scale, share, at), trim=0.0), A3_ACROSS)
+    def note(self, share: float) -> Chain:
+        """Their scale, drawn a share as large as the worked ones."""
+        return scale_note(self.report, self.scale, share, self.at)
+
+    def fitted(self) -> tuple[float, list[Scene]]:
+        """The largest of the shares at which each plan has room in the text block, and the scenes; none if none has."""
+        largest = max(self.drawing(self.report, k).extent for k in self.positions)
+        for share in SHARES:
+            last = share == SHARES[-1]
+            room = FIGURE_ROOM if last else ROOM
+            if share * largest > LARGEST and not last:
+                continue
+            drawn: list[Scene] = []
+            for scene in self.scenes(share):
+                if scene.width > room[0] or scene.height > room[1]:
+                    break
+                drawn.append(scene)
+            else:
+                return share, drawn
+        return share, []
+
+    def scenes(self, share: float) -> Iterator[Scene]:
+        """The plans, a share as large as the worked ones."""
+        word = self.report.words["table"]["position"]
+        for k in self.positions:
+            shown = replace(self.drawing(self.report, k).lettered, scale=None, lines=()).scaled(share)
+            title = f"{word} {self.report.machine.position(k)}"
+            yield plan(shown, title=title, enlarged=False, margin=CLOSE_MARGIN)
 
 
 class _Sketch:
@@ -259,39 +282,47 @@ def forces(report: Report, k: int, group: GroupView) -> FigureScenes:
 
 
 def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
-    """The force plan step by step: loads, components found by moments, closing edges, what is read."""
+    """The force plan step by step: loads, what moments have given, closing edges, what is read."""
     assert group.polygon is not None
     drawing = force_plan(report, group.polygon, k)
-    edges = group.polygon.edges
+    edges, reads = group.polygon.edges, group.polygon.reads
     known = sum(not edge.unknown for edge in edges)
-    by_moments = [not edge.unknown and edge.part == "t" for edge in edges]
+    by_moments = {edge.start + edge.end for edge in edges if not edge.unknown and edge.part == "t"}
+    if group.across_by_moments:
+        by_moments |= {edge.start + edge.end for edge in reads if edge.name == ids.reaction_force(group.inner)}
 
-    def step(stage: int) -> int:
-        return 2 + stage - known if stage >= known else int(by_moments[stage])
+    def step(vector: PlanVector[complex]) -> int:
+        if vector.name in by_moments:
+            return 1
+        return 0 if vector.stage < known else 2 + vector.stage - known
 
     def reached(corner: complex) -> int:
         """The first step that draws an arrow to or from a corner."""
-        return min(step(v.stage) for v in drawing.vectors if corner in (v.start, v.end))
+        return min(step(v) for v in drawing.vectors if corner in (v.start, v.end))
 
     steps = replace(
         drawing,
-        vectors=tuple(replace(v, stage=step(v.stage)) for v in drawing.vectors),
+        vectors=tuple(replace(v, stage=step(v)) for v in drawing.vectors),
         points=tuple(replace(p, stage=reached(p.at)) for p in drawing.points),
     )
     return _stages(report, steps, group.scale, k=k)
 
 
 def force_plates(report: Report, group: GroupView) -> FigureScenes:
+    assert group.polygon is not None
+    return force_series(report, group.polygon).figure
+
+
+def force_series(report: Report, polygon: Polygon) -> PlanSeries:
     """The force plans of all positions at one scale: the largest of those that they have by themselves."""
-    polygon = group.polygon
-    assert polygon is not None
-    scales = {k: float(report.ledger[group.scale].at(k)) for k in report.plates}
+    scale = ids.force_scale(polygon.name)
+    scales = {k: float(report.ledger[scale].at(k)) for k in report.plates}
     common = max(scales, key=lambda k: scales[k])
 
     def drawing(report: Report, k: int) -> Plan:
         return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
 
-    return _plates(report, drawing, report.plates, group.scale, common)
+    return PlanSeries(report, drawing, report.plates, scale, common)
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:

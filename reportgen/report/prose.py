@@ -397,3 +397,8 @@ def _origin(error: Exception, name: str) -> Place:
     frames = traceback.extract_tb(error.__traceback__)
     places = [(frame.filename, frame.lineno or 1) for frame in frames if frame.filename.endswith(".md")]
     return places[-1] if places else (name, 1)
+
+
+def lower_digits(text: str) -> str:
+    """Digits of point names as lowered digits: O1A → O₁A."""
+    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

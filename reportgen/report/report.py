@@ -14,11 +14,11 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
+from reportgen.base.units import MM
 from reportgen.drawing.charts import Area
-from reportgen.drawing.sheet import USUAL_FORM, Form
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
-from reportgen.machine import GROUND, Mobility, mobility
+from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.loads import FULL_TURN, Applied, Piston, Torque
@@ -27,7 +27,7 @@ from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
 from reportgen.report.case import Calculation
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
-from reportgen.report.prose import Prose
+from reportgen.report.prose import Prose, lower_digits
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
@@ -41,10 +41,14 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "short": frozenset(
         (
             # sections of the outline
-            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "checks"),
+            *("overview", "foreword", "symbols", "summary", "centres", "diagrams", "course", "functions", "checks"),
+            # extreme positions that nothing else stands on
+            *("rocker-extremes", "slider-extremes"),
+            # what the plans stand on
+            *("theory-two-equations", "theory-inclination", "theory-similarity"),
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
-            *("velocity-plates", "acceleration-plates", "force-plates"),
+            *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
             *("polar", "flywheel-work", "flywheel-speed"),
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),
@@ -68,13 +72,12 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
 class Report:
     """A case with its prose.
 
-    On a drawing sheet curves have an `area` and round scales, and long tables a `form`.  Curves are drawn from
-    `samples` of the cycle if they are given.
+    Its figures are drawn so much smaller than their scales say as they are `enlarged` afterwards, with their letters,
+    on a drawing sheet.  Curves are drawn from `samples` of the cycle if they are given.
     """
 
     case: Calculation
-    area: Area | None = None
-    form: Form = USUAL_FORM
+    enlarged: float = 1.0
     samples: Analysis | None = None
 
     # --- what it is made of
@@ -119,6 +122,11 @@ class Report:
     def driver(self) -> DriverView:
         return DriverView(self.machine.linkage, self.ledger)
 
+    @property
+    def area(self) -> Area | None:
+        """The room that curves have on a drawing sheet, where their scales are round and printed."""
+        return None if self.enlarged == 1.0 else Area(enlarged=self.enlarged)
+
     @cached_property
     def dense_cycle(self) -> Analysis:
         """The whole analysis over the cycle, finely, the numbered positions among the samples."""
@@ -146,12 +154,12 @@ class Report:
 
     def _outline(self) -> Iterator[str]:
         """The machine's outline, the section on instant centres behind the velocities if any link has one."""
-        outline = self.machine.outline
-        last = max((outline.index(name) for name in ("velocity", "summary") if name in outline), default=-1)
-        for index, section in enumerate(outline):
+        for section in self.machine.outline:
             yield section
-            if self.plane_links and index == last:
+            if self.plane_links and section == "velocity":
                 yield "centres"
+        if self.assignment.report.listing:
+            yield "listing"
 
     @property
     def extent_words(self) -> str:
@@ -288,6 +296,12 @@ class Report:
     def drawn_lines(self) -> list[str]:
         """What those lengths are lengths of, by its ends."""
         return [found["line"] for id in self.lengths if (found := ids.length.read(id))]
+
+    @property
+    def drawn_crank(self) -> float | None:
+        """The length of the crank on paper (mm); None where the driver slides."""
+        driver = self.machine.linkage.driver
+        return driver.length / float(self.ledger["mu.l"].values[0]) * MM if isinstance(driver, Crank) else None
 
     @property
     def pistons(self) -> tuple[Piston, ...]:
@@ -472,8 +486,3 @@ class Report:
 
     def is_zero(self, id: str, k: int | None = None) -> bool:
         return bool(self.ledger.number(id, k).value == 0)
-
-
-def lower_digits(text: str) -> str:
-    """Digits of point names as lowered digits: O1A → O₁A."""
-    return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

@@ -9,6 +9,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.formula import Chain, Number, Power, Symbol, ids
+from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
 from reportgen.plans.sides import Side, image
@@ -29,27 +30,38 @@ NARROWEST = 16.0
 
 
 def coordinates(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    """x and y of every moving point at the positions of one turn, in mm; several tables where they are many."""
+    """x and y of every moving point at the positions of one turn, in mm; several tables where they are many.
+
+    A coordinate that a formula gives too stands as in the formula's line, any other as it is read from the plan.
+    """
     linkage, motion = report.machine.linkage, report.analysis.motion
     at = [k - 1 for k in report.positions]
     # The point of a lever under a block's pin lies where the pin is.
     under = {dyad.middle for dyad in linkage.dyads if dyad.kind == "RPR"}
     names = [name for name in motion.points if name not in {*linkage.ground, *under}]
     courses = [
-        (Symbol(axis, name), part[at])
+        (Symbol(axis, name), part)
         for name in names
         for axis, part in (("x", motion.points[name].p.real), ("y", motion.points[name].p.imag))
     ]
     kept = [(shown, values) for shown, values in courses if np.abs(values).max() > 1e-12]
     wide = any(values.min() <= WIDE for _, values in kept)
-    columns = [(shown, *(_coordinate(value * MM) for value in values)) for shown, values in kept]
+    written = [(shown, _as_written(report, shown.sub, values)) for shown, values in kept]
+    columns = [(shown, *(values[index] for index in at)) for shown, values in written]
     titles = [report.words["table"]["position"], *map(str, report.positions)]
     first, most = Column(FIRST_COLUMN), MOST_WIDE if wide else MOST_COORDINATES
     return side_by_side(report, key, caption, first, titles=titles, columns=columns, most=most, widest=22.0, together=2)
 
 
-def _coordinate(value: float) -> Number:
-    return Number(0.0 if abs(value) < 1e-9 else value, 2)
+def _as_written(report: Report, point: str, course: np.ndarray) -> list[Number]:
+    """The coordinate (m) of a point at all positions as its numbers in mm."""
+    values, decimals = course, 5
+    for id, family in report.case.ledger.families.items():
+        if (family.kind, family.symbol.sub) == ("length", point) and family.values.shape == course.shape:
+            sense = np.sign(np.dot(family.values, course))
+            if np.allclose(sense * family.values, course, rtol=0, atol=ZERO * np.abs(course).max()):
+                values, decimals = sense * report.ledger[id].values, report.ledger.decimals[id] or 5
+    return [Number(value * MM, max(decimals - 3, 0)) if abs(value) > 1e-12 else Number(0.0) for value in values]
 
 
 def _two_decimals(value: float) -> Number:
@@ -108,7 +120,7 @@ def summary(report: Report, k: int) -> Iterator[Sequence[object]]:
     """Quantities at one position as "symbol = value", in rows of as many as there are heads."""
     ledger = report.ledger
     for row in report.own["summary"]:
-        yield [Chain((ledger.symbol(id), ledger.number(id, k))) for id in row]
+        yield [Chain((ledger.symbol(id), ledger.number(id, k))) if id else "" for id in row]
 
 
 def velocity_segments(report: Report) -> list[str]:

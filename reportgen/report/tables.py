@@ -27,7 +27,8 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.report import Report, lower_digits
+from reportgen.report.prose import lower_digits
+from reportgen.report.report import Report
 
 WIDEST_COLUMN = 26.0
 MOST_COLUMNS = 9
@@ -64,7 +65,7 @@ def bare(report: Report, id: str, position: int | None, size: bool = False) -> I
     """A number without its unit, a dash for what does not exist; that of an arm, or `size`, without its sign."""
     family = report.ledger[id]
     number = report.ledger.number(id, position, size=size or family.arm)
-    if math.isnan(number.value) or (family.is_direction and report.is_zero(family.of, position)):
+    if math.isnan(number.value) or (family.is_of_vector and report.is_zero(family.of, position)):
         return (Text("–"),)
     return (Value(Number(number.value, number.decimals, "")),)
 

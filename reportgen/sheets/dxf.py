@@ -50,7 +50,8 @@ AXIS_PARTS = 4
 STYLE, FONT = "lc_opengost-ar", "arial.ttf"
 """The text style's name, which LibreCAD takes for that of a stroke font of its own, and the font of all others.
 
-The second has all letters of Vietnamese.  None of LibreCAD's has; the first has Greek, the minus and other signs.
+The second has Greek and all letters of Vietnamese.  The first, as LibreCAD has it, lacks most of the latter; they are
+in the file of that name in `templates/frames/letters`.
 """
 WIDTHS = (13, 18, 25, 35, 50, 70, 100)
 """Line weights that DXF knows, hundredths of a millimetre."""
@@ -65,6 +66,10 @@ ATTACHMENT: dict[Anchor, int] = {
     "bottom": 8,
     "bottom-right": 9,
 }
+HALIGN = {"left": 0, "center": 1}
+"""Where a line of text stands at its place; in the middle of its height."""
+ORDERS = frozenset("%^\\")
+"""Signs that begin an order in a line of text."""
 SHADE = 254
 """The colour index of a link's inside, a light gray."""
 CORNER = 0.1
@@ -104,11 +109,15 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
 
 
 def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
-    """The items of a part in model space, as one named group."""
-    group: list[Any]
-    with document.groups.new(part.name).edit_data() as group:
-        for item in part.scene.items:
-            group.extend(_entities(document, item, part, texts))
+    """The items of a part in model space, as one named group; each named vector is one by itself, too: "9.1 pb"."""
+    groups: dict[str, list[Any]] = {part.name: []}
+    for item in part.scene.items:
+        entities = list(_entities(document, item, part, texts))
+        groups[part.name] += entities
+        if isinstance(item, Arrow) and item.name:
+            groups.setdefault(f"{part.name} {item.name}", []).extend(entities)
+    for name, entities in groups.items():
+        document.groups.new(name).extend(entities)
 
 
 def _layout(document: Drawing, sheet: DrawingSheet) -> None:
@@ -171,16 +180,16 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
         case Hatch(points, spacing, stroke, turn):
             for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
-        case Label(where, content, anchor, size, turn):
-            attributes = {
-                "layer": "text",
-                "style": STYLE,
-                "char_height": round(CAPITAL * POINT * size, 4),
-                "attachment_point": ATTACHMENT[anchor],
-                "insert": at(where),
-                "rotation": turn,
-            }
-            yield model.add_mtext(texts.content(content), dxfattribs=attributes)
+        case Label(where, content, anchor, size, turn, _, narrow):
+            letters = {"layer": "text", "style": STYLE, "insert": at(where), "rotation": turn}
+            height = round(CAPITAL * POINT * size, 4)
+            if narrow < 1.0 and isinstance(content, str) and not set(content) & ORDERS:
+                # Only a line of text has a width in every program.
+                how = {"height": height, "width": round(narrow, 4), "halign": HALIGN[anchor], "valign": 2}
+                yield model.add_text(content, dxfattribs={**letters, **how, "align_point": at(where)})
+            else:
+                attributes = {**letters, "char_height": height, "attachment_point": ATTACHMENT[anchor]}
+                yield model.add_mtext(texts.content(content), dxfattribs=attributes)
 
 
 def _smooth(points: tuple[complex, ...], closed: bool) -> list[list[complex]]:

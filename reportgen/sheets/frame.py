@@ -15,7 +15,7 @@ from typing import Annotated, Literal
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, OneLine
 from reportgen.assignment.reading import placed, read_model
-from reportgen.base.errors import Finding
+from reportgen.base.errors import Finding, Where
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, templates
@@ -37,6 +37,8 @@ CENTRING = 5.0
 """How far a centring mark reaches into the frame, mm."""
 HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
 """Heights of capital letters, mm; the last in narrow cells of a title block only."""
+NARROW = 0.75
+"""Letters are made narrower to this share of their width before smaller ones are taken, as type A is beside B."""
 PADDING = 0.6
 """White beside a text in its cell, mm."""
 LEADING = 1.6
@@ -61,6 +63,8 @@ class BlockCell:
     """Height of capitals, mm; a field that needs more room takes a smaller one."""
     align: Align = "center"
     heavy: bool = False
+    turned: bool = False
+    """Whether the text goes upwards."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,17 +75,22 @@ class Margins:
     other: float = 10.0
 
 
-def room(size: str, margins: Margins, block: tuple[float, float]) -> Room:
+def room(size: str, block: TitleBlock) -> Room:
     """What the frame and the title block leave free on a sheet."""
-    width, height = SIZES[size]
-    low, high = complex(margins.left, margins.other), complex(width - margins.other, height - margins.other)
-    return Room(low, high, complex(*block))
+    low, high = _frame(size, block.margins)
+    return Room(low, high, complex(*block.size))
 
 
-def frame_scene(size: str, margins: Margins, note: str = "") -> Scene:
-    """The edge of the paper, the frame and its centring marks; the format as a `note` below it."""
+def _frame(size: str, margins: Margins) -> tuple[complex, complex]:
+    """The lower left and the upper right corner of the frame."""
     width, height = SIZES[size]
-    low, high = complex(margins.left, margins.other), complex(width - margins.other, height - margins.other)
+    return complex(margins.left, margins.other), complex(width - margins.other, height - margins.other)
+
+
+def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scene:
+    """The edge of the paper, the frame, its centring marks and the columns beside it; the format is noted below it."""
+    width, height = SIZES[size]
+    low, high = _frame(size, block.margins)
     middle = (low + high) / 2
     marks = (
         (complex(0, middle.imag), complex(low.real + CENTRING, middle.imag)),
@@ -89,10 +98,17 @@ def frame_scene(size: str, margins: Margins, note: str = "") -> Scene:
         (complex(middle.real, 0), complex(middle.real, low.imag + CENTRING)),
         (complex(middle.real, height), complex(middle.real, high.imag - CENTRING)),
     )
+    note = _filled(block.below, fields)
+    # Columns of the upper half are counted from the top.
+    beside = [
+        replace(cell, x=low.real + cell.x, y=(low.imag if cell.y >= 0 else high.imag) + cell.y, text=text)
+        for cell, text in ((cell, _filled(cell.text, fields)) for cell in block.beside)
+    ]
     items: tuple[Item, ...] = (
         Polyline(_corners(0j, complex(width, height)), EDGE, closed=True),
         Polyline(_corners(low, high), HEAVY, closed=True),
         *(Line(start, end, HEAVY) for start, end in marks),
+        *_cells(beside),
         *([Label(complex(high.real, low.imag / 2), note, "right", font_size(HEIGHTS[-2]))] if note else []),
     )
     return Scene(width, height, items)
@@ -100,14 +116,19 @@ def frame_scene(size: str, margins: Margins, note: str = "") -> Scene:
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
     """The title block with its cells filled in; the texts keep inside their cells."""
-    items: list[Item] = []
+    outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
+    return Scene(*size, (*_cells(cells), outline))
+
+
+def _cells(cells: Sequence[BlockCell]) -> Iterator[Item]:
+    """The boxes of some cells, then their texts."""
     for cell in cells:
-        low = complex(cell.x, cell.y)
-        pen = HEAVY if cell.heavy else FINE
-        items.append(Polyline(_corners(low, low + complex(cell.width, cell.height)), pen, closed=True))
-    items.append(Polyline(_corners(0j, complex(*size)), HEAVY, closed=True))
-    items += [label for cell in cells for label in _letters(cell)]
-    return Scene(*size, tuple(items))
+        low, pen = complex(cell.x, cell.y), HEAVY if cell.heavy else FINE
+        yield Polyline(_corners(low, low + complex(cell.width, cell.height)), pen, closed=True)
+    for cell in cells:
+        # Of a cell whose fields have no values nothing is written.
+        if cell.text.strip():
+            yield from _letters(cell)
 
 
 def _corners(low: complex, high: complex) -> tuple[complex, ...]:
@@ -115,46 +136,46 @@ def _corners(low: complex, high: complex) -> tuple[complex, ...]:
 
 
 def _letters(cell: BlockCell) -> Iterator[Label]:
-    """The cell's text in the largest letters, not above its own, with which it has room."""
-    if not cell.text.strip():
-        # Its fields have no values.
-        return
+    """The cell's text in the largest letters, not above its own, with which it has room.
+
+    It may stand in several lines; letters that need not be narrower come first.  Of the smallest ones none is left out:
+    they are as narrow as they must be.
+    """
+    along, across = (cell.height, cell.width) if cell.turned else (cell.width, cell.height)
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
-    height, lines = next(
-        ((height, lines) for height in heights if _fits(lines := _lines(cell, height), cell, height)),
-        (heights[-1], [_shortened(cell, heights[-1])]),
-    )
+    tried = [_broken(cell.text, height, along - 2 * PADDING, across - 2 * PADDING) for height in heights]
+    height, lines, narrow = next((one for one in tried if one[2] >= NARROW), tried[-1])
     anchor: Anchor = "left" if cell.align == "left" else "center"
-    x = cell.x + (PADDING if cell.align == "left" else cell.width / 2)
-    top = cell.y + cell.height / 2 + LEADING * height * (len(lines) - 1) / 2
+    u = 1j if cell.turned else 1 + 0j
+    middle = complex(cell.x + cell.width / 2, cell.y + cell.height / 2)
+    start = middle - u * (along / 2 - PADDING) if cell.align == "left" else middle
     for number, line in enumerate(lines):
-        yield Label(complex(x, top - LEADING * height * number), line, anchor, font_size(height))
+        down = LEADING * height * (number - (len(lines) - 1) / 2)
+        yield Label(start - 1j * u * down, line, anchor, font_size(height), 90 * cell.turned, narrow=narrow)
 
 
-def _lines(cell: BlockCell, height: float) -> list[str]:
-    """The text's words in lines no wider than the cell."""
-    lines: list[str] = []
-    for word in cell.text.split():
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and _width(longer, height) <= cell.width - 2 * PADDING:
-            lines[-1] = longer
-        else:
-            lines.append(word)
-    return lines
+def _broken(text: str, height: float, along: float, across: float) -> tuple[float, list[str], float]:
+    """A text in letters of a height: its lines, as many as make the letters widest, and how narrow these are (≤ 1)."""
+    most = max(int((across / height - LINE) / LEADING) + 1, 1) if across >= LINE * height else 0
+    words = text.split()
+    found = (height, [text], 0.0)
+    for count in range(1, min(most, len(words)) + 1):
+        lines = _evenly(words, count, height)
+        narrow = min(along / max(_width(line, height) for line in lines), 1.0)
+        if narrow > found[2]:
+            found = height, lines, narrow
+    return found
 
 
-def _fits(lines: Sequence[str], cell: BlockCell, height: float) -> bool:
-    wide = max(_width(line, height) for line in lines) <= cell.width - 2 * PADDING
-    return wide and (LEADING * (len(lines) - 1) + LINE) * height + 2 * PADDING <= cell.height
-
-
-def _shortened(cell: BlockCell, height: float) -> str:
-    """A name in one line: initials before its last word, without titles; cut where even that is too long."""
-    *before, last = cell.text.split()
-    short = " ".join([*(f"{word[0]}." for word in before if not word.endswith(".")), last])
-    while _width(short, height) > cell.width - 2 * PADDING and len(short) > 1:
-        short = short.rstrip("…")[:-1] + "…"
-    return short
+def _evenly(words: Sequence[str], count: int, height: float) -> list[str]:
+    """Words in so many lines, the longest as short as can be."""
+    if count == 1:
+        return [" ".join(words)]
+    ways = (
+        [" ".join(words[:first]), *_evenly(words[first:], count - 1, height)]
+        for first in range(1, len(words) - count + 2)
+    )
+    return min(ways, key=lambda lines: max(_width(line, height) for line in lines))
 
 
 def _width(text: str, height: float) -> float:
@@ -162,7 +183,7 @@ def _width(text: str, height: float) -> float:
 
 
 # --- title blocks ---------------------------------------------------------------------------------
-# A file of cells in mm, whose fields are filled from `report:` of the assignment.
+# A file of cells in mm, whose fields are filled from `report:` and `sheet:` of the assignment.
 
 FOLDER = "blocks"
 DEFAULT: Mapping[Language, str] = {"vi": "tcvn", "en": "iso"}
@@ -183,6 +204,8 @@ FIELDS = frozenset(
         "class",
         "date",
         "format",
+        "course",
+        "variant",
     }
 )
 _FIELD = re.compile(rf"\{{({'|'.join(FIELDS)})\}}")
@@ -198,8 +221,16 @@ class _Cell(Part):
     height: Size
     text: OneLine = ""
     letters: Annotated[float, Decimal(Interval(least=2.5, most=20))] = 2.5
-    align: Literal["left", "center"] = "center"
+    align: Align = "center"
     heavy: Annotated[bool, Flag()] = False
+    turned: Annotated[bool, Flag()] = False
+
+
+class _SideCell(_Cell):
+    """A cell beside the frame, from its lower left corner, or from its upper one if y is negative."""
+
+    x: Annotated[float, Decimal(Interval(least=-40, most=0))]
+    y: Annotated[float, Decimal(Interval(least=-400, most=400))]
 
 
 class _Margins(Part):
@@ -207,12 +238,18 @@ class _Margins(Part):
     other: Size = 10.0
 
 
-class _File(Part):
+class _Block(Part):
     width: Size
     height: Size
+    cells: list[_Cell]
+
+
+class _File(_Block):
     margins: _Margins = _Margins()
     format: OneLine = "{format}"
-    cells: list[_Cell]
+    designation: OneLine = "{course}.{variant}.{sheet}"
+    beside: tuple[_SideCell, ...] = ()
+    following: _Block | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -224,15 +261,17 @@ class TitleBlock:
     cells: tuple[BlockCell, ...]
     below: str = ""
     """What is printed below the frame: the format."""
+    beside: tuple[BlockCell, ...] = ()
+    """Columns beside the frame."""
+    designation: str = ""
+    """How a sheet is designated where the assignment does not say it."""
+    following: TitleBlock | None = None
+    """The block of all sheets but the first, if they have another one."""
 
     def scene(self, fields: Mapping[str, str]) -> Scene:
         """The block with its fields filled in; a field without a value stays blank."""
         filled = tuple(replace(cell, text=_filled(cell.text, fields)) for cell in self.cells)
         return title_block(filled, self.size)
-
-    def note(self, fields: Mapping[str, str]) -> str:
-        """What is printed below the frame."""
-        return _filled(self.below, fields)
 
 
 def _filled(text: str, fields: Mapping[str, str]) -> str:
@@ -240,7 +279,7 @@ def _filled(text: str, fields: Mapping[str, str]) -> str:
     return _FIELD.sub(lambda found: fields.get(found[1], ""), text)
 
 
-def blocks(school: str = "") -> dict[str, Path]:
+def blocks(school: Path | str = "") -> dict[str, Path]:
     """The blocks that come with the program and those of a school, by name."""
     folders = [templates() / "frames" / FOLDER, *([templates() / school / FOLDER] if school else [])]
     return {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
@@ -249,19 +288,40 @@ def blocks(school: str = "") -> dict[str, Path]:
 def read_block(path: Path, language: Language | None = None) -> TitleBlock:
     """The title block of a file.  Raises `AssignmentError` with its faults, located."""
     content = read_model(path, _File, language)
-    findings = [finding for index, cell in enumerate(content.cells) for finding in _findings(cell, index, content)]
+    findings = [*_findings(content, ()), *(_findings(content.following, ("following",)) if content.following else ())]
+    findings += [finding for index, cell in enumerate(content.beside) for finding in _texts(cell, ("beside", index))]
     if findings:
         raise as_error(placed(read_source(path), findings), language)
-    cells = tuple(BlockCell(*(getattr(cell, name) for name in BlockCell.__slots__)) for cell in content.cells)
     margins = Margins(content.margins.left, content.margins.other)
-    return TitleBlock((content.width, content.height), margins, cells, content.format)
+    first = TitleBlock(
+        (content.width, content.height),
+        margins,
+        _cells_of(content.cells),
+        content.format,
+        beside=_cells_of(content.beside),
+        designation=content.designation,
+    )
+    if content.following is None:
+        return first
+    size = content.following.width, content.following.height
+    return replace(first, following=replace(first, size=size, cells=_cells_of(content.following.cells)))
 
 
-def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
-    """What is wrong with a cell beside its single values: its place, blanks alone, or an unknown field."""
-    where = ("cells", index)
-    if cell.x + cell.width > block.width or cell.y + cell.height > block.height:
-        yield Finding("block-outside", where, {"width": f"{block.width:g}", "height": f"{block.height:g}"})
+def _cells_of(cells: Sequence[_Cell]) -> tuple[BlockCell, ...]:
+    return tuple(BlockCell(*(getattr(cell, name) for name in BlockCell.__slots__)) for cell in cells)
+
+
+def _findings(block: _Block, at: Where) -> Iterator[Finding]:
+    """What is wrong with the cells of a block beside their single values."""
+    for index, cell in enumerate(block.cells):
+        where = (*at, "cells", index)
+        if cell.x + cell.width > block.width or cell.y + cell.height > block.height:
+            yield Finding("block-outside", where, {"width": f"{block.width:g}", "height": f"{block.height:g}"})
+        yield from _texts(cell, where)
+
+
+def _texts(cell: _Cell, where: Where) -> Iterator[Finding]:
+    """Blanks alone, or an unknown field."""
     if cell.text and not cell.text.strip():
         yield Finding("block-blank", (*where, "text"))
     for name in re.findall(r"\{([^{}]*)\}?", cell.text):
@@ -269,18 +329,27 @@ def _findings(cell: _Cell, index: int, block: _File) -> Iterator[Finding]:
             yield Finding("block-field", (*where, "text"), {"text": name, **close_or_known(name, sorted(FIELDS))})
 
 
-def fields_of(case: Opened) -> dict[str, str]:
-    """What the assignment says for a title block; the sheet adds its number, scale and format."""
-    given = case.assignment.report
+def fields_of(case: Opened, block: TitleBlock, number: int) -> dict[str, str]:
+    """What the assignment says for the title block of a sheet; who lays the sheets out adds their count and format."""
+    given, variant = case.assignment.report, case.assignment.variant
     organisation = ", ".join(part for part in (given.university, given.faculty, given.department) if part)
-    student = given.student
-    date = given.date
+    student, date = given.student, given.date
+    initials = "".join(word[0] for word in case.course.split())
+    course = case.assignment.sheet.course or initials.upper()
+    parts = {
+        "course": course,
+        "variant": variant.zfill(2) if variant.isdigit() else variant or "00",
+        "sheet": f"{number:02}",
+    }
     return {
+        **parts,
         "machine": case.title,
-        "designation": " ".join(part for part in (student.id or case.assignment.id, case.assignment.variant) if part),
+        "designation": case.assignment.sheet.designation or _filled(block.designation, parts),
         "organisation": ", ".join(part for part in (organisation, student.class_) if part),
         "student": student.name or "",
         "supervisor": given.supervisor or "",
         "class": student.class_ or "",
-        "date": f"{date.day}.{date.month}.{date:%y}" if date else "",
+        "date": f"{date:%d.%m.%y}" if date else "",
+        "scale": case.words["plates"]["scale"],
+        "sheet": str(number),
     }

@@ -87,6 +87,11 @@ class Package:
     def __contains__(self, name: str) -> bool:
         return name in self._parts
 
+    @property
+    def names(self) -> list[str]:
+        """Of all parts."""
+        return list(self._parts)
+
     def refused(self, code: str, **arguments: str) -> RefusedError:
         return RefusedError(code, self.mark, **arguments)
 

@@ -20,9 +20,9 @@ from itertools import tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from reportgen.base.errors import CellMark, Mark
+from reportgen.base.errors import CellMark, Fault, Mark
 from reportgen.base.files import contents
-from reportgen.base.source import mark_in
+from reportgen.base.source import decoded
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.workbook.package import (
@@ -253,7 +253,6 @@ _BINARY = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 SEPARATORS = ",;\t"
 _STATED = re.compile(r"sep=(.)\r?\n")
 _LINE_END = re.compile(r"\r\n|\r|\n")
-_WIDE = (b"\xff\xfe", b"\xfe\xff")
 
 
 def read(path: Path, language: Language | None = None, data: bytes | None = None) -> tuple[Page, ...]:
@@ -287,15 +286,10 @@ def _read(path: Path, data: bytes | None) -> tuple[Page, ...]:
 
 
 def _read_csv(data: bytes, file: str, name: str) -> Page:
-    """The page of a CSV file in UTF-8, refused at the place of what cannot be read."""
-    if data.startswith(_WIDE):
-        raise RefusedError("encoding", Mark(file))
-    if b"\0" in data:
-        raise RefusedError("binary", mark_in(data, data.index(b"\0"), file))
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as fault:
-        raise RefusedError("encoding", mark_in(data, fault.start, file)) from None
+    """The page of a CSV file, refused at the place of what cannot be read."""
+    text = decoded(data, file)
+    if isinstance(text, Fault):
+        raise RefusedError(text.code, text.mark)
     rows: list[tuple[SheetCell, ...]] = []
     cells = 0
     for row in _csv_rows(text, file):

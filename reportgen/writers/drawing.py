@@ -81,6 +81,7 @@ def _calls(item: Item, scene: Scene, pens: Mapping[Pen | None, str], formulas: T
 
 def _call_of_label(label: Label, scene: Scene, formulas: TextSetter) -> str:
     options = (",turn:true" if label.turn else "") + (",paper:true" if label.background else "")
+    options += f",narrow:{100 * label.narrow:.4g}%" if label.narrow < 1.0 else ""
     anchor, across, down = ANCHORS[label.anchor]
     x = decimal(label.at.real - across * scene.width)
     y = decimal((1 - down) * scene.height - label.at.imag)

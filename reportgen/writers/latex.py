@@ -61,11 +61,24 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
         gap=f"{tree.ABREAST:g}",
         close=document.close,
         body=body,
-        family=FAMILIES.get(letter.font),
-        size=f"{letter.size:g}",
-        lead=f"{letter.size * LEADING:.4g}",
-        larger=letter.size != tree.TEXT_SIZE,
+        **_type(letter),
     )
+
+
+def opening(letter: tree.Letter, close: bool) -> str:
+    """What the source of every document in this letter begins with, whatever it says: LaTeX's own files."""
+    frame = _frame()
+    return "".join(frame.blocks["opening"](frame.new_context({"close": close, **_type(letter)})))
+
+
+def _type(letter: tree.Letter) -> Mapping[str, object]:
+    """The letter as the frame is told it."""
+    return {
+        "family": FAMILIES.get(letter.font),
+        "size": f"{letter.size:g}",
+        "lead": f"{letter.size * LEADING:.4g}",
+        "larger": letter.size != tree.TEXT_SIZE,
+    }
 
 
 @cache
@@ -170,6 +183,8 @@ class _Writer:
                 return self.contents(title, brief)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
+            case tree.Listing(lines):
+                return "\n".join((r"\begingroup\scriptsize\begin{verbatim}", *lines, r"\end{verbatim}\endgroup"))
             case tree.PageBreak():
                 return r"\clearpage"
 
@@ -341,6 +356,8 @@ class _Writer:
             environment.append(NoEscape(self.row(row, block.columns) + end))
         framed = r"\framedtable" if block.framed else ""
         room = _command("needed", f"{_height(block):g}mm")
+        if not unbroken:
+            room = _command("figuresbefore", f"{TITLE + ROW * (len(block.head) + len(block.rows)):g}mm") + room
         return f"{room}\\begin{{belowfigures}}\\tablesize{framed}\n{environment.dumps()}\n\\end{{belowfigures}}"
 
     def head(self, block: tree.Table) -> str:

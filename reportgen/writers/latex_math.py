@@ -68,7 +68,7 @@ def escape(text: str) -> str:
 
     Raises `TypesetterError` naming the first character that the fonts do not have.
     """
-    source = "".join(map(_character, unicodedata.normalize("NFC", text)))
+    source = unicodedata.normalize("NFC", text).translate(_SOURCES)
     return _LIGATURES.sub(r"\1{}", source)
 
 
@@ -85,6 +85,17 @@ def _character(char: str) -> str:
         f"the LaTeX engine has no character {char!r} (U+{ord(char):04X}, "
         f"{unicodedata.name(char, 'without a name')}); use the engine typst, or write it otherwise"
     )
+
+
+class _Sources(dict[int, str]):
+    """The source of each character, by its number, as it is asked for."""
+
+    def __missing__(self, number: int) -> str:
+        self[number] = _character(chr(number))
+        return self[number]
+
+
+_SOURCES = _Sources()
 
 
 def hexadecimal(text: str) -> str:

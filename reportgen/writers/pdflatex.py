@@ -4,6 +4,7 @@ The run may read and write that directory only, starts no other program, and sto
 or at the time limit.  The same source gives the same bytes.
 
 Page numbers are kept from one report to the next of the same contents: where they still hold, one pass is enough.
+What all reports begin with may be read ahead, while the rest of one is still worked out.
 """
 
 from __future__ import annotations
@@ -14,8 +15,10 @@ import re
 import shutil
 import subprocess
 import tempfile
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Self
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.files import keep, kept
@@ -26,6 +29,7 @@ INSTALL = (
 """The one command that installs all this writer needs, on Debian and its kin."""
 
 MAX_PASSES = 4
+STANDARD_INPUT = Path("/dev/stdin")
 REPORTED_EXCESS = 1.0
 """Points by which a box may stand out before it counts as overfull."""
 
@@ -37,7 +41,8 @@ _COMMAND = (
     "-no-shell-escape",
     "-no-mktex=tfm",
     "-no-mktex=pk",
-    "report.tex",
+    "-no-parse-first-line",
+    "-jobname=report",
 )
 _ENVIRONMENT = {
     # "p": neither parent directories nor absolute paths outside TeX's own trees.
@@ -68,8 +73,42 @@ class Compiled:
     overfull: tuple[str, ...]
 
 
-def compile(source: str, timeout: float = 120.0) -> Compiled:
+class Ahead:
+    """A run of pdflatex that reads the opening of a source while the rest of it is still made; ended with its block.
+
+    It comes to nothing where pdflatex is missing or the system has no file that is the standard input.
+    """
+
+    def __init__(self, opening: str) -> None:
+        self.opening = opening
+        self.process: subprocess.Popen[bytes] | None = None
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            self.directory = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="reportgen-")))
+            program = shutil.which(_COMMAND[0])
+            if program is not None and STANDARD_INPUT.exists():
+                (self.directory / "ahead.tex").symlink_to(STANDARD_INPUT)
+                self.process = _started(program, self.directory, "ahead.tex", subprocess.PIPE)
+                stack.callback(_stop, self.process)
+                assert self.process.stdin
+                self.process.stdin.write(self.opening.encode())
+                self.process.stdin.flush()
+            self._end = stack.pop_all()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._end.close()
+
+    def begins(self, source: str) -> bool:
+        """Whether a source goes on from what is read."""
+        return self.process is not None and source.startswith(self.opening)
+
+
+def compile(source: str, timeout: float = 120.0, ahead: Ahead | None = None) -> Compiled:
     """Typeset a whole document; passes end when the auxiliary file no longer changes.
+
+    Of a source that begins with what is read `ahead` the first pass reads the rest.
 
     Raises `TypesetterError` if pdflatex or one of its packages is missing (with the command that
     installs them), if TeX stops at an error (with the first lines of the log that say why), if it
@@ -80,11 +119,15 @@ def compile(source: str, timeout: float = 120.0) -> Compiled:
         raise TypesetterError(f"the LaTeX engine needs pdflatex; install it with\n    {INSTALL}")
     name = _kept_as(source)
     known = kept(name) or b"" if name else b""
-    with tempfile.TemporaryDirectory(prefix="reportgen-") as folder:
-        directory = Path(folder)
+    begun = ahead if ahead and ahead.begins(source) else None
+    with ExitStack() as stack:
+        directory = (
+            begun.directory if begun else Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="reportgen-")))
+        )
         (directory / "report.tex").write_text(source, encoding="utf-8")
         try:
-            compiled, auxiliary = _settled(program, directory, timeout, known)
+            first, rest = (begun.process, source.removeprefix(begun.opening)) if begun else (None, "")
+            compiled, auxiliary = _settled(program, directory, timeout, known, first, rest.encode())
         except TypesetterError:
             if not known:
                 raise
@@ -95,14 +138,23 @@ def compile(source: str, timeout: float = 120.0) -> Compiled:
     return compiled
 
 
-def _settled(program: str, directory: Path, timeout: float, auxiliary: bytes) -> tuple[Compiled, bytes]:
+def _settled(
+    program: str,
+    directory: Path,
+    timeout: float,
+    auxiliary: bytes,
+    first: subprocess.Popen[bytes] | None = None,
+    rest: bytes = b"",
+) -> tuple[Compiled, bytes]:
     """The PDF with page numbers that hold, and the auxiliary file that has them; `auxiliary` is one from before.
 
-    Contents have room for any number, so that the pages do not depend on what was known of them.
+    The `first` pass may have begun and wait for the `rest` of the source.  Contents have room for any number, so that
+    the pages do not depend on what was known of them.
     """
     (directory / "report.aux").write_bytes(auxiliary)
     for passes in range(1, MAX_PASSES + 1):
-        _run(program, directory, timeout)
+        _finish(first or _started(program, directory, "report.tex"), directory, timeout, rest)
+        first, rest = None, b""
         latest = (directory / "report.aux").read_bytes()
         if latest == auxiliary or b"\\newlabel" not in latest:
             log = _log(directory)
@@ -122,25 +174,37 @@ def overfull(log: str) -> tuple[str, ...]:
     return tuple(match.group() for match in _OVERFULL.finditer(log) if float(match["excess"]) > REPORTED_EXCESS)
 
 
-def _run(program: str, directory: Path, timeout: float) -> None:
+def _started(program: str, directory: Path, file: str, given: int = subprocess.DEVNULL) -> subprocess.Popen[bytes]:
+    """A run on a file of the directory; its standard input is `given`."""
     try:
-        done = subprocess.run(
-            (program, *_COMMAND[1:]),
+        return subprocess.Popen(
+            (program, *_COMMAND[1:], file),
             cwd=directory,
             env={**os.environ, **_ENVIRONMENT},
-            stdin=subprocess.DEVNULL,
+            stdin=given,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            timeout=timeout,
-            check=False,
         )
-    except subprocess.TimeoutExpired:
-        raise TypesetterError(f"pdflatex was stopped after {timeout:g} s") from None
     except OSError as error:
         raise TypesetterError(f"pdflatex could not be started: {error}") from error
-    if done.returncode < 0:
-        raise TypesetterError(f"pdflatex was ended by signal {-done.returncode}, most likely for too little memory")
-    if done.returncode != 0:
+
+
+def _stop(run: subprocess.Popen[bytes]) -> None:
+    run.kill()
+    run.communicate()
+
+
+def _finish(run: subprocess.Popen[bytes], directory: Path, timeout: float, rest: bytes) -> None:
+    try:
+        run.communicate(rest or None, timeout)
+    except subprocess.TimeoutExpired:
+        raise TypesetterError(f"pdflatex was stopped after {timeout:g} s") from None
+    finally:
+        if run.poll() is None:
+            _stop(run)
+    if run.returncode < 0:
+        raise TypesetterError(f"pdflatex was ended by signal {-run.returncode}, most likely for too little memory")
+    if run.returncode != 0:
         raise TypesetterError(_reason(_log(directory)))
 
 

@@ -17,11 +17,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
-from reportgen.base.units import Language
+from reportgen.base.units import Language, by_power_of_ten
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
@@ -105,6 +105,8 @@ def _superscript(text: str) -> str:
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+PPI = 220
+"""Dots an inch of pictures."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 
@@ -214,13 +216,10 @@ class _Blocks:
                 figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
-                label = (
-                    f"{self.again(self.words.figure, block)},[]"
-                    if continues
-                    else self.caption(self.words.figure, block)
-                )
-                drawing = paint_typst(scene, self.formulas)
-                return f"#plate({width:g},{height:g},{scene.height:g},{label},\n{drawing})" + _label(key)
+                again = f"{self.again(self.words.figure, block)},[]"
+                label = again if continues else self.caption(self.words.figure, block)
+                across = f"{width:g},{height:g},{scene.height:g},{label}"
+                return f"#plate({across},\n{paint_typst(scene, self.formulas)})" + _label(key)
             case tree.Cover(institution, title, subtitle, fields, foot):
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
@@ -229,6 +228,8 @@ class _Blocks:
                 return f"#contents({literal(title)}{',brief:true' if brief else ''})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
+            case tree.Listing(code):
+                return f"#listing({literal(chr(10).join(code))})"
             case tree.PageBreak():
                 return "#pagebreak(weak: true)"
 
@@ -250,6 +251,8 @@ class _Blocks:
                 return f"#strong{self.content(of)}"
             case tree.InlineMath(expression, slashed):
                 return self.formula(expression, slashed)
+            case tree.Value(number) if by_power_of_ten(number.value, number.decimals):
+                return self.formula(number)
             case tree.Value(number):
                 shown = literal(written(number, self.language).text(NARROW))
                 return f"#box({shown})" if "/" in number.unit else f"#{shown}"
@@ -377,6 +380,31 @@ def compile(source: str, system: bool = False) -> bytes:
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
     assert isinstance(pdf, bytes)
     return pdf
+
+
+def pictures(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:
+    """Scenes in true size as PNG and as SVG."""
+    import typst
+
+    if not scenes:
+        return []
+    formulas = TypstFormulas(language)
+    pages = (
+        f"#page(width:{scene.width}mm,height:{scene.height}mm,margin:0pt)[#{paint_typst(scene, formulas)}]"
+        for scene in scenes
+    )
+    source = "\n".join((_frame(), SHEET_LOOK, *pages))
+    own = not needs_system_fonts(source, lacking)
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        path = Path(folder) / "figures.typ"
+        path.write_text(source, encoding="utf-8", newline="")
+        compiler = typst.Compiler(str(path), root=folder, ignore_system_fonts=own)
+        made: list[Any] = [compiler.compile(format="png", ppi=PPI), compiler.compile(format="svg")]
+    # What has one page comes alone.
+    pngs, svgs = made if len(scenes) > 1 else ([one] for one in made)
+    # Letters are symbols that are used; groups that are used look the same, and more programs know them.
+    grouped = (svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>") for svg in svgs)
+    return list(zip(pngs, grouped, strict=True))
 
 
 def families() -> list[str]:

@@ -228,6 +228,12 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
     ],
     "lever-six-bar": [
         ("no fixed point", {"  D: {x: -10 mm, y: -106 mm}\n": ""}, "3:1 missing-key"),
+        ("a coupler and a swing", {"AB: 34 mm": "swing: {angle: 60 deg, K: 1.05}"}, "5:3 both-given"),
+        (
+            "a swing that no links give",
+            {"AB: 34 mm": "swing: {angle: 100 deg, K: 2.5}", "  AC: 90 mm\n": ""},
+            "4:10 no-such-swing",
+        ),
         ("E beyond A", {"CE: 30 mm": "CE: 95 mm"}, "7:7 out-of-range"),
         ("side of no name", {"CE: 30 mm": "…\n  F: above"}, "8:6 choice"),
         ("flywheel, no loads", {"CE: 30 mm": "…\n  flywheel: {delta: 0.1}"}, "8:3 flywheel-without-loads"),
@@ -542,6 +548,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "29:13 no-base-point",
             "two points that move along known lines",
         ),
+        ("no equations", {"find: [v.D]": "…\n  methods: [equations]"}, "29:13 no-equations"),
     ],
     "plane-motion-lever": [
         (
@@ -557,6 +564,106 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("ends that part a little", {"size: 1 m/s2": "size: 2.001 m/s2"}, "12:7 points-part"),
         ("ends that part", {"size: 1 m/s2": "size: 3 m/s2"}, "12:7 points-part"),
     ],
+    "cam": [
+        ("a right cam", {}, RIGHT),
+        ("phases beyond a turn", {"near: 120 deg": "near: 150 deg"}, "7:11 cam-phases"),
+        ("phases short of a turn", {"near: 120 deg": "near: 100 deg"}, "7:11 cam-phases"),
+        (
+            "phases without room for a near dwell",
+            {"far: 30 deg, return: 90 deg, near: 120 deg": "far: 30 deg, return: 250 deg"},
+            "7:11 cam-phases",
+        ),
+        ("no stroke", {"  h: 40 mm\n": ""}, "3:1 missing-key"),
+        ("a stroke of nothing", {"h: 40 mm": "h: 0 mm"}, "6:6 out-of-range"),
+        ("an arm that translates", {"  h: 40 mm": "…\n  arm: 90 mm"}, "7:3 cam-idle-key"),
+        ("offset beyond the base circle", {"e: 10 mm": "e: 40 mm"}, "11:6 cam-offset"),
+        ("roller larger than the base circle", {"roller: 10 mm": "roller: 40 mm"}, "12:11 cam-roller"),
+        (
+            "a length sought without limits",
+            {"r0: 40 mm": "r0: find", "  limits: {rise: 30 deg, return: 70 deg}\n": ""},
+            "3:1 missing-key",
+        ),
+        ("an offset sought alone", {"e: 10 mm": "e: find"}, "11:6 cam-find-r0"),
+        (
+            "acceleration that does not end at rest",
+            {"return: 3-4-5": "return: {x: [0, 0.5, 0.5, 1], a: [1, 1, -2, -2]}"},
+            "8:57 cam-areas",
+        ),
+        (
+            "acceleration that moves back first",
+            {"return: 3-4-5": "return: {x: [0, 0.5, 0.5, 1], a: [-1, -1, 1, 1]}"},
+            "8:57 cam-backwards",
+        ),
+        ("acceleration of other lengths", {"return: 3-4-5": "return: {x: [0, 1], a: [1, 0, -1]}"}, "8:47 row-length"),
+        ("acceleration over too little", {"return: 3-4-5": "return: {x: [0, 0.9], a: [1, -1]}"}, "8:40 table-end"),
+        (
+            "acceleration that runs back",
+            {"return: 3-4-5": "return: {x: [0, 0.6, 0.4, 1], a: [1, 1, -1, -1]}"},
+            "8:45 not-increasing",
+        ),
+        ("a law nobody knows", {"rise: cosine": "rise: spline"}, "8:10 choice"),
+        ("steps of no phase", {"  h: 40 mm": "…\n  positions: {up: 6}"}, "7:14 unknown-key"),
+        (
+            "a dwell of nothing divided",
+            {"far: 30 deg, return: 90 deg": "far: 0 deg, return: 120 deg", "  h: 40 mm": "…\n  positions: {far: 2}"},
+            "7:20 cam-no-phase",
+        ),
+        (
+            "a position that is not there",
+            {"report: {language: en}": "report: {language: en, worked_positions: [40]}"},
+            "2:43 no-such-position",
+        ),
+        ("no room for a roller", {"roller: 10 mm": "roller: find\n  rho: 60 mm"}, "12:11 cam-no-roller"),
+    ],
+    "cam-rocker": [
+        ("an arm too short for the triangle", {"r0: 80 mm": "r0: 40 mm"}, "12:7 cam-triangle"),
+        (
+            "an arm that swings past the cam",
+            {
+                "psi_max: 15 deg": "psi_max: 120 deg",
+                "arm: 132 mm": "arm: 100 mm",
+                "a: 180 mm": "a: 110 mm",
+                "r0: 80 mm": "r0: 190 mm",
+            },
+            "6:12 cam-past",
+        ),
+        (
+            "limits that no cam keeps",
+            {
+                "r0: 80 mm": "r0: find",
+                "rise: 40 deg, return: 50 deg": "rise: 5 deg, return: 5 deg",
+                "psi_max: 15 deg": "psi_max: 60 deg",
+                "arm: 132 mm": "arm: 132 mm\n  lifts: with",
+            },
+            "12:11 cam-no-centre",
+        ),
+        (
+            "a follower faster than the cam",
+            {"psi_max: 15 deg": "psi_max: 80 deg\n  lifts: with"},
+            "10:11 cam-overtakes",
+        ),
+        (
+            "a face that reaches the pivot",
+            {
+                "end: roller": "end: flat",
+                "  arm: 132 mm\n": "",
+                "  limits: {rise: 40 deg, return: 50 deg}\n": "",
+                "r0: 80 mm\n  roller: 15 mm": "r0: 190 mm",
+            },
+            "10:7 cam-face",
+        ),
+        (
+            "a face that nothing makes convex",
+            {
+                "end: roller": "end: flat",
+                "  arm: 132 mm\n": "",
+                "  limits: {rise: 40 deg, return: 50 deg}\n": "",
+                "r0: 80 mm\n  roller: 15 mm": "r0: find",
+                "psi_max: 15 deg": "psi_max: 60 deg",
+            },
+            "10:7 cam-not-convex",
+        ),
+    ],
 }
 """By file: (name, {what is replaced: by what}, faults, words that the English messages hold, …)."""
 
@@ -568,6 +675,7 @@ WHOLE: list[tuple[str, bytes, str]] = [
     ("a word", b"engine\n", "1:1 wrong-type"),
     ("NUL", b"kind: a\nvariant: \0\n", "2:10 binary"),
     ("a picture", b"\x89PNG\r\n\x1a\n\xff\xfe\xfd", "1:1 encoding"),
+    ("UTF-16 that breaks off", "kind: a\nvariant: phương".encode("utf-16") + b"x", "2:16 encoding"),
     ("another encoding", "kind: a\nvariant: phương".encode("utf-16-le"), "1:2 binary"),
     ("broken UTF-8", "variant: ph\xe9".encode("latin-1"), "1:12 encoding"),
     ("control character", b"kind: a\nvariant: \x07\n", "2:10 control-character"),

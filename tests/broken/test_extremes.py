@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,9 @@ import pytest
 from reportgen import api
 from reportgen.cases import MachineCase
 from reportgen.catalogue import check
+from reportgen.report import text_of
+from tests.report import trees
+from tests.report.calculator import misses
 
 SLIDER = """\
 kind: slider-crank
@@ -106,3 +110,15 @@ def test_what_is_accepted_works_out_to_nine_figures(tmp_path: Path, name: str, d
     size = np.abs(analysis.torque).max()
     assert np.abs(analysis.torque - analysis.torque_by_work).max() <= 1e-9 * size
     assert analysis.summary.energy_error < 1e-9
+
+
+def test_a_machine_at_the_bounds_has_a_report_whose_lines_recompute(tmp_path: Path) -> None:
+    """900 t on a crank of 40 m at 100 000 rpm: what is very large is rounded to its figures, with a power of ten."""
+    text = SLIDER.replace("150 mm", "40 m").replace("600 mm", "99 m").replace("100 rpm", "100000 rpm")
+    file = tmp_path / "a.yaml"
+    file.write_text(text.replace("3 kg", "900000 kg").replace("2 kg", "900000 kg"), encoding="utf-8")
+    document = api.document(api.load(file))
+    assert misses(trees.lines(trees.chains(document), "en")) == []
+    # ω² r = (2π·10⁵/60)²·40 m/s².
+    assert "4.3865·10^9 m/s²" in text_of(document)
+    assert not re.search(r"[0-9]{10}", text_of(document))

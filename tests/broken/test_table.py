@@ -61,12 +61,12 @@ def test_a_file_that_is_not_there(tmp_path: Path) -> None:
 
 
 def test_what_is_not_offered_is_told_in_one_line(tmp_path: Path) -> None:
-    """Drawing sheets need a machine; a solution steps that are known: a disc on a plate that turns has none."""
+    """Positions need a machine; a solution steps that are known: a disc on a plate that turns has none."""
     rods = FILES / "plane-motion.yaml"
     with pytest.raises(NotOfferedError, match="--positions"):
         api.solve(load(rods, "en"), 12)
     with pytest.raises(NotOfferedError, match="plane-motion"):
-        api.sheet_files(rods, "typst", "en")
+        api.analyse(load(rods, "en"))
     plate = FILES / "plane-motion-plate.yaml"
     with pytest.raises(NotOfferedError, match=r"a\.M"):
         api.document(load(plate, "en"))

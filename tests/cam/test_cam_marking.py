@@ -9,6 +9,7 @@ import pymupdf
 import pytest
 
 from reportgen import api
+from reportgen.base.errors import AssignmentError
 from reportgen.base.units import write
 from reportgen.cases import open_case
 from reportgen.classes import assess
@@ -74,6 +75,32 @@ def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
 def test_variants_differ(drawn: Path) -> None:
     answers = {open_case(path).key().row("cam.least.r0").values[0] for path in (drawn / "variants").glob("S*.yaml")}
     assert len(answers) > STUDENTS / 2
+
+
+@pytest.mark.parametrize(
+    ("roller", "limits", "told"),
+    [
+        ("roller: 35 mm", "rise: 85 deg, return: 85 deg", "undercut"),
+        ("roller: 5 mm", "rise: 6 deg, return: 70 deg", "pressure"),
+    ],
+)
+def test_no_variant_is_undercut_or_beyond_its_limit(tmp_path: Path, roller: str, limits: str, told: str) -> None:
+    text = (FOLDER / "roller-01.yaml").read_text(encoding="utf-8")
+    for old, new in {
+        "h: 40 mm": "h: [38 mm, 40 mm]",
+        "rise: 120 deg, far": "rise: 50 deg, far",
+        "near: 120 deg": "near: 190 deg",
+        "r0: find": "r0: 40 mm",
+        "e: find": "e: 5 mm",
+        "roller: find": roller,
+        "rise: 30 deg, return: 70 deg": limits,
+    }.items():
+        text = text.replace(old, new)
+    (tmp_path / "spec.yaml").write_text(text, encoding="utf-8")
+    (tmp_path / "roster.csv").write_text("id,name,class\nS1,Student,K1\n", encoding="utf-8")
+    with pytest.raises(AssignmentError) as refused:
+        make_variants(tmp_path / "spec.yaml", tmp_path / "roster.csv", tmp_path / "variants", False, "en")
+    assert told in str(refused.value)
 
 
 def test_right_sheets_get_all_marks_and_a_slip_costs_few(graded: Graded) -> None:

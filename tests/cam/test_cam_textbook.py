@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen.cam.design import CamLimits, least_oscillating, least_translating
-from reportgen.cam.laws import LAWS, AccelerationGraph, FollowerMotion, MotionLaw, evaluated, law
+from reportgen.cam.laws import LAWS, AccelerationGraph, FollowerLaw, FollowerMotion, evaluated, law
 from reportgen.cam.profile import Cam
 
 MM = 1e-3
@@ -57,7 +57,7 @@ def test_the_laws(name: str) -> None:
 
 def test_a_graph_of_acceleration_is_integrated_twice() -> None:
     """Accelerated by 3 over 0.4, decelerated by 2 over 0.6: V = 2 at the corner, A = 5 and −10/3."""
-    one = MotionLaw("table", AccelerationGraph(np.array([0, 0.4, 0.4, 1]), np.array([3.0, 3, -2, -2])))
+    one = FollowerLaw("table", AccelerationGraph(np.array([0, 0.4, 0.4, 1]), np.array([3.0, 3, -2, -2])))
     S, V, A = one(np.array([0.2, 0.4, 0.7, 1.0]))
     assert S.tolist() == pytest.approx([0.1, 0.4, 0.85, 1.0])
     assert V.tolist() == pytest.approx([1.0, 2.0, 1.0, 0.0], abs=1e-12)

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import io
 import stat
+import subprocess
+import sys
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
@@ -16,9 +18,10 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
+from reportgen.base.units import Language
 from reportgen.classes import assess
 from reportgen.classes import platforms as gradebooks
-from reportgen.classes.platforms import MOST_MEMBERS, Owner, StudentResult, fill, handed_in, owner_of
+from reportgen.classes.platforms import MOST_MEMBERS, Owner, StudentResult, handed_in, owner_of, read_gradebook
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.marks import Policy, Scale
@@ -201,6 +204,12 @@ RESULTS = [
 ]
 
 
+def fill(
+    path: Path, results: list[StudentResult], scale: Scale, column: str = "", language: Language | None = None
+) -> tuple[bytes, list[Fault]]:
+    return read_gradebook(path, column, language).filled(results, scale)
+
+
 def test_a_worksheet_is_filled_in_and_stays_as_it_was_otherwise(tmp_path: Path) -> None:
     text = (
         f"\ufeff{EN}\r\n"
@@ -213,6 +222,14 @@ def test_a_worksheet_is_filled_in_and_stays_as_it_was_otherwise(tmp_path: Path) 
     filled, faults = fill(path, RESULTS, Scale())
     assert faults == []
     assert filled.decode() == text.replace(',,10.00,Yes,"Mon', ',8.50,10.00,Yes,"Mon').replace('"3.00"', '"5.00"')
+
+
+def test_a_worksheet_in_utf_16_is_given_back_in_it(tmp_path: Path) -> None:
+    text = f"{VI}\nNgười tham gia 4713;B;b@x.vn;Nộp;;10,00;Có;-;\n"
+    path = tmp_path / "w.csv"
+    path.write_bytes(text.encode("utf-16"))
+    filled, _ = fill(path, RESULTS[:1], Scale())
+    assert filled == text.replace("Nộp;;", "Nộp;8,50;").encode("utf-16")
 
 
 def test_a_worksheet_in_vietnamese_with_semicolons_and_decimal_commas(tmp_path: Path) -> None:
@@ -290,12 +307,25 @@ def test_the_mark_is_told_on_the_platforms_scale(tmp_path: Path) -> None:
     assert "01,17.50,7" in fill(path, RESULTS, Scale(4, 0.5), "501")[0].decode()
 
 
+def test_a_wrong_gradebook_is_told_before_anything_is_marked(tmp_path: Path) -> None:
+    """There are no assignments here either, which would be the fault that marking meets first."""
+    book = tmp_path / "gradebook.csv"
+    book.write_text(CANVAS, encoding="utf-8")
+    out = tmp_path / "out"
+    command = ("grade", demo.SHEETS, "--assignments", tmp_path, "--gradebook", book, "--out", out, "--lang", "en")
+    done = subprocess.run(
+        [sys.executable, "-m", "reportgen.cli", *map(str, command)], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout, out.exists()) == (1, "", False)
+    assert done.stderr.startswith(f"{book}:1:1: error[gradebook-which-column]: ")
+
+
 def test_put_does_not_overwrite_what_was_downloaded(assignments: Path, tmp_path: Path) -> None:
     result = assess.grade([SHEETS[BAO]], assignments, Policy())
     for place, name in ((tmp_path, "filled-gradebook.csv"), (tmp_path / "out", "gradebook.csv")):
         source = tmp_path / "gradebook.csv"
         source.write_text(CANVAS, encoding="utf-8")
-        written, problems = assess.put_gradebook(result, source, "501", Policy(), place, "en")
+        written, problems = assess.put_gradebook(result, read_gradebook(source, "501"), Policy(), place, "en")
         assert (written, problems) == (place / name, [])
         assert source.read_text(encoding="utf-8") == CANVAS
 

@@ -129,7 +129,7 @@ def test_check_prints_all_faults_with_hints(faulty: Path) -> None:
     assert done.stderr.splitlines() == [
         f"{faulty}:21:6: error[missing-unit]: “95” has no unit",
         "    hint: write for example “95 mm”",
-        f"{faulty}:22:11: error[out-of-range]: “3.6” is out of range: ≥ 0.001, < 1",
+        f"{faulty}:22:11: error[out-of-range]: “3.6” is out of range: at least 0.001 and less than 1",
         "    hint: λ is R/L; did you mean 1/3.6?",
     ]
 

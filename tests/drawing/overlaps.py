@@ -48,6 +48,8 @@ class Placed:
     """A label on paper: what it names, the box around it, the leader that ties it to its point if it has one."""
 
     named: tuple[complex, ...]
+    mark: bool
+    """Whether it is one of the many marks of a curve, which may stand past others on a leader."""
     low: complex
     high: complex
     leader: Line | None
@@ -67,21 +69,30 @@ def watched() -> Iterator[list[list[Placed]]]:
 
     def placing(order: Any, spots: Any, frames: Any) -> Any:
         done, crowded = place_in(order, spots, frames)
-        rounds.append([_placed(spots[i].request.named, items) for i, items in done.items() if items])
+        rounds.append([_placed(spots[i].request, items) for i, items in done.items() if items])
         return done, crowded
 
     def all_rounds(items: Any, requests: Any) -> Any:
+        rounds.clear()
         result = place(items, requests)
-        figures.append(rounds[-1])
+        # A figure that was drawn before has its labels already.
+        figures.extend(rounds[-1:])
         return result
 
+    place.cache_clear()
     with mock.patch.object(labels, "_place_in", placing), mock.patch.object(labels, "place", all_rounds):
         yield figures
 
 
-def _placed(named: tuple[complex, ...], items: tuple[Item, ...]) -> Placed:
+def _placed(request: labels.Request, items: tuple[Item, ...]) -> Placed:
     low, high = bounds(item for item in items if isinstance(item, Label))
-    return Placed(named, low, high, next((item for item in items if isinstance(item, Line)), None))
+    return Placed(
+        request.named,
+        request.short == labels.LEFT_OUT,
+        low,
+        high,
+        next((item for item in items if isinstance(item, Line)), None),
+    )
 
 
 def astray(figure: list[Placed]) -> list[Placed]:

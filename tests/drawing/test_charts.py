@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
+from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from reportgen.drawing import Circle, Label, Polyline, Scene
-from reportgen.drawing.charts import HEIGHT, WIDTH, Area, PlottedCurve, bars, chart, histogram, polar
+from reportgen.drawing.charts import (
+    CLOSE,
+    HEIGHT,
+    WIDTH,
+    Area,
+    PlottedCurve,
+    _telling,
+    _ticks,
+    bars,
+    chart,
+    histogram,
+    polar,
+)
 from reportgen.formula import Chain, Number, Symbol
 from tests.drawing.overlaps import overlaps
 
@@ -113,9 +124,31 @@ def test_figures_without_room_side_by_side_are_left_out() -> None:
     assert up == [-50000.0, -40000.0, -30000.0, -20000.0, -10000.0, 0.0, 10000.0]
 
 
-def test_matplotlib_waits_for_the_first_chart() -> None:
-    code = "import sys, reportgen.drawing.charts; sys.exit('matplotlib' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+@pytest.mark.parametrize("turns", [1, 4])
+def test_what_a_curve_leaves_out_lies_close_to_what_it_keeps(turns: int) -> None:
+    """A spiral runs back upon itself: far from the line through two of its points, near the line prolonged."""
+    share = np.linspace(0, 1, 2000)
+    places = 30 * share * np.exp(2j * np.pi * turns * share)
+    kept = _telling(places)
+    assert (kept[0], kept[-1]) == (0, len(places) - 1)
+    assert len(kept) < 100 * turns
+    for first, last in pairwise(kept):
+        inner, chord = places[first : last + 1] - places[first], places[last] - places[first]
+        along = (inner * np.conj(chord)).real / abs(chord)
+        across = (inner * np.conj(chord)).imag / abs(chord)
+        assert np.abs(across).max() <= CLOSE
+        # 1e-9 mm: of floats.
+        assert -CLOSE <= along.min() <= along.max() <= abs(chord) + CLOSE + 1e-9
+
+
+@pytest.mark.parametrize(("low", "high"), [(-3.1, 47.0), (0.0, 1e-4), (-2e6, -1e6), (7.0, 7.0), (0.0, 0.0)])
+def test_ticks_are_round_and_hold_the_range(low: float, high: float) -> None:
+    ticks = _ticks(low, high, 7)
+    steps = np.diff(ticks)
+    assert ticks[0] <= low <= high <= ticks[-1]
+    assert 2 <= len(ticks) <= 9
+    assert np.ptp(steps) < 1e-9 * steps[0]
+    assert f"{steps[0]:.1e}"[:3] in {"1.0", "2.0", "2.5", "5.0"}
 
 
 # --- bars and histograms ---------------------------------------------------------------------------

@@ -138,3 +138,22 @@ def test_labels_of_drawings_in_a_page_keep_their_parentheses(node: Expression, t
 def test_a_missing_parenthesis_would_be_seen() -> None:
     assert fences(laid(R * (A + B), "en"), "en") == dict.fromkeys(("typst", "latex", "mathml"), "()")
     assert fences(laid(R * A, "en"), "en") == dict.fromkeys(("typst", "latex", "mathml"), "")
+
+
+@pytest.mark.parametrize(
+    ("expression", "text"),
+    [
+        (Number(7.16e16, -14, "N"), "7,16·10^16 N"),
+        (A * Number(7.16e16, -14), "a·7,16·10^16"),
+        (A / Number(7.16e16, -14), "a/(7,16·10^16)"),
+        (Number(-4.4e9, -8) ** 2, "(−4,4·10^9)^2"),
+        (Number(2.0944e-7, 11), "2,0944·10^(−7)"),
+        (Number(5e9, 0), "5·10^9"),
+        (Number(9_999_999.6, 0), "10000000"),
+        (Number(0.0, -14), "0"),
+        (Number(0.00001234, 8), "0,00001234"),
+    ],
+)
+def test_an_extreme_number_has_a_power_of_ten(expression: Expression, text: str) -> None:
+    """It is a product, and has parentheses where a product has them."""
+    assert Plain("vi").math(expression) == text

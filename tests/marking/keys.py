@@ -7,9 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.base.units import Language
+from reportgen.base.units import Language, rounded
 from reportgen.formula import Symbol
-from reportgen.formula.rounding import rounded
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.sheet import HEAD, answer_book
 from reportgen.report.case import Key, KeyRow, Role

@@ -55,6 +55,10 @@ def along(vector: complex, axis: complex) -> float:
 
 TELLING = ("slider-crank-01", "four-bar-01", "slotted-lever-02")
 """Axes of a guide and of a frame, a lever that swings; the others are for `make proof`."""
+OF_THE_SHEET: dict[str, Callable[[Position], complex]] = {
+    "positive to the right": lambda _: 1 + 0j,
+    "positive upwards": lambda _: 1j,
+}
 AXES: dict[str, dict[str, Callable[[Position], complex]]] = {
     "engine-twin-05": {
         # The crank leaves its upper dead centre to the left: it turns anticlockwise.
@@ -68,8 +72,9 @@ AXES: dict[str, dict[str, Callable[[Position], complex]]] = {
         "positive along x, from A to D": lambda one: place(one, "D") - place(one, "A"),
         TURN_OF_X: lambda one: 1j * (place(one, "D") - place(one, "A")),
     },
-    "linkage-8": {},
-    "linkage-slide": {},
+    "linkage-8": OF_THE_SHEET,
+    "linkage-slide": OF_THE_SHEET,
+    "lever-six-bar-01": OF_THE_SHEET,
     # Cylinder C stands at 50° from x.
     "engine-v-01": {
         "positive to the side to which the crank leaves the top dead centre": lambda _: complex(np.exp(140j * DEGREE)),

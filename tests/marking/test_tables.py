@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
 
 from reportgen import api
-from reportgen.marking.results import print_tables, tables
+from reportgen.marking.results import _column, print_tables, tables
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
@@ -48,3 +49,50 @@ def test_a_driver_that_slides_back_is_told_by_the_way_it_has_gone(tmp_path: Path
     positions = api.solve(api.load(path))["positions"]
     assert [one["crank_angle"] for one in positions] == pytest.approx([0.12, 0.1, 0.08, 0.06, 0.04, 0.02, 0], abs=1e-12)
     assert [one["driver_way"] for one in positions] == pytest.approx([0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12], abs=1e-12)
+
+
+EXTREME = """\
+kind: slider-crank
+report: {language: en}
+parameters: {r: 40 m, l: 99 m, n: 100000 rpm, m2: 900000 kg, m3: 900000 kg}
+"""
+
+
+def test_a_column_has_five_figures_of_its_largest_value(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A linkage of 0.2 mm, slow: in fixed decimals all would be nothing."""
+    file = tmp_path / "small.yaml"
+    file.write_text(EXTREME.replace("40 m,", "0.2 mm,").replace("99 m,", "0.5 mm,").replace("100000", "0.01"), "utf-8")
+    print_tables(api.solve(api.load(file)), "en")
+    table = capsys.readouterr().out.partition("Accelerations")[0]
+    # v_B = ω·r = 2π·0.01/60 · 0.0002 m/s.
+    assert "2.0944·10⁻⁷" in table
+    body = [cell.strip() for line in table.splitlines() if line.startswith("│") for cell in line.split("│")[3:-1]]
+    # Nothing is what rests: C at its dead centres.
+    assert body.count("0") == 2
+    assert all(len(cell.partition("·")[0].replace(".", "")) == 5 for cell in body if cell != "0")
+
+
+def test_a_very_large_value_has_a_power_of_ten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "large.yaml"
+    file.write_text(EXTREME, encoding="utf-8")
+    print_tables(api.solve(api.load(file)), "en")
+    out = capsys.readouterr().out
+    # a_B = ω²·r = (2π·10⁵/60)²·40 m/s².
+    assert "4.3865·10⁹" in out
+    assert not re.search(r"\d{8}", out)
+
+
+@pytest.mark.parametrize(
+    ("values", "scale", "shown"),
+    [
+        ([100.0, 0.0004, 1e-12], 100.0, ["100.00", "0.00040000", "0.00"]),
+        ([7.16e16, 7.16e8, 7160.0], 1.0, ["7.1600·10¹⁶", "7.1600·10⁸", "0"]),
+        ([1.0, 2.0], 2.0, ["1", "2"]),
+        ([0.00125, -0.0005], 1.0, ["0.0012500", "−0.0005000"]),
+        ([None, "a"], 1.0, ["–", "a"]),
+    ],
+)
+def test_what_is_not_nothing_is_never_printed_as_0(
+    values: list[float | str | None], scale: float, shown: list[str]
+) -> None:
+    assert _column(values, scale, "en") == shown

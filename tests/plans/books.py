@@ -26,6 +26,7 @@ Push = tuple[int, str, complex, float]
 class Book:
     """A linkage solved twice: in arrays and in a ledger."""
 
+    linkage: Linkage
     motion: Motion
     loads: tuple[Load, ...]
     forces: Forces
@@ -77,7 +78,7 @@ def keep(
         {f"M{link}": link for link, _ in torques},
     )
     solved = solve_forces(linkage, motion, loads)
-    return Book(motion, loads, solved, virtual_work_torque(linkage, motion, loads), b, polygons)
+    return Book(linkage, motion, loads, solved, virtual_work_torque(linkage, motion, loads), b, polygons)
 
 
 def _machines() -> dict[str, Linkage]:

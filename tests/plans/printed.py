@@ -11,7 +11,6 @@ import numpy as np
 from reportgen.formula import Product, Ref, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Family
-from reportgen.plans.sides import image
 
 SHARE, MEDIAN = 2e-3, 2e-4
 """Of the largest value of a computed quantity: at most, and by the median."""
@@ -19,8 +18,12 @@ ON_PAPER, OF_LONGEST = 0.05, 1e-3
 """A length on paper (mm), and besides by what share of the longest of its plan."""
 DIRECTION, TOLD = 0.5, 3.0
 """A direction (°) of a vector that is so long on paper (mm) at least."""
-ANGLE = 0.02
-"""An angle (°): two units of its last digit, whatever its size."""
+ANGLE = 0.01
+"""An angle (°): half a unit of the last digit of each of the two that it is the difference of, whatever its size."""
+FORMULAS = "f."
+"""What ids of closed formulas begin with."""
+LAST_DIGIT = 0.005
+"""Half a unit of the last digit of an angle (°), which a closed formula takes as it is printed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,67 +38,60 @@ class Off:
 
 def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
     """Every printed quantity that is no given data; a residue and the arm of a load that is nothing are left out."""
-    longest = _longest(unrounded)
+    longest, by_angles = _longest(unrounded), _by_angles(unrounded)
     for id, family in unrounded.families.items():
         if family.hidden or family.is_plane or family.definition is None or family.residue:
             continue
         apart = np.abs(printed[id].values - family.values)
         if family.how.unit == "°":
             apart = np.minimum(apart, np.abs(2 * np.pi - apart))
-        match family.kind:
-            case "segment":
-                scale = vocabulary.scale_on_paper(id)
-                allowed = np.maximum(_read(longest, scale), _laid_off(unrounded, id, longest))
-                # An arm is measured to the line of a force, which is off by itself.
-                allowed = 2 * allowed if family.arm else allowed
-                told = _is_loaded(unrounded, family)
-                what = "on paper"
-            case "direction":
-                drawn = _on_paper(unrounded, id)
-                scale = vocabulary.scale_on_paper(_side(unrounded, id))
-                with np.errstate(divide="ignore"):
-                    off = np.maximum(_read(longest, scale), _laid_off(unrounded, _side(unrounded, id), longest))
-                    allowed = np.maximum(np.radians(DIRECTION), off / drawn)
-                told = drawn >= TOLD * 1e-3
-                what = "direction"
-            case _:
-                # The mean of positions is that of torques as they are printed.
-                whole = unrounded["M.eq"] if id == "M.mean.positions" else family
-                allowed = np.maximum(SHARE * largest(whole), _measured(unrounded, family, longest))
-                if family.kind == "angle":
-                    allowed = np.maximum(allowed, np.radians(ANGLE))
-                told = _has_direction(unrounded, family)
-                what = "computed"
+        if family.kind == "segment":
+            what, allowed, told = "on paper", _read(longest, id), _is_loaded(unrounded, family)
+        elif family.kind == "direction" or id in ids.rod_angle:
+            side = _side(unrounded, id)
+            drawn = np.abs(unrounded[side].values) if side else np.zeros(1)
+            # A direction is no better than the ends of its vector, which may each lie off as a length may.
+            off = _read(longest, side) / np.maximum(drawn, TOLD * 1e-3)
+            what, allowed, told = "direction", np.maximum(np.radians(DIRECTION), off), drawn >= TOLD * 1e-3
+        else:
+            # The mean of positions is that of torques as they are printed.
+            whole = unrounded["M.eq"] if id == "M.mean.positions" else family
+            allowed = np.maximum(SHARE * largest(whole), _measured(unrounded, family))
+            if id.startswith(FORMULAS):
+                allowed = allowed + by_angles[id]
+            if family.kind == "angle":
+                allowed = np.maximum(allowed, np.radians(ANGLE))
+            what, told = "computed", np.isfinite(family.values)
         apart, allowed = np.broadcast_arrays(np.where(told, apart, 0.0), allowed)
         if np.all(allowed > 0):
             at = int(np.nanargmax(apart / allowed))
             yield Off(id, what, float(apart[at] / allowed[at]), at + 1)
 
 
-def _read(longest: dict[str, float], scale: str) -> float:
-    """What a length (m) of the plans to a scale may be off."""
-    return ON_PAPER * 1e-3 + OF_LONGEST * longest[scale]
+def _read(longest: dict[str, float], id: str) -> float:
+    """What a length on paper (m) may be off."""
+    return ON_PAPER * 1e-3 + OF_LONGEST * longest[scale_on_paper(id)]
 
 
-def _measured(ledger: Ledger, family: Family, longest: dict[str, float]) -> np.ndarray:
-    """What a quantity μ · length may be off for the length."""
+def _measured(ledger: Ledger, family: Family) -> np.ndarray:
+    """What a quantity μ · length may be off for the length, which is short where others of its plan are long."""
     match family.definition:
         case Product((Ref(scale), Ref(length))) if ledger[length].kind == "segment":
-            return ledger[scale].values * _read(longest, scale)
+            return ledger[scale].values * ON_PAPER * 1e-3
     return np.zeros(1)
 
 
-def _laid_off(ledger: Ledger, segment: str, longest: dict[str, float]) -> np.ndarray:
-    """What the side of a force plan may be longer or shorter for the force that is laid off there."""
-    found = ids.force_segment.read(segment)
-    if found is None or (force := ids.of_force(found["force"])) not in ledger:
-        return np.zeros(1)
-    plan = ids.scale(f"R{found['group']}")
-    taken = {ids.of_force(found["force"]), ids.of_force(found["force"][:1] + found["force"][:0:-1])}
-    # A reaction on the driver was read from the plan of another group, to a coarser scale.
-    coarse = [_measured(ledger, ledger[one], longest) for one in taken if one in ledger]
-    off = SHARE * largest(ledger[force]) + sum(coarse, np.zeros(1))
-    return np.asarray(off / ledger[plan].values)
+def _by_angles(ledger: Ledger) -> dict[str, np.ndarray]:
+    """What closed formulas may be off besides for each angle that is half a unit of its last digit off."""
+    half = np.radians(LAST_DIGIT)
+    off: dict[str, np.ndarray] = defaultdict(lambda: np.zeros(1))
+    for angle, family in ledger.families.items():
+        if angle.startswith(FORMULAS) and family.kind == "angle" and family.how.unit == "°":
+            moved = ledger.evaluate({angle: family.values + half})
+            for id, values in moved.items():
+                if id.startswith(FORMULAS):
+                    off[id] = off[id] + np.nan_to_num(np.abs(values - ledger[id].values))
+    return off
 
 
 def largest(family: Family) -> float:
@@ -104,20 +100,12 @@ def largest(family: Family) -> float:
     return float(np.max(sizes, initial=0.0, where=sizes >= ZERO * family.scale))
 
 
-def _has_direction(ledger: Ledger, family: Family) -> np.ndarray:
-    """Where the velocity is something whose angle to a link is measured; any other quantity is told everywhere."""
-    angle = ids.rod_angle.read(family.id)
-    if angle is None:
-        return np.isfinite(family.values)
-    return np.abs(ledger[ids.plan_point("v", image(angle["point"]))].values) >= TOLD * 1e-3
-
-
 def _longest(ledger: Ledger) -> dict[str, float]:
     """The longest length on paper of each plan, by its scale."""
     found: dict[str, float] = defaultdict(float)
     for id, family in ledger.families.items():
         if family.kind == "segment" and not family.hidden:
-            scale = vocabulary.scale_on_paper(id)
+            scale = scale_on_paper(id)
             found[scale] = max(found[scale], float(np.nanmax(np.abs(family.values), initial=0.0)))
     return found
 
@@ -132,12 +120,17 @@ def _is_loaded(ledger: Ledger, family: Family) -> np.ndarray:
 
 def _side(ledger: Ledger, direction: str) -> str:
     """The id of the length on paper of the vector whose direction it is; "" for one that is not drawn."""
-    of = vocabulary.vector_of(direction)
+    angle = ids.rod_angle.read(direction)
+    of = ids.velocity(angle["point"]) if angle else vocabulary.vector_of(direction)
     return next((id for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of), "")
 
 
-def _on_paper(ledger: Ledger, direction: str) -> np.ndarray:
-    """How long the vector of a direction is in its plan (m); 0 where it is not drawn."""
-    of = vocabulary.vector_of(direction)
-    drawn = [f.values for id, f in ledger.families.items() if f.kind == "segment" and vocabulary.vector_of(id) == of]
-    return np.abs(drawn[0]) if drawn else np.zeros_like(ledger[direction].values)
+def scale_on_paper(id: str) -> str:
+    """The id of the scale of a length or a point on paper; "" for anything else."""
+    if vocabulary.is_laid(id):
+        return "mu.l"
+    if found := ids.plan_point.read(id):
+        return ids.scale(found["what"])
+    if found := ids.force_corner.read(id):
+        return ids.force_scale(found["group"])
+    return vocabulary.plan(id)

@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 from books import MACHINES, keep
 
+from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
+from reportgen.report.equations import lines
+from reportgen.report.report import Report
+from tests.report import built
 
 SWINGING_BLOCK = Linkage(
     {"A": 0j, "H": 0.5 + 0.1j},
@@ -59,3 +63,17 @@ def test_a_slot_on_a_fixed_pin_turns_about_the_corner_of_a_rectangle() -> None:
     assert np.imag(centre * np.conj(pin)) == pytest.approx(0, abs=EXACT * np.abs(centre * pin).max())
     across = np.real((centre - (0.5 + 0.1j)) * np.conj(slot))
     assert across == pytest.approx(0, abs=EXACT * np.abs(centre * slot).max())
+
+
+def test_a_velocity_that_is_nothing_has_no_angle_with_the_link() -> None:
+    """At its dead centres a slider stands still: the key has no angle there, and no line reckons with one."""
+    case = built.case(built.ROOT / "assignments" / "slider-crank-01.yaml", "en")
+    rows = {row.id: row for row in case.key().rows}
+    angle, still = rows["ic.angle.2.C"].values, case.printed["v.C"].values == 0
+    assert still.any()
+    np.testing.assert_array_equal(np.isnan(angle), still)
+    position = 1 + int(np.argmax(still))
+    (line,) = lines(Report(case), ["ic.along.2.C"], position).rows
+    assert isinstance(line, Chain)
+    assert line.parts == (case.printed.symbol("ic.along.2.C"), Number(0.0, None, "m/s"))
+    assert line.note

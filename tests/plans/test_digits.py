@@ -17,8 +17,8 @@ from tests.plans.random_variants import cases
 from tests.report import built
 
 VARIANTS, FEW = 50, 2
-FIGURES, FINER = 5, 2
-"""Of a computed quantity's largest value, and what a cancellation may add."""
+FIGURES = 5
+"""Of a computed quantity's largest value."""
 GIVEN_WITH = {"segment": 2, "angle": 2, "direction": 1, "count": 0, "sign": 0}
 """Decimals of what is not told by figures."""
 
@@ -42,7 +42,7 @@ def test_files(path: Path) -> None:
             assert decimals == GIVEN_WITH[family.kind], id
         else:
             figures = decimals + 1 + int(np.floor(np.log10(size / family.how.scale) + 1e-12))
-            assert figures <= FIGURES + FINER + ("scale" in family.kind) or decimals == 0, id
+            assert figures <= FIGURES + ("scale" in family.kind) or decimals == 0, id
     assert {name: found for name, found in together.items() if len(found) > 1} == {}
     for same in ONE_QUANTITY:
         assert len({printed.decimals[id] for id in same if id in ledger} - {None}) <= 1, same

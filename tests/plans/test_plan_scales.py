@@ -11,6 +11,7 @@ from reportgen.base.units import SERIES, nice_down, nice_up
 from reportgen.cases import MachineCase
 from reportgen.drawing.plan import Plan
 from reportgen.marking.marking import mark
+from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.plans.scales import SHEET_BOXES, TEXT_BOX
 from reportgen.report.case import KeyRow
@@ -48,13 +49,22 @@ def has_room(plan: tuple[float, float], growth: float, box: tuple[float, float])
     return all(own * growth <= side * MM * (1 + 1e-9) for own, side in zip(plan, box, strict=True))
 
 
+def read_from(case: MachineCase, polygon: Polygon) -> list[str]:
+    """The plans that gave the reactions which are laid off in another one: R₂₁ in the driver's is R₁₂ of group 2, 3."""
+    names = [edge.name[:1] + edge.name[:0:-1] for edge in polygon.carried]
+    return [other.name for other in case.polygons for edge in (*other.edges, *other.reads) if edge.name in names]
+
+
 def test_worked_force_plans_are_100_mm_long_or_as_long_as_the_page_allows(case: MachineCase) -> None:
+    """Or as what is laid off in them was read: a longer plan would draw what a ruler left of it larger."""
     report = Report(case)
     for k in report.worked_forces:
         for polygon in case.polygons:
             drawn = size(force_plan(report, polygon, k))
             scale = report.ledger.number(f"mu.R{polygon.name}", k).value
-            if max(drawn) > 1e-6:
+            read_at = [report.ledger.number(f"mu.R{plan}", k).value for plan in read_from(case, polygon)]
+            assert scale >= max(read_at, default=0.0)
+            if max(drawn) > 1e-6 and scale not in read_at:
                 assert max(drawn) >= LEAST_FORCES - READ or not has_room(drawn, finer(scale), TEXT_BOX), polygon
                 assert has_room(drawn, 1.0, TEXT_BOX)
 

@@ -88,19 +88,19 @@ def extremes(source: str) -> Iterator[tuple[str, Decimal]]:
 def _of_table(block: str, position: str) -> Iterator[tuple[str, str, str]]:
     """(position, symbol, number) of a table: under a symbol at positions, or behind one in its row.
 
-    Coordinates, in mm whatever unit lines have, stand under their symbols without one.
+    Coordinates stand under their symbols without a unit, in mm: their lines are in m.
     """
     first, *rows = block[block.index("#R(") :].split("\n")
     head, _, units = first.partition(",((")[2].partition("),([],")
     heads = _CELL.findall(head)
     at_positions = heads[:1] in _HEADS
-    if at_positions and not units:
-        return
+    in_mm = at_positions and not units
     for row in rows:
         found = _CELL.findall(row)
         if at_positions and found:
             pairs = zip(heads[1:], found[1:], strict=False)
-            yield from ((_words(found[0]), symbol, number) for symbol, number in _numbers(pairs))
+            for symbol, number in _numbers(pairs):
+                yield _words(found[0]), symbol, f"{Decimal(number).scaleb(-3):f}" if in_mm and number != "0" else number
         else:
             yield from ((position, symbol, number) for symbol, number in _numbers(pairwise(found)))
 

@@ -21,8 +21,8 @@ from reportgen.report.prose import Prose, _environment
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]
 ASSIGNMENTS = REPOSITORY / "assignments"
-OF_EXERCISES = {"plane-motion.md", "steps.md"}
-"""The files of words that are for exercises alone."""
+OTHERS = {"plane-motion/01.yaml": {"plane-motion.md", "steps.md"}, "cam/roller-01.yaml": {"cam.md"}}
+"""The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
 OF_REPORT = {*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS}
 
@@ -44,11 +44,11 @@ def parsed() -> Sections:
 
 
 def of_machines() -> Sections:
-    return {place: tree for place, tree in parsed().items() if place[0].name not in OF_EXERCISES}
+    return {place: tree for place, tree in parsed().items() if place[0].name not in set().union(*OTHERS.values())}
 
 
-def of_exercises() -> Sections:
-    return {place: tree for place, tree in parsed().items() if place[0].name in OF_EXERCISES}
+def of_another(file: str) -> Sections:
+    return {place: tree for place, tree in parsed().items() if place[0].name in OTHERS[file]}
 
 
 def used(trees: Sections) -> dict[str, tuple[Path, str]]:
@@ -78,7 +78,7 @@ def handed(file: str) -> set[str]:
 
 def called(function: str) -> Iterator[str]:
     """The first arguments of a function where templates call it."""
-    for path, tree in parsed().items():
+    for path, tree in of_machines().items():
         for call in tree.find_all(nodes.Call):
             if isinstance(call.node, nodes.Name) and call.node.name == function:
                 (name, *_) = call.args
@@ -115,11 +115,12 @@ def test_no_name_stands_in_two_tables() -> None:
     assert len(own) == len(set(own))
 
 
-def test_an_exercise_s_templates_use_the_names_that_they_get_and_all_of_them() -> None:
-    names = handed("plane-motion/01.yaml")
-    known = names | bound(of_exercises()) | set(environment().globals)
-    assert {name: path for name, path in used(of_exercises()).items() if name not in known} == {}
-    assert names - set(used(of_exercises())) == set()
+@pytest.mark.parametrize("file", OTHERS)
+def test_the_templates_of_other_work_use_the_names_that_they_get_and_all_of_them(file: str) -> None:
+    names, trees = handed(file), of_another(file)
+    known = names | bound(trees) | set(environment().globals)
+    assert {name: path for name, path in used(trees).items() if name not in known} == {}
+    assert names - set(used(trees)) == set()
 
 
 @pytest.mark.parametrize("kind", ["figure", "table"])

@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 from itertools import pairwise
 
+import pytest
+
 from reportgen.report import Figure, in_rows
+from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Report
 from tests.report.pages import MM, Page
@@ -35,3 +38,15 @@ def test_no_figure_lies_on_another(report: Report) -> None:
         seen += len(spans)
         assert all(above[1] <= next_[0] for above, next_ in pairwise(spans)), page.number + 1
     assert seen >= 0.8 * len(known)
+
+
+@pytest.mark.parametrize("name", matrix([path.stem for path in built.FILES], ["toggle-press-01", "shaper-01"]))
+def test_the_groups_stand_in_one_row(name: str) -> None:
+    """Even the four parts of a linkage of eight links."""
+    path = built.ROOT / "assignments" / f"{name}.yaml"
+    (figure,) = (
+        block
+        for block in built.walk(built.written(path, "vi").document.blocks)
+        if isinstance(block, Figure) and block.key == "fig.groups"
+    )
+    assert len(in_rows(figure.scenes)) == 1

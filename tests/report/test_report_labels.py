@@ -12,6 +12,7 @@ import pytest
 import yaml
 
 from reportgen import api
+from reportgen.assignment import Assignment
 from reportgen.drawing import Arrow, Label, Line, Scene
 from reportgen.drawing.geometry import box
 from reportgen.drawing.labels import KEY, Canvas, finish, label
@@ -19,7 +20,7 @@ from reportgen.formula import Chain, Symbol
 from reportgen.report import Figure
 from tests.drawing.overlaps import astray, cross, overlaps, watched
 from tests.lanes import matrix
-from tests.report import built
+from tests.report import built, variants
 from tests.report.built import Written
 
 SMALL = ("30 mm", "34 mm")
@@ -47,17 +48,37 @@ def test_labels_are_clear_where_the_crank_is_drawn_small(path: Path, crank: str,
     assert faults(built.compose(api.load(file))) == []
 
 
-@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
-def test_leaders_are_short_and_cross_none_and_labels_stand_at_their_own_points(path: Path) -> None:
-    """A label beside its point is nearer to it than to any other's; only one on a leader may stand elsewhere."""
+def well_labelled(assignment: Assignment) -> None:
+    """Leaders are short and cross none; every label's nearest point is its own, but for marks of a curve on leaders."""
     with watched() as figures:
-        built.compose(api.load(path))
+        built.compose(assignment)
     assert figures
     for figure in figures:
         leaders = [one.leader for one in figure if one.leader]
         assert max((abs(leader.end - leader.start) for leader in leaders), default=0.0) <= 12.0
         assert not any(cross(*pair) for pair in combinations(leaders, 2))
-        assert all(one.leader for one in astray(figure))
+        assert [one for one in astray(figure) if not (one.mark and one.leader)] == []
+
+
+@pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
+def test_leaders_are_short_and_cross_none_and_labels_stand_at_their_own_points(path: Path) -> None:
+    well_labelled(api.load(path))
+
+
+@pytest.mark.parametrize("name", matrix(variants.CHANGES, variants.TELLING[:1]))
+def test_labels_of_a_variant_stand_at_their_own_points(name: str, tmp_path: Path) -> None:
+    file = tmp_path / "variant.yaml"
+    file.write_text(variants.content(name), encoding="utf-8")
+    well_labelled(api.load(file))
+
+
+def test_what_finds_no_room_and_has_nothing_shorter_shares_the_label_of_its_neighbour() -> None:
+    """Two points in a gap between walls where one name has room: one label for both."""
+    walls = tuple(Line(complex(x, -20), complex(x, 20)) for x in (*range(-40, 0, 2), *range(8, 41, 2)))
+    points = (2 + 0j, -3 + 0j)
+    draft = Canvas(walls, tuple(label(at, Symbol(name)) for at, name in zip(points, "AB", strict=True)))
+    written = [item.content for item in finish(draft).items if isinstance(item, Label)]
+    assert written == [Symbol("A"), ", ", Symbol("B")]
 
 
 @pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)

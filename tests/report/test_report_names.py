@@ -50,7 +50,19 @@ def student_fields() -> list[str]:
 
 
 def test_every_field_that_takes_a_text_is_tried() -> None:
-    others = {"language", "extent", "school", "font", "size", "student", "date", "worked_positions", "sheets"}
+    others = {
+        "language",
+        "extent",
+        "school",
+        "templates",
+        "font",
+        "size",
+        "student",
+        "date",
+        "worked_positions",
+        "sheets",
+        "listing",
+    }
     assert set(ReportSection.model_fields) - others == set(FIELDS)
 
 

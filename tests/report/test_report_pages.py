@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import pytest
 import typst
@@ -24,10 +25,10 @@ LEAST = 6.0
 """Points: the smallest letter that is read without effort from paper."""
 ROUNDED = 0.03
 """Points by which a size from a PDF may be off: sizes are products of rounded factors."""
-SHARE, FEW = 0.05, 3
+SHARE, FEW = 0.05, 2
 """Of the pages, or so many of a short report, may be thin, cover, contents and last page apart: a page ends early
 before a figure as high as a page and where a section has no more text to let run on."""
-LATE = 4
+LATE = 3
 """Pages from the first mention: plans of several groups are named together and follow the tables of their sentence."""
 
 
@@ -56,6 +57,13 @@ def test_a_figure_stands_behind_its_first_mention(written: Written) -> None:
         if isinstance(block, (Figure, Plate)) and block.key and block.key not in mentioned:
             early.append(block.key)
     assert early == []
+
+
+def test_a_force_plan_is_called_where_it_is_named(written: Written) -> None:
+    """Before the steps of its construction, so that these may fill the page before it."""
+    for before, block in pairwise(written.document.blocks):
+        if isinstance(block, Figure) and re.fullmatch(r"fig\.R\.\d+\.\d+", block.key):
+            assert block.key in references(before)
 
 
 def test_few_pages_are_thin(report: Report) -> None:

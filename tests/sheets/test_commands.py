@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import os
+import re
 from pathlib import Path
 from typing import get_args
 
@@ -12,12 +14,14 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from reportgen import api
-from reportgen.base.errors import AssignmentError, SheetError
+from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
+from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.drawing import Label
+from reportgen.drawing.geometry import frame
 from reportgen.sheets.dxf import MText
-from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, read_block
+from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, fields_of, frame_scene, read_block
 from tests.classes.classes import here, write_class
 from tests.sheets.laid import ROOT
 
@@ -57,11 +61,46 @@ def test_unknown_choices_are_wrong_usage(tmp_path: Path, wrong: tuple[str, str])
 
 
 def test_a_plate_larger_than_the_paper_is_named(tmp_path: Path) -> None:
-    """A title block that leaves a strip of 17 mm has no room for any plate."""
-    block = tmp_path / "tall.yaml"
-    block.write_text("width: 390\nheight: 260\ncells: []\n")
-    with pytest.raises(SheetError, match=r"Lược đồ cơ cấu.*A3"):
-        api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=(), block=block)
+    """At its crank, with the smallest size that holds all plates: no crank helps those of forces."""
+    with pytest.raises(AssignmentError, match=r"engine-v-02.yaml:10:18: .*Họa đồ vị trí(.|\n)*A3(.|\n)*A2"):
+        api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=())
+
+
+def test_a_crank_with_which_a_plate_fits_is_told(tmp_path: Path) -> None:
+    """And it does."""
+    text = SMALL.read_text(encoding="utf-8")
+    (tmp_path / "long.yaml").write_text(text.replace("crank: 30 mm", "crank: 75 mm", 1), encoding="utf-8")
+    with pytest.raises(AssignmentError) as caught:
+        api.sheet_files(tmp_path / "long.yaml", size="A3", formats=())
+    crank = re.search(r"drawing\.crank: (\d+) mm", str(caught.value))
+    assert crank
+    (tmp_path / "long.yaml").write_text(text.replace("crank: 30 mm", f"crank: {crank[1]} mm", 1), encoding="utf-8")
+    api.sheet_files(tmp_path / "long.yaml", size="A3", formats=())
+
+
+def test_a_full_disk_leaves_the_old_set(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second file has no room: none of the new ones is there, and no file of the old ones is gone."""
+    folder = tmp_path / SMALL.stem
+    folder.mkdir()
+    for number in (1, 2, 3):
+        (folder / f"sheet-{number}.pdf").write_bytes(b"earlier")
+    write, written = Path.write_bytes, []
+
+    def full(path: Path, content: bytes) -> int:
+        if path.parent == folder:
+            written.append(path)
+        if len(written) == 2:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(path, content)
+
+    monkeypatch.setattr(Path, "write_bytes", full)
+    done = run(SMALL, "--out", tmp_path, "--size", "A1")
+    assert done.exit_code == 3
+    assert len(written) == 2
+    monkeypatch.undo()
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == {
+        f"sheet-{number}.pdf": b"earlier" for number in (1, 2, 3)
+    }
 
 
 def test_a_set_without_plates_is_told_and_leaves_earlier_sheets(tmp_path: Path) -> None:
@@ -97,10 +136,12 @@ def test_a_block_has_every_mandatory_cell(name: str) -> None:
     block = read_block(blocks()[name])
     # Letters that have room in any cell.
     marks = dict(zip(sorted(FIELDS), "abcdefghijklmnop", strict=False))
-    shown = [str(item.content) for item in block.scene(marks).items if isinstance(item, Label)]
-    empty = [str(item.content) for item in block.scene({}).items if isinstance(item, Label)]
-    filled = " ".join(text for text in shown if text not in empty) + block.note(marks).replace(block.note({}), "")
-    for field in FIELDS - {"class"}:
+    shown, empty = (
+        [str(item.content) for scene in scenes for item in scene.items if isinstance(item, Label)]
+        for scenes in ((block.scene(fields), frame_scene("A3", block, fields)) for fields in (marks, {}))
+    )
+    filled = " ".join(text for text in shown if text not in empty)
+    for field in FIELDS - {"class", "course", "variant"}:
         assert marks[field] in filled, field
 
 
@@ -112,6 +153,58 @@ def test_a_block_has_the_size_of_its_standard(name: str, size: tuple[float, floa
 def test_each_language_has_a_block() -> None:
     assert set(DEFAULT) == set(get_args(Language))
     assert set(DEFAULT.values()) <= set(blocks())
+
+
+LONG = """  university: Trường Đại học Kỹ thuật Công nghiệp Thái Nguyên
+  department: Bộ môn Kỹ thuật Cơ khí
+  student: {name: Nguyễn Thị Hồng Phương Anh, id: DTK1051010123, class: K46CCM.01}
+  supervisor: PGS. TS. Hoàng Văn Thành Công
+  date: 2026-11-23
+"""
+
+
+@pytest.mark.parametrize("name", ["tcvn", "gost", "gb", "iso"])
+def test_no_text_of_a_title_block_is_cut(tmp_path: Path, name: str) -> None:
+    """However long names are, each word of them is there, and stands in its cell."""
+    file = tmp_path / "long.yaml"
+    file.write_text(SMALL.read_text(encoding="utf-8").replace("report:\n", f"report:\n{LONG}", 1), encoding="utf-8")
+    block = read_block(blocks()[name])
+    scene = block.scene({**fields_of(open_case(file), block, 1), "title": "Động lực học", "sheets": "2"})
+    labels = [item for item in scene.items if isinstance(item, Label)]
+    words = " ".join(str(label.content) for label in labels)
+    for told in ("Nguyễn Thị Hồng Phương Anh", "PGS. TS. Hoàng Văn Thành Công", "Công nghiệp Thái Nguyên", "23.11.26"):
+        assert all(word in words for word in told.split()), told
+    assert "…" not in words
+    for cell in block.cells:
+        low, high = complex(cell.x, cell.y), complex(cell.x + cell.width, cell.y + cell.height)
+        for label in labels:
+            middle, half = frame(label)
+            if low.real < middle.real < high.real and low.imag < middle.imag < high.imag:
+                assert middle.real - half.real >= low.real, label.content
+                assert middle.real + half.real <= high.real, label.content
+
+
+@pytest.mark.parametrize(
+    ("sheet", "designation"),
+    [("", "TOM-02-01"), ("sheet: {course: ME214}\n", "ME214-02-01"), ("sheet: {designation: AB.07}\n", "AB.07")],
+)
+def test_a_sheet_is_designated_by_the_file_or_by_course_variant_and_number(
+    tmp_path: Path, sheet: str, designation: str
+) -> None:
+    file = tmp_path / "any.yaml"
+    file.write_text(sheet + SMALL.read_text(encoding="utf-8"), encoding="utf-8")
+    assert fields_of(open_case(file), read_block(blocks()["iso"]), 1)["designation"] == designation
+
+
+def test_further_sheets_have_their_own_form() -> None:
+    """ГОСТ 2.104: form 1 of 55 mm, form 2a of 15 mm, columns of 145 and 120 mm beside both."""
+    sheets = open_case(ROOT / "assignments" / "four-bar-01.yaml").sheets("A1", block=blocks()["gost"])
+    heights = [next(part.scene.height for part in one.parts if part.name == "title block") for one in sheets]
+    assert heights == [55, 15]
+    for one in sheets:
+        frame_of = next(part for part in one.parts if part.name == "frame")
+        texts = [str(item.content) for item in frame_of.scene.items if isinstance(item, Label) and item.turn]
+        assert {"Инв. № подл.", "Перв. примен."} <= set(texts)
 
 
 BLOCK = """\

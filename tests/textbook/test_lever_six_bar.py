@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.machine.analysis import Analysis
+from reportgen.machine.analysis import Analysis, motion_at
 from reportgen.plans import write_ledger
 
 ASSIGNMENT = Path(__file__).parents[2] / "assignments" / "lever-six-bar-01.yaml"
@@ -80,3 +80,55 @@ def test_the_slider_is_resisted_on_both_ways(solved: Analysis) -> None:
     assert solved.summary.work == pytest.approx(-400 * 2 * stroke, rel=2e-4)
     force = np.array([load.force for load in fine.applied])[0].real
     assert (force * fine.motion.points["F"].v.real <= 0).all()
+
+
+def changes_of_sign(values: np.ndarray) -> np.ndarray:
+    """The indices before which a course over one closed turn changes its sign."""
+    return np.flatnonzero(np.sign(values) != np.sign(np.roll(values, 1)))
+
+
+def test_the_extreme_positions_are_those_of_the_motion() -> None:
+    """Rocker and slider turn back where the fine motion says, after the crank's turns whose ratio is K."""
+    solved = api.analyse(api.load(ASSIGNMENT))
+    ledger = write_ledger(solved).ledger
+    motion = motion_at(solved.machine, np.arange(3600) * (2 * np.pi / 3600))
+    step = 2 * np.pi / 3600
+    ends = changes_of_sign(motion.links[3].omega)
+    turned = np.diff(ends)[0] * step
+    ratio = max(turned, 2 * np.pi - turned) / min(turned, 2 * np.pi - turned)
+    # Each end is found to half a step, of about half a turn.
+    assert float(ledger["K"].values[0]) == pytest.approx(ratio, rel=4 * step / np.pi)
+    assert float(ledger["swing"].values[0]) == pytest.approx(np.ptp(motion.links[3].angle), rel=1e-6)
+    assert float(ledger["H.5"].values[0]) == pytest.approx(np.ptp(motion.points["F"].p.real), rel=1e-6)
+    ends = changes_of_sign(motion.points["F"].v.real)
+    found = sorted(float(ledger[id].values[0]) for id in ("phi.F1", "phi.F2"))
+    assert found == pytest.approx(np.mod(motion.driver[ends], 2 * np.pi), abs=step)
+
+
+@pytest.mark.parametrize(
+    ("crank", "coupler", "D", "side"), [(34, 90, (-10, -106), "beyond"), (20, 95, (-10, -106), "before")]
+)
+def test_synthesis_finds_the_links_again(
+    tmp_path: Path, crank: float, coupler: float, D: tuple[float, float], side: str
+) -> None:
+    """From the swing and K that links give by their dead points, the synthesis finds these links."""
+    frame, rocker = np.hypot(*D), 60.0
+    at_D, at_B = [], []
+    for reach in (coupler + crank, coupler - crank):
+        at_D.append(np.arccos((frame**2 + rocker**2 - reach**2) / (2 * frame * rocker)))
+        at_B.append(np.arccos((frame**2 + reach**2 - rocker**2) / (2 * frame * reach)))
+    θ = np.degrees(abs(at_B[0] - at_B[1]))
+    swing, K = np.degrees(at_D[0] - at_D[1]), (180 + θ) / (180 - θ)
+    text = ASSIGNMENT.read_text(encoding="utf-8")
+    for old, new in (
+        ("  AB: 34 mm\n  AC: 90 mm\n", f"  swing: {{angle: {swing:.10f} deg, K: {K:.12f}, B: {side}}}\n"),
+        ("force:", "# force:"),
+    ):
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    path = tmp_path / "swing.yaml"
+    path.write_text(text, encoding="utf-8")
+    sheet = api.analyse(api.load(path)).machine.sheet
+    # K is typed to twelve places, and θ, a difference of nearly equal angles, loses two of them.
+    assert sheet.si("l.BA") == pytest.approx(crank / 1e3, rel=1e-7)
+    assert sheet.si("l.AC") == pytest.approx(coupler / 1e3, rel=1e-7)

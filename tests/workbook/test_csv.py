@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import re
 import unicodedata
@@ -33,6 +34,12 @@ def test_the_separator_is_that_of_the_header_alone(put: Callable[..., Path]) -> 
     assert texts(page) == [[], ["a,b,c", "id"], ["1,5", "2,5"]]
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_a_table_may_be_saved_by_notepad_or_powershell(put: Callable[..., Path], encoding: str) -> None:
+    (page,) = read(put("mã;tên\r\n1;Ánh\r\n".encode(encoding)))
+    assert texts(page) == [["mã", "tên"], ["1", "Ánh"]]
+
+
 def test_cells_of_csv_know_line_and_column(put: Callable[..., Path]) -> None:
     path = put('id,name\n"1","two\r\nlines"\nx,ý,z\n'.encode())
     (page,) = read(path)
@@ -50,7 +57,9 @@ def test_csv_is_composed(put: Callable[..., Path]) -> None:
     ("content", "told"),
     [
         (b"id\nab\xe9\n", "FILE:2:3: error[encoding]"),
-        ("id\nÁ\n".encode("utf-16"), "FILE:1:1: error[encoding]"),
+        ("id\nÁ\n".encode("utf-16") + b"x", "FILE:3:1: error[encoding]"),
+        ("id\nÁ\n".encode("utf-16-le"), "FILE:1:2: error[binary]"),
+        (codecs.BOM_UTF8 + b"id\nab\xe9\n", "FILE:2:3: error[encoding]"),
         (b"id,name\n1,a\0b\n", "FILE:2:4: error[binary]"),
         (b'id,name\n1,"open\n2,b\n', "FILE:2:3: error[quote-open]"),
         (b"id\n" * 10_001, "FILE:10001:1: error[table-too-large]"),

@@ -10,11 +10,14 @@ import pymupdf
 import pytest
 
 from reportgen.base.errors import TypesetterError
+from reportgen.drawing import Scene
 from reportgen.formula import Chain, Expression, Number, Product, Sum, Symbol, Term, VectorEquation
 from reportgen.report import (
     Block,
+    Cell,
     Column,
     Equation,
+    Figure,
     LineBreak,
     List,
     PageBreak,
@@ -258,3 +261,17 @@ def test_english_reads_as_english() -> None:
 @needs_tex
 def test_two_builds_are_identical(compiled: pdflatex.Compiled) -> None:
     assert pdflatex.compile(latex.write(sample.sample())).pdf == compiled.pdf
+
+
+@needs_tex
+def test_no_figure_passes_a_long_table() -> None:
+    """The page has room for neither; the figure, which is called first, stands above the table on the next one."""
+    filling = tuple(Paragraph((Text(f"Line {n}."),)) for n in range(30))
+    figure = Figure((Scene(100.0, 80.0, ()),), (Text("waits"),), "fig.waits", "1")
+    rows = tuple((Cell((Text(f"row {n}"),)),) for n in range(40))
+    table = Table((Column(40.0),), (), rows, (Text("long"),), "tab.long", number="2")
+    pages = by_latex(*filling, figure, table)
+    where = [(number, page.search_for(words)) for number, page in enumerate(pages) for words in ("waits", "row 0")]
+    found = [(number, places[0].y0) for number, places in where if places]
+    assert [number for number, _ in found] == [1, 1]
+    assert found[0][1] < found[1][1]

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import TypesetterError
-from reportgen.report import Section, Text
+from reportgen.report import Letter, Section, Text
 from reportgen.writers import latex, pdflatex
+from tests.writers import sample
 from tests.writers.pages import document, needs_tex
 
 
@@ -62,3 +63,35 @@ def test_a_run_ended_from_outside_tells_of_memory(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
     with pytest.raises(TypesetterError, match=r"^pdflatex was ended by signal 9, most likely for too little memory$"):
         pdflatex.compile("x")
+
+
+@needs_tex
+def test_a_run_that_has_read_ahead_gives_the_same_bytes() -> None:
+    whole, letter = sample.sample(), Letter()
+    source = latex.write(whole, letter)
+    with pdflatex.Ahead(latex.opening(letter, whole.close)) as ahead:
+        assert ahead.begins(source)
+        assert pdflatex.compile(source, ahead=ahead).pdf == pdflatex.compile(source).pdf
+
+
+@needs_tex
+def test_what_begins_otherwise_is_run_anew() -> None:
+    with pdflatex.Ahead(latex.opening(Letter(), close=True)) as ahead:
+        source = latex.write(document(Section(1, (Text("a"),))))
+        assert not ahead.begins(source)
+        assert pdflatex.compile(source, ahead=ahead).passes >= 1
+        assert ahead.process
+    assert ahead.process.poll() is not None
+    assert not ahead.directory.exists()
+
+
+@needs_tex
+def test_a_fault_behind_what_was_read_ahead_is_told() -> None:
+    with pdflatex.Ahead("\\documentclass{article}\n") as ahead, pytest.raises(TypesetterError, match="nonsense"):
+        pdflatex.compile("\\documentclass{article}\n\\begin{document}\\nonsense\\end{document}", ahead=ahead)
+
+
+def test_nothing_is_read_ahead_without_pdflatex(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("PATH", str(tmp_path))
+    with pdflatex.Ahead("x") as ahead:
+        assert not ahead.begins("x")

@@ -1,0 +1,286 @@
+"""The equations of motion of a body whose place is a function of its angle alone, and their derivatives.
+
+Such a body rolls on a fixed line, or has two points on fixed lines that meet; each of its points then has
+P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.  The angle of a rod between a crank and a fixed line is a
+function of the crank's.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from itertools import combinations, permutations
+
+import numpy as np
+
+from reportgen.exercise import file
+from reportgen.exercise.board import Board, Step, size_of
+from reportgen.exercise.centres import SAME_PLACE, Layout
+from reportgen.exercise.places import parallel
+from reportgen.formula import (
+    NOTHING,
+    ONE,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    asin,
+    between,
+    cos,
+    cosine,
+    ids,
+    is_zero,
+    minus,
+    over,
+    plus,
+    signed,
+    sin,
+    sine,
+    sqrt,
+    square,
+    times,
+)
+from reportgen.formula.constructions import cross, meet
+from reportgen.formula.evaluation import evaluate
+
+Pair = tuple[Expression, Expression]
+STRAIGHT = Number(180.0, unit="°")
+
+
+@dataclass(frozen=True, slots=True)
+class MotionLaw:
+    """A point's place as a function of its body's angle."""
+
+    fixed: complex
+    way: complex
+    forward: complex
+    backward: complex
+
+    def derivative(self) -> MotionLaw:
+        """The same of its derivative by the angle."""
+        return MotionLaw(self.way, 0j, 1j * self.forward, -1j * self.backward)
+
+    def components(self, φ: Ref, constant: Callable[[float], Expression]) -> Pair:
+        """Its components along x and y: c₀ + c₁φ + c₂ cos φ + c₃ sin φ, with the letter that a `constant` has."""
+        both, apart = self.forward + self.backward, 1j * (self.forward - self.backward)
+        terms: tuple[tuple[complex, Expression], ...]
+        terms = (self.fixed, ONE), (self.way, φ), (both, cos(φ)), (apart, sin(φ))
+        x = plus(*(times(constant(of.real), function) for of, function in terms))
+        return x, plus(*(times(constant(of.imag), function) for of, function in terms))
+
+
+def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]] | None:
+    """The angle (rad) of a body at the instant and the laws of its points, if joints with the ground give both."""
+    points, names = layout.points, layout.own(body)
+    centre, disc = layout.centres.get(body), layout.given.disc(body)
+    if centre is not None and centre.by_joint:
+        # What turns about a fixed point or does not turn is found before any method.
+        return None
+    if centre is not None and centre.rule == "contact" and disc is not None and disc.centre in layout.slots:
+        middle = points[disc.centre]
+        way, own = 1j * (middle - centre.at), dict.fromkeys((disc.centre, *names))
+        return 0.0, {name: MotionLaw(middle, way, points[name] - middle, 0j) for name in own}
+    for one, other in combinations([name for name in names if name in layout.slots], 2):
+        e, f, rod = layout.slots[one], layout.slots[other], points[other] - points[one]
+        if not parallel(e, f) and abs(rod) > SAME_PLACE:
+            at, φ = meet(points[one], e, points[other], f), cmath.phase(rod)
+            # The first point is at s e from where the lines meet, s = −l (e^{iφ} × f)/(e × f).
+            share = abs(rod) * e / (2j * cross(e, f))
+            arms = {name: (points[name] - points[one]) * cmath.exp(-1j * φ) for name in names}
+            ahead, back = share * f.conjugate(), -share * f
+            return φ, {name: MotionLaw(at, 0j, ahead + arm, back) for name, arm in arms.items()}
+    return None
+
+
+def by_equations(board: Board) -> bool:
+    """The rates of one more body from the equations of motion of its points."""
+    for body in board.layout.members:
+        if not board.knows(ids.formula_angle(body)):
+            found, rod = motion_laws(board.layout, body), rod_on_crank(board.layout, body)
+            if found is not None and _enter(board, body, *found):
+                return True
+            if rod is not None and _enter_rod(board, body, rod):
+                return True
+    return False
+
+
+# --- a rod that hangs on a crank ------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class RodOnCrank:
+    """A rod AB: A on a body that turns about a fixed centre, B on a fixed line in the direction `along`."""
+
+    crank: int
+    centre: str
+    pin: str
+    end: str
+    along: complex
+
+
+def rod_on_crank(layout: Layout, body: int) -> RodOnCrank | None:
+    """How a body hangs on a crank whose rotation is given, if it does."""
+    told = {one.body for one in layout.given.given if isinstance(one, file.OmegaOf)}
+    named = [one.point for one in layout.given.given if isinstance(one, file.VelocityOf) and one.size is not None]
+    cranks = {crank: one for crank, one in layout.centres.items() if crank != body and one.rule == "pivot"}
+    for pin, end in permutations(layout.own(body), 2):
+        for crank, centre in cranks.items():
+            turns = crank in told or any(name in layout.members[crank] for name in named)
+            if turns and end in layout.slots and pin in layout.members[crank] and not layout.is_centre(centre, pin):
+                return RodOnCrank(crank, centre.name, pin, end, layout.slots[end])
+    return None
+
+
+def _enter_rod(board: Board, body: int, rod: RodOnCrank) -> bool:
+    """φ of the rod as a function of the crank's: r sin(φ₁ − β) + l sin(φ₂ − β) = h, and what its derivative says.
+
+    h is the line's distance from the crank's centre, β its angle; whether the crank's rotation is known.
+    """
+    q, layout, points = board.q, board.layout, board.layout.points
+    if not board.knows_omega(rod.crank) or board.knows_omega(body):
+        return False
+    lines: list[str] = []
+
+    def line(id: str, formula: Expression, symbol: Symbol | str = "") -> Ref:
+        lines.append(id)
+        return q.define(id, formula, symbol)
+
+    arm, reach = points[rod.pin] - points[rod.centre], points[rod.end] - points[rod.pin]
+    r, l = board.length(rod.centre, rod.pin), board.length(rod.pin, rod.end)  # noqa: E741
+    offset = cross(rod.along, points[rod.end] - points[rod.centre])
+    h = as_number(offset)
+    β = Number(float(f"{math.degrees(cmath.phase(rod.along)):.10g}"), unit="°")
+    φ1 = q.find(ids.formula_angle(rod.crank)) or q.give(
+        ids.formula_angle(rod.crank), cmath.phase(arm), Symbol("φ", str(rod.crank)), exact=False
+    )
+    turned = between(φ1, β)
+    dip = asin(over(plus(h, minus(times(r, sine(turned)))), l))
+    ahead = (reach * rod.along.conjugate()).real > 0
+    angle = dip if ahead else STRAIGHT - dip
+    φ = line(ids.formula_angle(body), angle if is_zero(β) else plus(β, angle), Symbol("φ", str(body)))
+    lean = between(φ, β)
+    ω1 = signed(board.motion.omega(rod.crank) or 1.0, q[ids.angular_velocity(rod.crank)])
+    sense = board.motion.omega(body)
+    rate = over(minus(times(ω1, r, cosine(turned))), times(l, cosine(lean)))
+    ω = signed(sense or 1.0, line(ids.angular_velocity(body), signed(sense or 1.0, rate)))
+    for name in layout.own(body):
+        u = (points[name] - points[rod.pin]) / reach * abs(reach)
+        along, across = (_constant(board, part) for part in (u.real, u.imag))
+        e, n = (cosine(φ), sine(φ)), (minus(sine(φ)), cosine(φ))
+        pin = cosine(φ1), sine(φ1)
+        start = points[rod.centre]
+        for index, axis in enumerate("xy"):
+            fixed = as_number((start.real, start.imag)[index])
+            place = plus(fixed, times(r, pin[index]), times(along, e[index]), times(across, n[index]))
+            line(ids.formula_coordinate(axis, name), place)
+        v_x = plus(minus(times(ω1, r, pin[1])), minus(times(ω, plus(times(along, e[1]), times(across, n[1])))))
+        v_y = plus(times(ω1, r, pin[0]), times(ω, plus(times(along, e[0]), times(across, n[0]))))
+        _vector(board, line, "v", name, (v_x, v_y))
+    board.steps.append(Step("equations-rod", (φ1.id, *lines), body, rod.end, rod.pin))
+    return True
+
+
+def as_number(value: float) -> Expression:
+    """A constant as a number; what is no length is nothing."""
+    return NOTHING if abs(value) < SAME_PLACE else Number(float(f"{value:.10g}"))
+
+
+def _constant(board: Board, value: float) -> Expression:
+    """A constant by its letter, if it is a length of the board, else as a number."""
+    q = board.q
+    lengths = (id for id in q.families if id in ids.length)
+    same = next((id for id in lengths if abs(q.si(id) - abs(value)) < SAME_PLACE), None)
+    return signed(value, q[same]) if same and abs(value) > SAME_PLACE else as_number(value)
+
+
+# --- a body by itself -----------------------------------------------------------------------------
+
+
+def _enter(board: Board, body: int, angle: float, laws: Mapping[str, MotionLaw]) -> bool:
+    """Enters places, velocities and, where the data tell one of the body, accelerations; whether a rate is known."""
+    q, motion = board.q, board.motion
+    known = [name for name in laws if board.knows_velocity(name) and q.si(ids.velocity(name))]
+    if not (known or board.knows_omega(body)):
+        return False
+    lines: list[str] = []
+
+    def line(id: str, formula: Expression, symbol: Symbol | str = "") -> Ref:
+        lines.append(id)
+        return q.define(id, formula, symbol)
+
+    constant = partial(_constant, board)
+    φ = q.give(ids.formula_angle(body), angle, Symbol("φ", str(body)), exact=False)
+    for one, other in combinations(laws, 2):
+        board.length(one, other)
+    for name, law in laws.items():
+        for axis, place in zip("xy", law.components(φ, constant), strict=True):
+            if not isinstance(place, Number):
+                line(ids.formula_coordinate(axis, name), place)
+    first = {name: law.derivative() for name, law in laws.items()}
+    rates = {name: law.components(φ, constant) for name, law in first.items()}
+    if not board.knows_omega(body):
+        whole = _size(board, rates[known[0]])
+        line(ids.angular_velocity(body), over(q[ids.velocity(known[0])], whole))
+    ω = q[ids.angular_velocity(body)]
+    turning = ω if motion.omega(body) >= 0 else minus(ω)
+    for name, (x, y) in rates.items():
+        _vector(board, line, "v", name, (times(turning, x), times(turning, y)))
+    second = {name: law.derivative().components(φ, constant) for name, law in first.items()}
+    ε = _acceleration(board, line, body, ω, rates, second)
+    if ε is not None:
+        for name in laws:
+            x, y = (
+                plus(times(ε, one), times(square(ω), two)) for one, two in zip(rates[name], second[name], strict=True)
+            )
+            _vector(board, line, "a", name, (x, y))
+    board.steps.append(Step("equations", (φ.id, *lines), body))
+    return True
+
+
+def _vector(board: Board, line: Callable[..., Ref], what: str, name: str, parts: Pair) -> None:
+    """Enters a velocity or acceleration by its components, with its size if that is not known."""
+    sides = [
+        line(ids.COMPONENT[what](name, axis), part, Symbol(what, f"{name}{axis}"))
+        for axis, part in zip("xy", parts, strict=True)
+        if part != NOTHING and not board.knows(ids.COMPONENT[what](name, axis))
+    ]
+    if sides and not board.knows(ids.POINT_RATE[what](name)):
+        line(ids.POINT_RATE[what](name), size_of(board.q, sides))
+
+
+def _acceleration(
+    board: Board, line: Callable[..., Ref], body: int, ω: Ref, rates: Mapping[str, Pair], second: Mapping[str, Pair]
+) -> Expression | None:
+    """ε with its sign, as it is given or by the given acceleration of a point: a = ε P′ + ω² P″; else None."""
+    sense = board.motion.epsilon(body) if board.motion.knows_epsilon(body) else 0.0
+    id = ids.angular_acceleration(body)
+    for rate in board.layout.given.given:
+        match rate:
+            case file.EpsilonOf(body=of, value=value) if of == body:
+                return signed(sense or 1.0, board.given(id, value.si)) if value.si else NOTHING
+            case file.AccelerationOf(point=point, size=size, direction=direction) if (
+                size is not None and point in rates
+            ):
+                values = [abs(_value(board, part)) for part in rates[point]]
+                index = int(values[1] > values[0])
+                degrees = Number(float(f"{math.degrees(direction.si):.10g}"), unit="°")
+                given = times(board.given(ids.acceleration(point), size.si), (cosine, sine)[index](degrees))
+                top = plus(given, minus(times(square(ω), second[point][index])))
+                return signed(sense or 1.0, line(id, signed(sense or 1.0, over(top, rates[point][index]))))
+    return None
+
+
+def _value(board: Board, part: Expression) -> float:
+    found = evaluate(part, {id: one.values for id, one in board.q.families.items()})
+    return float(np.real(np.atleast_1d(found)[0]))
+
+
+def _size(board: Board, parts: Pair) -> Expression:
+    """The size of a vector by its components, as it is written."""
+    kept = [part for part in parts if part != NOTHING]
+    if len(kept) == 1:
+        return signed(_value(board, kept[0]), kept[0])
+    return sqrt(plus(*(square(part) for part in kept)))

@@ -1,0 +1,500 @@
+"""Document → Word file: styles, live fields with their results, formulas as Word's own, figures in true size.
+
+A section of the file is a run of blocks on the same paper.  Numbers of headings are a list of Word's; those of
+captions and equations are fields, and references lead to bookmarks round them: what is put in between renumbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby, pairwise
+
+from reportgen import report as tree
+from reportgen.drawing import Scene
+from reportgen.formula.setting import NARROW, written
+from reportgen.writers.word_math import GAP, Equations, grid_cell, grid_table
+from reportgen.writers.word_parts import (
+    A4,
+    BOLD,
+    BULLETS,
+    CENTRE,
+    DECLARED,
+    GRID,
+    HEAVY,
+    ITALIC,
+    KEPT,
+    LEFT,
+    LIGHT,
+    LIST_INDENT,
+    PROLOGUE,
+    RULED,
+    Own,
+    PageSetup,
+    drawing,
+    field,
+    merged,
+    numbering,
+    packed,
+    paragraph,
+    properties,
+    right_tab,
+    rule,
+    run,
+    section,
+    settings,
+    spaced,
+    styles,
+    twips,
+)
+
+COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)
+LANDSCAPE = PageSetup(297, 210, left=20, right=20, top=20, bottom=18, above=10, below=8)
+FONT = "Times New Roman"
+SIZES = {"vi": 13.0, "en": 12.0}
+"""The letter, unless another one is asked for; sizes in points."""
+CONTENTS_LEVEL = 3
+"""The deepest level of heading that the contents list."""
+
+Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
+"""Scenes as PNG and SVG."""
+
+
+@dataclass(frozen=True, slots=True)
+class Bookmark:
+    """What a reference leads to: a bookmark, and what of it is shown instead of the text that it marks."""
+
+    bookmark: str
+    shown: str = ""
+
+
+def write(
+    document: tree.Document, pictures: Pictures, letter: tree.Letter | None = None, own: Own | None = None
+) -> bytes:
+    """The file of a document, byte for byte the same from run to run; what a school has of its `own` goes before."""
+    letter, own = letter or tree.Letter(FONT, SIZES[document.language]), own or Own()
+    usual = styles(letter.font, letter.size, document.language, document.close, A4.room)
+    blocks = _Blocks(document, own.page)
+    body, pages = blocks.sections()
+    scenes = pictures(blocks.scenes)
+    parts = {
+        "document": f"{PROLOGUE}<w:document {DECLARED}><w:body>{body}</w:body></w:document>",
+        "styles": merged(usual, own.styles, document.language) if own.styles else usual,
+        "numbering": numbering(blocks.starts),
+        "settings": settings(document.language),
+        "core": properties(document.title, document.author, document.language),
+    }
+    for index, page in enumerate(pages, start=1):
+        parts[f"header{index}"] = own.header or _running("Header", document, page)
+        parts[f"footer{index}"] = own.footer or _running("Footer", document, page)
+    media = {
+        f"figure{index}.{end}": content
+        for index, pair in enumerate(scenes, start=1)
+        for end, content in zip(("png", "svg"), pair, strict=True)
+    }
+    return packed(parts, media)
+
+
+def _running(kind: str, document: tree.Document, page: PageSetup) -> str:
+    """A header with the report and the chapter that runs there, a footer with the variant and the page."""
+    texts = {
+        "Header": (document.header[0], field("STYLEREF 1", "")),
+        "Footer": (
+            " – ".join(filter(None, (document.footer[0], document.header[1]))),
+            run(f"{document.footer[1]} ") + field("PAGE", ""),
+        ),
+    }
+    left, right = texts[kind]
+    line = paragraph(kind, run(left) + TAB + right, f"<w:tabs>{right_tab(page.room)}</w:tabs>")
+    name = {"Header": "hdr", "Footer": "ftr"}[kind]
+    return f"{PROLOGUE}<w:{name} {DECLARED}>{line}</w:{name}>"
+
+
+EQUATION = "Equation"
+"""What the counter of equations is called."""
+LINKED = "\\h \\* MERGEFORMAT"
+"""A reference leads to what it names, and looks like the text that it stands in, not like a caption."""
+TAB, BREAK = "<w:r><w:tab/></w:r>", "<w:r><w:br/></w:r>"
+AFTER = paragraph("Gap", "", spaced(0, 10))
+"""Below a table with its caption."""
+NEXT_PAGE = paragraph("Gap", '<w:r><w:br w:type="page"/></w:r>')
+
+
+@dataclass(frozen=True, slots=True)
+class _Setting:
+    """How blocks stand: the level of the list that they are in, 0 outside, and whether they keep to the next block."""
+
+    level: int = 0
+    kept: bool = False
+
+    @property
+    def indent(self) -> float:
+        return LIST_INDENT * self.level
+
+    @property
+    def lines(self) -> str:
+        """Of a paragraph, after its style."""
+        return KEPT if self.kept else ""
+
+    @property
+    def indented(self) -> str:
+        return f'<w:ind w:left="{twips(self.indent)}"/>' if self.level else ""
+
+
+class _Blocks:
+    """The blocks of one document as WordprocessingML, with all that they refer to."""
+
+    def __init__(self, document: tree.Document, page: PageSetup) -> None:
+        self.page = page
+        self.document, self.language, self.words = document, document.language, document.words
+        self.equations = Equations(document.language)
+        self.formulas = self.equations.formulas
+        self.scenes: list[Scene] = []
+        self.starts: list[tuple[int, int]] = []
+        """Level and first number of each ordered list."""
+        self._marks = 0
+        self._figure = ""
+        """The key of the figure that goes on, if one does."""
+        sections = [block for block in document.blocks if isinstance(block, tree.Section)]
+        self.entries = [one for one in sections if one.level <= CONTENTS_LEVEL]
+        self._entries = {id(one): f"_Toc{index}" for index, one in enumerate(self.entries, start=1)}
+        self.places = dict(_places(document.blocks))
+
+    # --- sections of the file ---------------------------------------------------------------------
+
+    def sections(self) -> tuple[str, list[PageSetup]]:
+        """The body, and the pages that have a header and a footer of their own."""
+        runs = [
+            (page, [block for _, block in run])
+            for (page, _), run in groupby(_paged(self.document.blocks, self.page), key=lambda one: one[0])
+        ]
+        pages = list(dict.fromkeys(page for page, _ in runs if page.running))
+        body = []
+        for index, (page, blocks) in enumerate(runs, start=1):
+            body.append(self.write(_broken(blocks)))
+            ending = section(page, self.running(page, pages))
+            last = index == len(runs)
+            # Nothing but a paragraph ends a section.
+            body.append(GAP + ending if last else f'<w:p><w:pPr><w:pStyle w:val="Gap"/>{ending}</w:pPr></w:p>')
+        return "".join(body), pages
+
+    def running(self, page: PageSetup, pages: Sequence[PageSetup]) -> str:
+        """The references of a section to its header and footer."""
+        if not page.running:
+            return ""
+        number = pages.index(page) + 1
+        kinds = ("header", "footer")
+        return "".join(f'<w:{kind}Reference w:type="default" r:id="rel-{kind}{number}"/>' for kind in kinds)
+
+    # --- blocks -----------------------------------------------------------------------------------
+
+    def write(self, blocks: Sequence[tree.Block], level: int = 0) -> str:
+        """Blocks in order; a run-in heading stands at the head of the paragraph behind it."""
+        found: list[str] = []
+        run_in = ""
+        for block, following in pairwise((*blocks, None)):
+            assert block is not None
+            setting = _Setting(level, tree.leads(block, following, self.language))
+            match block:
+                case tree.Section(level=depth) if depth > CONTENTS_LEVEL:
+                    run_in = self.run_in(block)
+                    if not isinstance(following, tree.Paragraph):
+                        found.append(paragraph("Normal", run_in, KEPT + setting.indented))
+                        run_in = ""
+                    continue
+                case tree.Paragraph(inlines, align):
+                    properties = setting.lines + setting.indented + (f'<w:jc w:val="{align}"/>' if align else "")
+                    found.append(paragraph("Normal", run_in + self.inlines(inlines), properties))
+                    run_in = ""
+                    continue
+            if found and found[-1].endswith("</w:tbl>"):
+                found.append(GAP)
+            found.append(self.block(block, setting))
+        if level and found and found[-1].endswith("</w:tbl>"):
+            found.append(GAP)
+        return "".join(found)
+
+    def block(self, block: tree.Block, setting: _Setting) -> str:
+        match block:
+            case tree.Section():
+                return self.section(block)
+            case tree.List():
+                return self.listing(block, setting)
+            case tree.Equation(rows, key, number):
+                shown = self.counted(EQUATION, number, key, around="(%s)") if number else ""
+                return self.equations.displayed(rows, shown, setting.indent, setting.lines)
+            case tree.Table():
+                return self.table(block)
+            case tree.Figure():
+                return self.figure(block)
+            case tree.Plate(scene, continues=continues):
+                self._figure = self._figure if continues else block.key
+                caption = self.again(block) if continues else self.caption(self.words.figure, block)
+                return self.row([scene], block) + paragraph("Caption", caption)
+            case tree.Cover():
+                return self.cover(block)
+            case tree.Contents(title, brief):
+                return self.contents(title, brief)
+            case tree.BlankLine(label):
+                dots = f"<w:tabs>{right_tab(A4.room, 'dot')}</w:tabs>{LEFT}"
+                return paragraph("Normal", run(f"{label} " if label else "") + TAB, dots)
+            case tree.Listing(lines):
+                return "".join(paragraph("Listing", run(line)) for line in lines)
+            case _:
+                return NEXT_PAGE
+
+    def section(self, section: tree.Section) -> str:
+        title = self.bookmarked(self._entries[id(section)], self.inlines(section.title))
+        if section.key:
+            title = self.bookmarked(self.places[section.key].bookmark, title)
+        # List 0 is none: a heading outside of all lists has no number.
+        unnumbered = "" if section.number else '<w:numPr><w:ilvl w:val="0"/><w:numId w:val="0"/></w:numPr>'
+        return paragraph(f"Heading{section.level}", title + self.counters(section), unnumbered)
+
+    def counters(self, section: tree.Section) -> str:
+        """What sets the counters of a part back, for readers that do not know a sequence's `\\s`; it shows nothing."""
+        if section.level > 1 or not section.number:
+            return ""
+        names = (self.words.figure, self.words.table, EQUATION)
+        return "".join(field(f"SEQ {_sequence(name)} \\h \\r 0", "", "<w:vanish/>") for name in names)
+
+    def run_in(self, section: tree.Section) -> str:
+        shown = run(f"{section.number} " if section.number else "", BOLD) + self.inlines(section.title, BOLD)
+        marked = self.bookmarked(self.places[section.key].bookmark, shown) if section.key else shown
+        return marked + run(" ")
+
+    def bookmarked(self, name: str, content: str) -> str:
+        self._marks += 1
+        return f'<w:bookmarkStart w:id="{self._marks}" w:name="{name}"/>{content}<w:bookmarkEnd w:id="{self._marks}"/>'
+
+    def listing(self, block: tree.List, setting: _Setting) -> str:
+        if block.ordered:
+            self.starts.append((setting.level, block.start))
+        number = BULLETS + len(self.starts) if block.ordered else BULLETS
+        item = f'<w:numPr><w:ilvl w:val="{setting.level}"/><w:numId w:val="{number}"/></w:numPr>'
+        found = []
+        for index, blocks in enumerate(block.items, start=1):
+            first = blocks[0] if blocks and isinstance(blocks[0], tree.Paragraph) else tree.Paragraph(())
+            others = blocks[1:] if blocks and first is blocks[0] else blocks
+            leads = tree.leads(first, others[0] if others else None, self.language)
+            kept = KEPT if leads or (setting.kept and index == len(block.items)) else ""
+            found.append(paragraph("List", self.inlines(first.inlines), kept + item))
+            found.append(self.write(others, setting.level + 1))
+        return "".join(found)
+
+    def cover(self, cover: tree.Cover) -> str:
+        first, *others = (*cover.institution, "")
+        lines = [paragraph("Institution", run(first, BOLD))] if first else []
+        lines += [paragraph("Institution", run(line)) for line in others if line]
+        low = '<w:spacing w:before="{}" w:after="{}"/>'
+        lines += [
+            paragraph("Title", run(line), "" if index else low.format(twips(52), 200))
+            for index, line in enumerate(cover.title)
+        ]
+        lines += [paragraph("Subtitle", run(line)) for line in cover.subtitle]
+        for index, (label, value) in enumerate(cover.fields):
+            stops = f'<w:tabs><w:tab w:val="left" w:pos="{twips(58)}"/>{right_tab(COVER.room - 10, "dot")}</w:tabs>'
+            white = "" if index else low.format(twips(34), 160)
+            hanging = f'<w:ind w:left="{twips(58)}" w:hanging="{twips(48)}"/>'
+            shown = run(f"{label}:") + TAB + (run(value, BOLD) if value else TAB)
+            lines.append(paragraph("CoverField", shown, stops + white + hanging))
+        lines.append(paragraph("Institution", run(cover.place_and_date, ITALIC), low.format(twips(26), 80)))
+        return "".join(lines)
+
+    def contents(self, title: str, brief: bool) -> str:
+        """Word's own table of contents, its entries written in; page numbers are Word's."""
+        deepest = CONTENTS_LEVEL - 1 if brief else CONTENTS_LEVEL
+        begin, _, end = field(f'TOC \\o "1-{deepest}" \\h \\z', "|").partition(run("|"))
+        lines: list[str] = []
+        for entry in self.entries:
+            if entry.level > deepest:
+                continue
+            mark = self._entries[id(entry)]
+            number = run(entry.number) + TAB if entry.number else ""
+            page = TAB + field(f"PAGEREF {mark} \\h", "")
+            shown = number + self.inlines(entry.title) + page
+            link = f'<w:hyperlink w:anchor="{mark}" w:history="1">{shown}</w:hyperlink>'
+            lines.append(paragraph(f"TOC{entry.level}", link if lines else begin + link))
+        if not lines:
+            return paragraph("TOCHeading", run(title))
+        lines.append(paragraph("Gap", end))
+        gallery = '<w:docPartObj><w:docPartGallery w:val="Table of Contents"/><w:docPartUnique/></w:docPartObj>'
+        body = paragraph("TOCHeading", run(title)) + "".join(lines)
+        return f"<w:sdt><w:sdtPr>{gallery}</w:sdtPr><w:sdtContent>{body}</w:sdtContent></w:sdt>"
+
+    # --- inlines ----------------------------------------------------------------------------------
+
+    def inlines(self, inlines: tree.Inlines, look: str = "") -> str:
+        return "".join(self.inline(inline, look) for inline in inlines)
+
+    def inline(self, inline: tree.Inline, look: str) -> str:
+        match inline:
+            case tree.Text(text):
+                return run(text, look)
+            case tree.Emph(of):
+                return self.inlines(of, look.replace(ITALIC, "") + ITALIC)
+            case tree.Strong(of):
+                return self.inlines(of, BOLD + look.replace(BOLD, ""))
+            case tree.InlineMath(expression, slashed):
+                return self.formulas.content(expression, slashed)
+            case tree.Value(number):
+                return run(written(number, self.language).text(NARROW), look)
+            case tree.Reference(key, text):
+                place = self.places.get(key)
+                return field(f"REF {place.bookmark}{place.shown} {LINKED}", text, look) if place else run(text, look)
+            case tree.LineBreak():
+                return BREAK
+
+    def counted(self, name: str, number: str, key: str, look: str = "", around: str = "%s") -> str:
+        """The number of a caption or an equation as fields, marked for references to `key`."""
+        part, _, last = number.rpartition(".")
+        if part:
+            shown = field("STYLEREF 1 \\s", part, look) + run(".", look)
+            shown += field(f"SEQ {_sequence(name)} \\* ARABIC \\s 1", last, look)
+        else:
+            # In parts without a number they count through the whole document.
+            shown = field(f"SEQ {_sequence(name)}_0 \\* ARABIC", last, look)
+        opening, closing = (run(mark, look) for mark in around.split("%s"))
+        shown = opening + shown + closing
+        return self.bookmarked(self.places[key].bookmark, shown) if key else shown
+
+    def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
+        """Word, number and words of a caption; nothing for a block that has none."""
+        if not (block.number or block.caption):
+            return ""
+        number = self.counted(word, block.number, block.key, BOLD) if block.number else ""
+        stop = run(". " if block.caption else "", BOLD)
+        return run(f"{word} ", BOLD) + number + stop + self.inlines(block.caption)
+
+    def again(self, block: tree.Figure | tree.Plate) -> str:
+        """The caption of what goes on from the page before."""
+        place = self.places.get(self._figure)
+        number = field(f"REF {place.bookmark} {LINKED}", block.number, BOLD) if place else run(block.number, BOLD)
+        return run(f"{self.words.figure} ", BOLD) + number + run(f" ({self.words.continued})", BOLD)
+
+    # --- tables -----------------------------------------------------------------------------------
+
+    def table(self, table: tree.Table) -> str:
+        """A ruled table below its caption; its head is repeated on each page, a short one stays on one."""
+        caption = self.caption(self.words.table, table)
+        whole = len(table.rows) <= tree.WHOLE_TABLE
+        found = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
+        for index, row in enumerate(table.rows):
+            left = len(table.rows) - 1 - index
+            kept = left > 0 and (whole or index < tree.TOGETHER - 1 or left < tree.TOGETHER)
+            found.append(self.table_row(row, table, False, kept))
+        sides = rule("left", HEAVY), rule("right", HEAVY)
+        outer = (rule("top", HEAVY), sides[0], rule("bottom", HEAVY), sides[1], rule("insideH", 0))
+        frame = f"<w:tblBorders>{''.join(outer)}</w:tblBorders>" if table.framed else ""
+        widths = [column.width for column in table.columns]
+        body = grid_table(RULED, widths, f"{CENTRE}{frame}", "".join(found))
+        return (paragraph("Caption", caption, KEPT) if caption else "") + body + AFTER
+
+    def table_row(self, row: Sequence[tree.Cell], table: tree.Table, head: bool, kept_or_last: bool) -> str:
+        """A row; the last one of the head has a rule below, of the others what spans columns."""
+        cells, at = [], 0
+        for cell in row:
+            covered = table.columns[at : at + cell.span]
+            at += cell.span
+            align = "center" if head or not covered else covered[0].align
+            kept = KEPT if head or kept_or_last else ""
+            content = paragraph("Table", self.inlines(cell.inlines), f'{kept}<w:jc w:val="{align}"/>')
+            border = rule("bottom", LIGHT if kept_or_last or cell.span > 1 else 0) if head else ""
+            cells.append(grid_cell(content, sum(column.width for column in covered), cell.span, border))
+        heading = "<w:tblHeader/>" if head else ""
+        return f"<w:tr><w:trPr><w:cantSplit/>{heading}</w:trPr>{''.join(cells)}</w:tr>"
+
+    # --- figures ----------------------------------------------------------------------------------
+
+    def figure(self, figure: tree.Figure) -> str:
+        """Its rows with the caption below; where it has several parts, the later ones go on."""
+        self._figure = figure.key
+        found = []
+        for index, part in enumerate(tree.in_parts(figure)):
+            caption = self.again(figure) if index else self.caption(self.words.figure, figure)
+            found += [self.row(row, figure) for row in part]
+            found.append(paragraph("Caption", caption))
+        return "".join(found)
+
+    def row(self, scenes: Sequence[Scene], block: tree.Figure | tree.Plate) -> str:
+        """Scenes side by side, each over its title."""
+        drawn = [paragraph("Figure", self.picture(scene, block), KEPT) for scene in scenes]
+        titles = [paragraph("FigureTitle", run(scene.title), KEPT) for scene in scenes]
+        titled = any(scene.title for scene in scenes)
+        if len(scenes) == 1:
+            return drawn[0] + (titles[0] if titled else "")
+        widths = [scene.width + tree.SCENE_GAP for scene in scenes]
+        rows = [drawn, titles] if titled else [drawn]
+        lines = (
+            "".join(grid_cell(content, width, align="bottom") for content, width in zip(row, widths, strict=True))
+            for row in rows
+        )
+        body = "".join(f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{line}</w:tr>" for line in lines)
+        return grid_table(GRID, widths, CENTRE, body) + paragraph("Gap", "", KEPT)
+
+    def picture(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
+        """A scene in its true size; who does not see it is told its caption."""
+        self.scenes.append(scene)
+        number = len(self.scenes)
+        told = f"{self.words.figure} {block.number}. {tree.plain(block.caption, self.language)} {scene.title}"
+        return drawing(number, scene.width, scene.height, " ".join(told.split()))
+
+
+# --- what a document is parted into ---------------------------------------------------------------
+
+
+def _paged(blocks: Sequence[tree.Block], usual: PageSetup) -> Iterator[tuple[tuple[PageSetup, int], tree.Block]]:
+    """Each block with the page that it stands on, and a number of its own where that is a page for itself."""
+    for index, block in enumerate(blocks, start=1):
+        page = _page(block, usual)
+        yield (page, index if isinstance(block, (tree.Plate, tree.Figure)) and page != usual else 0), block
+
+
+def _page(block: tree.Block, usual: PageSetup) -> PageSetup:
+    """The paper of a block: what is wider than the text stands on a turned page."""
+    match block:
+        case tree.Cover():
+            return COVER
+        case tree.Plate(scene, (width, height)):
+            upright = max(14.0, min(20.0, (height - scene.height - 14) / 2))
+            return PageSetup(width, height, left=15, right=15, top=upright, bottom=upright, above=7, below=6)
+        case tree.Figure(turned=True):
+            return LANDSCAPE
+        case tree.Table(columns) if round(sum(column.width for column in columns), 3) > tree.TEXT_WIDTH:
+            return LANDSCAPE
+    return usual
+
+
+def _broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
+    """The blocks of a section with a break before and behind contents on pages of their own.
+
+    A section begins and ends with its page, so that breaks at its ends say nothing, nor does a second one.
+    """
+    found: list[tree.Block] = [tree.PageBreak()]
+    for block in blocks:
+        alone = isinstance(block, tree.Contents) and not block.brief
+        for one in (tree.PageBreak(), block, tree.PageBreak()) if alone else (block,):
+            if not (isinstance(one, tree.PageBreak) and isinstance(found[-1], tree.PageBreak)):
+                found.append(one)
+    return found[1:-1] if isinstance(found[-1], tree.PageBreak) else found[1:]
+
+
+def _places(blocks: Sequence[tree.Block]) -> Iterator[tuple[str, Bookmark]]:
+    """Where the references to each key lead; a numbered heading is named by its number, all else by what is marked."""
+    for index, block in enumerate(_walk(blocks), start=1):
+        if key := getattr(block, "key", ""):
+            numbered = isinstance(block, tree.Section) and block.number and block.level <= CONTENTS_LEVEL
+            yield key, Bookmark(f"_Ref{index}", " \\w" if numbered else "")
+
+
+def _walk(blocks: Sequence[tree.Block]) -> Iterator[tree.Block]:
+    for block in blocks:
+        yield block
+        if isinstance(block, tree.List):
+            for item in block.items:
+                yield from _walk(item)
+
+
+def _sequence(name: str) -> str:
+    """The counter of captions with a word, by the name that Word gives it."""
+    return name.replace(" ", "_")

@@ -1,0 +1,429 @@
+"""Formulas as Word's own (OMML), and the lines that displayed ones are broken into.
+
+Texts upright in formulas are `m:nor`.  A word processor that reads a formula as source text of its own must find no
+word of that in it: the letters of a name are a run each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+from typing import ClassVar
+
+from reportgen.base.units import Language
+from reportgen.drawing.geometry import POINT, Boxes
+from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.setting import (
+    EQUALS,
+    NARROW,
+    Fence,
+    MathRow,
+    Part,
+    Sign,
+    TermColumn,
+    TextSetter,
+    Written,
+    columns,
+    displayed,
+    parted,
+)
+from reportgen.formula.vocabulary import numbered, runs
+from reportgen.report import ABREAST, TEXT_WIDTH, in_groups
+from reportgen.writers.word_parts import (
+    EQUATION_SIZE,
+    GRID,
+    ITALIC,
+    KEPT,
+    KNOWN_SIZE,
+    LIGHT,
+    MATH_FONT,
+    escape,
+    paragraph,
+    rule,
+    run,
+    twips,
+)
+
+QUAD, EMPTY = "\N{EM SPACE}", "\N{ZERO WIDTH SPACE}"
+_UPRIGHT = f'<m:rPr><m:nor/></m:rPr><w:rPr><w:rFonts w:ascii="{MATH_FONT}" w:hAnsi="{MATH_FONT}"/></w:rPr>'
+_FIGURES = frozenset("0123456789,.")
+"""What a number consists of that any reader of formulas takes for one."""
+
+
+def letters(text: str) -> str:
+    """Letters of a formula, in the face that Word gives them there."""
+    return f'<m:r><m:t xml:space="preserve">{escape(text)}</m:t></m:r>'
+
+
+def upright(text: str) -> str:
+    """A text within a formula."""
+    return f'<m:r>{_UPRIGHT}<m:t xml:space="preserve">{escape(text)}</m:t></m:r>'
+
+
+def displayed_formula(mathematics: str, align: str = "center") -> str:
+    """A formula in full size at a side of its paragraph."""
+    jc = f'<m:oMathParaPr><m:jc m:val="{align}"/></m:oMathParaPr>'
+    return f"<m:oMathPara>{jc}<m:oMath>{mathematics}</m:oMath></m:oMathPara>"
+
+
+class OmmlFormulas(TextSetter):
+    """Expressions as OMML, in one language."""
+
+    BELOW = "<m:sSub><m:e>%s</m:e><m:sub>%s</m:sub></m:sSub>"
+    RAISED = POWER = "<m:sSup><m:e>%s</m:e><m:sup>%s</m:sup></m:sSup>"
+    QUOTIENT = "<m:f><m:num>%s</m:num><m:den>%s</m:den></m:f>"
+    RADICAL = '<m:rad><m:radPr><m:degHide m:val="1"/></m:radPr><m:deg/><m:e>%s</m:e></m:rad>'
+    FENCES: ClassVar = {
+        "": "%s",
+        "(": "<m:d><m:e>%s</m:e></m:d>",
+        "|": '<m:d><m:dPr><m:begChr m:val="|"/><m:endChr m:val="|"/></m:dPr><m:e>%s</m:e></m:d>',
+        "[": '<m:d><m:dPr><m:begChr m:val="["/><m:endChr m:val="]"/></m:dPr>'
+        "<m:e><m:m><m:mr><m:e>%s</m:e></m:mr></m:m></m:e></m:d>",
+    }
+    ENTRY, LINE = "</m:e><m:e>", "</m:e></m:mr><m:mr><m:e>"
+    APPLIED = CALL = "<m:func><m:fName>%s</m:fName><m:e>%s</m:e></m:func>"
+    NOTE = f"{upright(QUAD)}%s"
+
+    def text(self, text: str) -> str:
+        return upright(text)
+
+    def content(self, content: Expression | str, slashed: bool = False) -> str:
+        return self.inline(upright(content) if isinstance(content, str) else self.math(content, slashed))
+
+    def inline(self, mathematics: str) -> str:
+        return f"<m:oMath>{mathematics}</m:oMath>"
+
+    def number(self, number: Written) -> str:
+        digits = number.digits.lstrip("−")
+        minus = letters("−") * (len(number.digits) - len(digits))
+        shown = minus + (letters(digits) if _FIGURES.issuperset(digits) else upright(digits))
+        gap = NARROW if number.spaced else ""
+        return shown + (upright(gap + number.unit) if number.unit else "")
+
+    def sign(self, sign: Sign) -> str:
+        return upright(f"{sign.of} ") if sign.role == "separator" else letters(sign.of)
+
+    def function(self, name: str) -> str:
+        return upright(name)
+
+    def symbol(self, node: Symbol) -> str:
+        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
+        name, above = parted(node)
+        base = self.lowered(runs(name), lambda part: "".join(map(letters, part)))
+        if node.over == "vector":
+            base = f'<m:acc><m:accPr><m:chr m:val="\u20d7"/></m:accPr><m:e>{base}</m:e></m:acc>'
+        below = self.lowered(numbered(node.sub), upright) if node.sub else ""
+        marked = _scripted(base, below, upright(above) if above else "")
+        if node.over == "segment":
+            return f'<m:bar><m:barPr><m:pos m:val="top"/></m:barPr><m:e>{marked}</m:e></m:bar>'
+        return marked
+
+    def line(self, part: Part) -> str:
+        """What stands in a line; before a sign at its head there is an empty text, for what takes two operands."""
+        mathematics = self.part(part)
+        return upright(EMPTY) + mathematics if isinstance(_first(part), Sign) else mathematics
+
+
+def _scripted(base: str, below: str, above: str) -> str:
+    if below and above:
+        return f"<m:sSubSup><m:e>{base}</m:e><m:sub>{below}</m:sub><m:sup>{above}</m:sup></m:sSubSup>"
+    if below:
+        return OmmlFormulas.BELOW % (base, below)
+    return OmmlFormulas.RAISED % (base, above) if above else base
+
+
+def _first(part: Part) -> Part:
+    match part:
+        case MathRow((first, *_)) | Fence("", first):
+            return _first(first)
+    return part
+
+
+# --- displayed rows in lines ----------------------------------------------------------------------
+
+EM = EQUATION_SIZE * POINT
+LONG_HEAD = 0.45
+"""Of the room: where more than that stands left of "=", lines flow from the left."""
+HANGING, WITHIN = 2.0, 1.6
+"""How far a line stands in that goes on in a flow, and within a side of a row (em)."""
+
+
+@dataclass(frozen=True, slots=True)
+class FormulaLine:
+    """A line of a displayed equation: what stands left of the "=" that lines are aligned at, and the rest."""
+
+    left: Part
+    rest: Part
+    indent: float = 0.0
+    """Of the rest (mm)."""
+
+    @property
+    def whole(self) -> Part:
+        return MathRow((self.left, self.rest))
+
+    @property
+    def widths(self) -> tuple[float, float]:
+        """Of both (mm)."""
+        return width(self.left), self.indent + width(self.rest)
+
+
+NOTHING = MathRow(())
+
+
+def width(*parts: Part) -> float:
+    """Of parts side by side in a displayed formula (mm)."""
+    return Boxes(EM, displayed=True).part(MathRow(parts)).width
+
+
+def broken(rows: Sequence[Expression], language: Language, room: float) -> list[FormulaLine]:
+    """The lines of displayed rows within a room (mm), aligned and broken as on the page of the PDF."""
+    sides = [displayed(row, language) for row in rows]
+    heads = [width(*first) if others else 0.0 for first, *others in sides]
+    head = max(heads)
+    found: list[FormulaLine] = []
+    for first, *others in sides:
+        # No relation to align at, or what stands before it is too long: the row flows from the left.
+        flowing = not others or head > LONG_HEAD * room
+        equated = [_equated(side) for side in others]
+        rest = tuple(chain.from_iterable(equated))
+        if flowing and (head if others else 0.0) + width(*first, *rest) > room:
+            found += _filled([*first, *rest], room, HANGING * EM)
+        elif flowing and not others:
+            found.append(FormulaLine(NOTHING, MathRow(tuple(first))))
+        elif flowing or head + width(*rest) <= room:
+            found.append(FormulaLine(MathRow(tuple(first)), MathRow(rest)))
+        else:
+            lines = _relations(equated, room - head)
+            found += [FormulaLine(MathRow(tuple(first)), lines[0].rest, lines[0].indent), *lines[1:]]
+    return found
+
+
+def _equated(side: Sequence[Part]) -> list[Part]:
+    """The pieces of a side behind its "="."""
+    return [MathRow((EQUALS, side[0])), *side[1:]]
+
+
+def _relations(equated: Sequence[Sequence[Part]], room: float) -> list[FormulaLine]:
+    """The sides of a row in lines, each as full as it may be; a side too wide for a line is broken inside."""
+    found: list[FormulaLine] = []
+    for side in equated:
+        if found and found[-1].widths[1] + width(*side) <= room:
+            found[-1] = replace(found[-1], rest=MathRow((found[-1].rest, *side)))
+        else:
+            found += _filled(side, room, WITHIN * EM)
+    return found
+
+
+def _filled(pieces: Sequence[Part], room: float, indent: float) -> list[FormulaLine]:
+    """Lines of pieces, none wider than the room where a break can help; later ones stand in."""
+    lines: list[list[Part]] = [[pieces[0]]]
+    for piece in pieces[1:]:
+        if width(*lines[-1], piece) + (indent if len(lines) > 1 else 0.0) <= room:
+            lines[-1].append(piece)
+        else:
+            lines.append([piece])
+    return [FormulaLine(NOTHING, MathRow(tuple(line)), indent if index else 0.0) for index, line in enumerate(lines)]
+
+
+def abreast(lines: Sequence[FormulaLine], room: float) -> bool:
+    """Whether lines have room two by two."""
+    widths = (max(line.widths[side] for line in lines[at::2]) for at in (0, 1) for side in (0, 1))
+    return sum(widths) + ABREAST <= room
+
+
+# --- vector equations -----------------------------------------------------------------------------
+
+SPREAD = 1.25
+"""So much wider than they need the columns of a vector equation may be: fonts of formulas differ."""
+BESIDE = 1.1
+"""White on either side of what stands in a vector equation (mm)."""
+BEHIND_NAME = 4.0
+"""White behind the name of a row (mm)."""
+
+
+def name_width(name: str) -> float:
+    """Of the name of a row (mm)."""
+    return Boxes(KNOWN_SIZE * POINT).text(name).width + BEHIND_NAME
+
+
+def term_widths(term: TermColumn) -> tuple[float, float]:
+    """What the signs before a term and the term take across, with what is known of it (mm)."""
+    small = Boxes(KNOWN_SIZE * POINT)
+    entries = [small.content("?" if entry is None else entry, slashed=True).width for entry in term.known]
+    return width(*term.signs) + 2 * BESIDE, max(width(term.term), *entries, 0.0) + 2 * BESIDE
+
+
+def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range]:
+    """Terms of these widths in as few grids as the room asks for, each beside the names of the rows."""
+    storeys: list[range] = []
+    start, used = 0, names
+    for index, one in enumerate(widths):
+        if used + one > room and index > start:
+            storeys.append(range(start, index))
+            start, used = index, names
+        used += one
+    return [*storeys, range(start, len(widths))]
+
+
+# --- equations in their places --------------------------------------------------------------------
+# Lines are rows of tables without rules: so all word processors align them alike.
+
+GAP = paragraph("Gap", "")
+"""Between two tables, which would grow together without it."""
+KEPT_GAP = paragraph("Gap", "", KEPT)
+"""The same between those that stay on one page."""
+NUMBER_ROOM = 16.0
+"""What the number of an equation takes at the right (mm)."""
+SLIVER = 1.0
+"""A column that holds nothing (mm)."""
+NO_COLUMNS = range(0)
+
+
+@dataclass(frozen=True, slots=True)
+class GridEntry:
+    """What stands in a cell of a grid, at which side, how far from its left (mm)."""
+
+    content: str = ""
+    align: str = "center"
+    indent: float = 0.0
+    style: str = "Equation"
+
+    @property
+    def lines(self) -> str:
+        indent = f'<w:ind w:left="{twips(self.indent)}"/>' if self.indent else ""
+        return f'{indent}<w:jc w:val="{self.align}"/>'
+
+
+FREE = GridEntry()
+
+
+def grid_cell(content: str, width: float, span: int = 1, borders: str = "", align: str = "center") -> str:
+    spans = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
+    ruled = f"<w:tcBorders>{borders}</w:tcBorders>" if borders else ""
+    size = f'<w:tcW w:w="{twips(width)}" w:type="dxa"/>'
+    return f'<w:tc><w:tcPr>{size}{spans}{ruled}<w:vAlign w:val="{align}"/></w:tcPr>{content}</w:tc>'
+
+
+def grid_table(style: str, widths: Sequence[float], place: str, rows: str) -> str:
+    """A table of columns of fixed widths (mm); `place` says where it stands, and its own rules."""
+    columns = "".join(f'<w:gridCol w:w="{twips(width)}"/>' for width in widths)
+    size = f'<w:tblW w:w="{sum(map(twips, widths))}" w:type="dxa"/>'
+    look = f'<w:tblPr><w:tblStyle w:val="{style}"/>{size}{place}<w:tblLayout w:type="fixed"/></w:tblPr>'
+    return f"<w:tbl>{look}<w:tblGrid>{columns}</w:tblGrid>{rows}</w:tbl>"
+
+
+class Equations:
+    """Displayed equations of one language, `indent` (mm) from the left, their paragraphs `kept` to what follows."""
+
+    def __init__(self, language: Language) -> None:
+        self.language: Language = language
+        self.formulas = OmmlFormulas(language)
+
+    def displayed(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
+        """Rows that are set alike in one table each; the number beside the last."""
+        room = TEXT_WIDTH - indent
+        *before, last = in_groups(rows, room)
+        groups = [*((group, "", KEPT) for group in before), (last, number, kept)]
+        return KEPT_GAP.join(self.group(group, shown, indent, lines) for group, shown, lines in groups)
+
+    def group(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
+        if isinstance(rows[0], VectorEquation):
+            return self.vector_equation(rows[0], number, indent, kept)
+        return self.aligned(rows, number, indent, kept)
+
+    def aligned(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
+        """Rows aligned at their "="; a single line is one formula, in the middle unless the number is in the way."""
+        beside = NUMBER_ROOM if number else 0.0
+        room = TEXT_WIDTH - indent - beside
+        lines = broken(rows, self.language, room)
+        if len(lines) == 1:
+            formula = displayed_formula(self.formulas.line(lines[0].whole))
+            if not number:
+                indented = f'<w:ind w:left="{twips(indent)}"/>' if indent else ""
+                return paragraph("Equation", formula, kept + indented)
+            left = beside if sum(lines[0].widths) + beside <= room else SLIVER
+            return grid((left, room - left), [[FREE, GridEntry(formula)]], number, indent, kept)
+        # Short rows stand two abreast, read along the line.
+        count = 2 if not number and len(lines) == len(rows) and abreast(lines, room) else 1
+        columns = [max(line.widths[side] for line in lines[at::count]) for at in range(count) for side in (0, 1)]
+        free = room - sum(columns) - ABREAST * (count - 1)
+        columns[0] += max(SLIVER, min(free, (free + beside) / 2))
+        columns[1:-1] = [one + ABREAST / 2 for one in columns[1:-1]]
+        columns[-1] += room - sum(columns)
+        found = [
+            [place for line in lines[at : at + count] for place in self.sides(line)]
+            for at in range(0, len(lines), count)
+        ]
+        return grid(columns, found, number, indent, kept)
+
+    def sides(self, line: FormulaLine) -> list[GridEntry]:
+        left, rest = self.formulas.line(line.left), self.formulas.line(line.rest)
+        return [
+            GridEntry(displayed_formula(left, "right") if left else "", "right"),
+            GridEntry(displayed_formula(rest, "left"), "left", line.indent),
+        ]
+
+    def vector_equation(self, equation: VectorEquation, number: str, indent: float, kept: str) -> str:
+        """Terms in a row, below each what is known of it, in as many storeys as it takes."""
+        room = TEXT_WIDTH - indent - (NUMBER_ROOM if number else 0.0)
+        terms = columns(equation)
+        widths = [term_widths(term) for term in terms]
+        names = max((name_width(name) for name in equation.rows), default=SLIVER)
+        storeys = in_storeys([sum(pair) for pair in widths], names, room)
+        widest = max(names + sum(sum(widths[index]) for index in storey) for storey in storeys)
+        spread = max(1.0, min(SPREAD, (room - SLIVER) / widest))
+        names, widest = names * spread, widest * spread
+        left = max(SLIVER, min(room - widest, (TEXT_WIDTH - indent - widest) / 2))
+        found = []
+        for storey in storeys:
+            shown = [place for index in storey for place in self.term(terms[index])]
+            rows = [[FREE, FREE, *shown]]
+            for row, name in enumerate(equation.rows):
+                known = (
+                    (FREE, GridEntry(self.formulas.known(terms[index].known[row]), style="Known")) for index in storey
+                )
+                title = GridEntry(run(name, ITALIC), "left", style="Known")
+                rows.append([FREE, title, *chain.from_iterable(known)])
+            ruled = range(2, len(rows[0])) if equation.rows else NO_COLUMNS
+            sizes = [left, names, *(width * spread for index in storey for width in widths[index])]
+            if storey is storeys[-1]:
+                found.append(grid(sizes, rows, number, indent, kept, ruled))
+            else:
+                found.append(grid(sizes, rows, "", indent, KEPT, ruled))
+        return KEPT_GAP.join(found)
+
+    def term(self, term: TermColumn) -> list[GridEntry]:
+        signs = "".join(sign.of for sign in term.signs)
+        return [
+            GridEntry(self.formulas.content(signs) if signs else ""),
+            GridEntry(displayed_formula(self.formulas.part(term.term))),
+        ]
+
+
+def grid(
+    widths: Sequence[float],
+    rows: Sequence[Sequence[GridEntry]],
+    number: str,
+    indent: float,
+    kept: str,
+    ruled: range = NO_COLUMNS,
+) -> str:
+    """A table whose rows stay together, with a rule below the `ruled` columns of the first; the number at the right."""
+    widths = [*widths, TEXT_WIDTH - indent - sum(widths)] if number else widths
+    lines = []
+    for index, row in enumerate(rows):
+        last = index == len(rows) - 1
+        places = [*row, *[FREE] * (len(widths) - len(row))]
+        if number and last:
+            places[-1] = GridEntry(number, "right")
+        cells = "".join(
+            grid_cell(
+                paragraph(place.style, place.content, (kept if last else KEPT) + place.lines),
+                width,
+                borders=rule("bottom", LIGHT) if index == 0 and at in ruled else "",
+            )
+            for at, (place, width) in enumerate(zip(places, widths, strict=True))
+        )
+        lines.append(f"<w:tr><w:trPr><w:cantSplit/></w:trPr>{cells}</w:tr>")
+    return grid_table(GRID, widths, f'<w:tblInd w:w="{twips(indent)}" w:type="dxa"/>', "".join(lines))

@@ -1,0 +1,200 @@
+"""The first hour of somebody new, played from the built wheel in an empty environment, where there is no TeX.
+
+    python -m tests.hour [--tools]
+
+builds sdist and wheel, installs the wheel where nothing else is, and goes from `new` to `grade` as the README does;
+`--tools` also runs the wheel by uvx and pipx.  It prints each step and ends with exit code 1 at the first that fails.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.request
+import venv
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+LONGEST = 600
+"""Seconds that a step may take."""
+WATCHED = 3
+"""Seconds for which the page is watched."""
+STUDENTS = ("K225520103001", "K225520103004", "K225520103007")
+"""Of the class that comes with the program."""
+
+
+class StepError(Exception):
+    """A step that did not go as a newcomer may expect."""
+
+
+def wanted(what: str, holds: object, found: object = "") -> None:
+    if not holds:
+        raise StepError(f"{what}\n{found}")
+
+
+def done(command: Sequence[str | Path], cwd: Path, code: int = 0, env: Mapping[str, str] | None = None) -> str:
+    """What a command prints on both streams; it has to end with this exit code."""
+    print("$", *(Path(command[0]).name, *command[1:]), flush=True)
+    found = subprocess.run(
+        [str(part) for part in command],
+        cwd=cwd,
+        env=env,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        encoding="utf-8",
+        timeout=LONGEST,
+        check=False,
+    )
+    wanted(f"exit code {code} was expected, not {found.returncode}", found.returncode == code, found.stdout)
+    return found.stdout
+
+
+def environment(folder: Path) -> Path:
+    """A new environment of Python; the folder of its programs."""
+    venv.create(folder, with_pip=True)
+    return folder / ("Scripts" if os.name == "nt" else "bin")
+
+
+@dataclass(frozen=True)
+class Newcomer:
+    """A desk with the installed program and nothing else: no TeX, no checkout, no settings."""
+
+    programs: Path
+    desk: Path
+
+    @property
+    def surroundings(self) -> dict[str, str]:
+        return {"PATH": str(self.programs), "HOME": str(self.desk), "LANG": "en_US.UTF-8", "COLUMNS": "100"}
+
+    def reportgen(self, *arguments: str | Path, code: int = 0) -> str:
+        return done([self.programs / "reportgen", *arguments], self.desk, code, self.surroundings)
+
+    def made(self, *names: str) -> None:
+        for name in names:
+            wanted(f"{name} was not made", (self.desk / name).is_file())
+
+
+# --- the hour ---------------------------------------------------------------------------------------
+
+
+def a_report(new: Newcomer) -> None:
+    """A file of one's own, a mistake in it, its report, sheets and page."""
+    wanted("it tells its version", new.reportgen("--version").startswith("reportgen 1."))
+    wanted("a slip is mended", "did you mean “shaper”" in new.reportgen("new", "shapr", code=2))
+    new.reportgen("new", "shaper", "-o", "my-shaper.yaml")
+    file = new.desk / "my-shaper.yaml"
+    right = file.read_text(encoding="utf-8")
+    file.write_text(re.sub(r"(?m)^(  n: \d+) rpm", r"\1", right), encoding="utf-8")
+    told = new.reportgen("check", file.name, code=1)
+    wanted("the mistake is named with its line", "my-shaper.yaml:" in told and "missing-unit" in told, told)
+    # As Notepad and PowerShell may save it.
+    file.write_text(right, encoding="utf-16")
+    wanted("a file in order is silent", new.reportgen("check", file.name) == "")
+    new.reportgen("build", file.name, "--format", "pdf,html")
+    new.made("out/my-shaper/report.pdf", "out/my-shaper/report.html")
+    wanted(
+        "TeX is named where it is missing", "texlive" in new.reportgen("build", file.name, "--engine", "latex", code=3)
+    )
+    new.reportgen("sheet", file.name)
+    new.made("out/my-shaper/sheet-1.pdf", "out/my-shaper/sheet-1.dxf")
+    wanted("there are results", "by virtual work" in new.reportgen("solve", file.name))
+    watched(new, file)
+
+
+def watched(new: Newcomer, file: Path) -> None:
+    """The page is served, and Ctrl-C ends it."""
+    print("$ reportgen watch", file.name, "--no-open")
+    with subprocess.Popen(
+        [new.programs / "reportgen", "watch", file.name, "--no-open"],
+        cwd=new.desk,
+        env=new.surroundings,
+        stdout=subprocess.PIPE,
+        encoding="utf-8",
+    ) as process:
+        assert process.stdout is not None
+        address = process.stdout.readline().strip()
+        with urllib.request.urlopen(address, timeout=LONGEST) as answer:
+            page = answer.read().decode()
+        time.sleep(WATCHED)
+        process.send_signal(signal.SIGINT)
+        wanted("Ctrl-C ends it", process.wait(LONGEST) in (0, 130), process.returncode)
+    wanted("a page is shown", "<svg" in page or "<html" in page, page[:200])
+
+
+def a_class(new: Newcomer) -> None:
+    """Variants of three students, their tasks, reports and keys, and the marks of the sheets they hand in."""
+    new.reportgen("samples", "examples")
+    demo = new.desk / "examples" / "class-demo"
+    head, *rows = (demo / "roster.csv").read_text(encoding="utf-8-sig").splitlines()
+    (new.desk / "roster.csv").write_text("\n".join((head, *rows[: len(STUDENTS)])) + "\n", encoding="utf-16")
+    new.reportgen("variants", demo / "spec.yaml", "roster.csv", "-o", "class")
+    new.made(*(f"class/{student}.yaml" for student in STUDENTS))
+    new.reportgen("batch", "roster.csv", "--assignments", "class", "--out", "handed-out")
+    products = ("task.pdf", "answers.xlsx", "report.pdf", "key.pdf")
+    new.made(*(f"handed-out/{student}/{product}" for student in STUDENTS for product in products))
+    new.reportgen("key", f"class/{STUDENTS[0]}.yaml")
+    new.made(f"out/{STUDENTS[0]}/key.pdf", f"out/{STUDENTS[0]}/key.xlsx")
+    sheets = [path for student in STUDENTS for path in sorted((demo / "sheets").glob(f"{student}.*"))]
+    new.reportgen("grade", *sheets, "--assignments", "class", "--policy", demo / "policy.yaml")
+    new.made("out/marked/grades.csv", "out/marked/class.pdf")
+    grades = (new.desk / "out/marked/grades.csv").read_text(encoding="utf-8-sig")
+    wanted("each has a mark", all(student in grades for student in STUDENTS), grades)
+
+
+def an_example(new: Newcomer) -> None:
+    """What a checkout has in its folder of examples, and a school's words that are not in the package."""
+    new.reportgen("new", "engine-twin", "--from", "engine-twin-05", "-o", "twin.yaml")
+    wanted("an example is in order", new.reportgen("check", "twin.yaml") == "")
+    words = new.desk / "words"
+    words.mkdir()
+    (words / "en.md").write_text("%% foreword\n# Preface {{ unnumbered() }}\n\nAs we have it.\n", encoding="utf-8")
+    new.reportgen("build", "my-shaper.yaml", "--templates", "words", "--keep-source", "--out", "ours")
+    wanted(
+        "the school's words are used", "As we have it." in (new.desk / "ours/my-shaper/report.typ").read_text("utf-8")
+    )
+
+
+def with_tools(tools: Path, wheel: Path, place: Path) -> None:
+    """Without an installation of one's own, by uvx and by pipx."""
+    done([tools / "pip", "install", "--quiet", "uv", "pipx"], place)
+    for command in ([tools / "uvx", "--from", wheel], [tools / "pipx", "run", "--spec", wheel]):
+        wanted("it runs", "kind: shaper" in done([*command, "reportgen", "new", "shaper"], place))
+
+
+def main(arguments: Sequence[str]) -> int:
+    begun = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="first-hour-") as name:
+        place = Path(name)
+        try:
+            tools = environment(place / "tools")
+            done([tools / "pip", "install", "--quiet", "build"], place)
+            done([tools / "python", "-m", "build", "--outdir", place / "dist", ROOT], place)
+            (wheel,) = (place / "dist").glob("*.whl")
+            wanted("there is an sdist, too", list((place / "dist").glob("*.tar.gz")))
+            programs = environment(place / "empty")
+            done([programs / "python", "-m", "pip", "install", "--quiet", wheel], place)
+            done([programs / "python", "-m", "pip", "install", "--quiet", "--dry-run", f"{wheel}[cluster]"], place)
+            (place / "desk").mkdir()
+            new = Newcomer(programs, place / "desk")
+            a_report(new)
+            an_example(new)
+            a_class(new)
+            if "--tools" in arguments:
+                with_tools(tools, wheel, place)
+        except (StepError, subprocess.TimeoutExpired) as error:
+            print(error, file=sys.stderr)
+            return 1
+    print(f"the first hour took {time.monotonic() - begun:.0f} s")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
