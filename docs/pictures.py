@@ -32,6 +32,7 @@ SHOWN = {
     "plane-motion": ROOT / "assignments" / "plane-motion" / "17.yaml",
     "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
+    "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"

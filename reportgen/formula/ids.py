@@ -265,6 +265,18 @@ cam_profile = Name("cam.profile.{axis}")
 # --- gears
 
 gear = Name("gears.{quantity}.{wheel}")
+# --- planetary trains
+
+train_factor = Name("train.factor.{factor}")
+train_teeth = Name("train.z.{wheel}")
+train_row_ratio = Name("train.u.row.{number}")
+train_omega = Name("train.omega.{wheel}")
+train_velocity = Name("train.v.{place}")
+train_efficiency = Name("train.eta.{of}")
+train_line = Name("train.line.{place}")  # on paper
+train_segment = Name("train.seg.{wheel}")  # of the plan of angular velocities
+train_read = Name("train.read.{wheel}")
+train_scale = Name("train.mu.{of}")
 
 # --- a word before the id of another quantity
 

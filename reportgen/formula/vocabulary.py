@@ -68,6 +68,8 @@ KINDS: dict[str, QuantityKind] = {
     "gear number": QuantityKind("", decimals=4),
     "gear angle": QuantityKind("°", math.pi / 180, decimals=4),
     "involute": QuantityKind("", decimals=7),
+    "velocity on paper": QuantityKind("mm/(s·mm)", digits=6),
+    "rotation on paper": QuantityKind("rad/(s·mm)", 1e3, digits=6),
     "length scale": QuantityKind("m/mm", 1e3, digits=6),
     "velocity scale": QuantityKind("m/(s·mm)", 1e3, digits=6),
     "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=6),
@@ -371,6 +373,12 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name("cam.rho.working"), "ρ", "cam length", _A, below="K"),
     # gears: all are named on their sheet
     VocabularyRow(ids.gear, name="gear {quantity}"),
+    # planetary trains: tooth numbers, ratios, rates; all others are named on their sheet
+    VocabularyRow(ids.train_teeth, "z", "count", below="{wheel}", name="train teeth"),
+    VocabularyRow(ids.train_row_ratio, "u", "ratio", name="train row ratio"),
+    VocabularyRow(ids.train_omega, "ω", "angular velocity", below="{wheel}", name="train omega"),
+    VocabularyRow(ids.train_velocity, "v", "follower velocity", below="{place}", name="train velocity"),
+    VocabularyRow(ids.train_efficiency, "η", "ratio", below="{of}", name="train efficiency"),
     # the cycle
     VocabularyRow(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
     VocabularyRow(Name("W"), "W", "work"),

@@ -1,0 +1,95 @@
+"""The kind `planetary-train`: which trains cannot be, and what of one is hardly meant."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from reportgen.assignment.common import of_parameters, one_of
+from reportgen.base.errors import Finding
+from reportgen.gears import train_file
+from reportgen.gears.train import CONDITIONS, DUST, SCHEMES, Train, mended
+
+if TYPE_CHECKING:
+    from reportgen.assignment import Assignment
+    from reportgen.gears.train_case import TrainCase
+
+Parameters = train_file.Parameters
+TURNS = 1
+HAS_POSITIONS = False
+TOP = ("parameters",)
+
+
+def case(assignment: Assignment) -> TrainCase:
+    """The case of an assignment."""
+    from reportgen.gears.train_case import TrainCase
+
+    return TrainCase(assignment)
+
+
+# --- what cannot be -------------------------------------------------------------------------------
+
+
+def told(train: Train) -> str:
+    """Tooth numbers as a message names them."""
+    z = train.teeth
+    return f"{z.one}/{z.two}/{z.three}" if SCHEMES[train.scheme].single else "/".join(map(str, z))
+
+
+def check(given: Parameters) -> Iterator[Finding]:
+    """Keys and limits first; then whether any tooth numbers fulfil what is asked for, else which condition fails."""
+    if (given.u is None) == (given.n_out is None):
+        return  # another check says so
+    if SCHEMES[given.scheme].single and given.m2 is not None:
+        yield Finding("train-one-module", (*TOP, "m2"), at="key")
+        return
+    if given.z.from_ > given.z.to:
+        yield Finding("train-limits", (*TOP, "z", "to"), {"least": str(given.z.from_), "most": str(given.z.to)})
+        return
+    if given.u is not None and given.u.si in (0, 1):
+        yield Finding("train-no-ratio", (*TOP, "u"), {"u": given.u.text})
+        return
+    found = given.choice
+    if len(found.sets):
+        return
+    failed = next(name for name in CONDITIONS if not found.left[name])
+    wanted, limits = given.wanted, {"least": str(given.z.from_), "most": str(given.z.to)}
+    about = {"u": f"{wanted:.6g}", "k": str(given.k), **limits}
+    if failed in ("ratio", "interference"):
+        key = ("u",) if given.u is not None else ("n_out",)
+        if found.nearest is None:
+            yield Finding("train-interference", (*TOP, "z"), about)
+            return
+        nearest = given.of_input(float(found.nearest.ratio)) if found.nearest.ratio else math.inf
+        off = abs(found.demand.ratio - float(found.nearest.ratio)) / abs(found.demand.ratio)
+        about |= {"nearest": f"{nearest:.6g}", "teeth": told(found.nearest), "tolerance": given.tolerance.text}
+        if off < 1:
+            about |= {"enough": f"{math.ceil(off * 1e5) / 1e5:g}"}
+        yield Finding("train-ratio", (*TOP, *key), about)
+        return
+    others = mended(found.demand)
+    mend = {"others": ", ".join(map(str, others))} if others else {}
+    yield Finding(f"train-{failed}", (*TOP, "k"), about | mend)
+
+
+CHECKS = (one_of("parameters", "u", "n_out"), of_parameters(check))
+
+
+# --- what is hardly meant -------------------------------------------------------------------------
+
+
+def physics(assignment: Assignment) -> Iterator[Finding]:
+    """A ratio that is not met exactly, inner wheels that mesh only with profile shift."""
+    given: Parameters = assignment.parameters
+    found = given.choice
+    reached = float(found.chosen.ratio)
+    if abs(reached - found.demand.ratio) > DUST * abs(reached):
+        key = "u" if given.u is not None else "n_out"
+        met = {"u": f"{given.wanted:.6g}", "reached": f"{given.of_input(reached):.6g}"}
+        yield Finding("train-off", (*TOP, key), met)
+    if not found.free[found.first]:
+        yield Finding("train-shift", (*TOP, "z"), {"teeth": told(found.chosen)})
+
+
+WARNINGS = (physics,)

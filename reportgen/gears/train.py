@@ -1,0 +1,356 @@
+"""Planetary trains with one carrier: the ratio by Willis, and all tooth numbers that can be built.
+
+Wheel 1 meshes with satellite 2, satellite 2′ on the same shaft with wheel 3, which stands still; the carrier H bears
+the satellites.  Of a single satellite 2′ is 2.  Seen from the carrier all shafts stand still, so that
+
+    u₁₃(H) = (ω₁ − ω_H)/(ω₃ − ω_H) = ± z₂z₃/(z₁z₂′),  and with ω₃ = 0  u₁H = ω₁/ω_H = 1 − u₁₃(H).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Wholes = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+
+ALPHA = math.radians(20)
+"""The angle of the basic rack; its addendum is the module."""
+LEAST_OUTER = 17
+"""A wheel with fewer outer teeth is undercut: 2/sin²α = 17.1."""
+LEAST_DIFFERENCE = 8
+"""An inner wheel has so many teeth more than its satellite, by the usual rule."""
+MOST_SATELLITES = 8
+DUST = 1e-12
+"""Ratios of whole numbers that differ by less are equal."""
+FITS = 1e-6
+"""Teeth that stand so near to their gap (teeth) are in it."""
+CONDITIONS = ("ratio", "interference", "neighbours", "assembly")
+"""What coaxial tooth numbers must fulfil, in the order in which it is asked."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrainScheme:
+    """Which of the two wheels that mesh with satellites are inner ones; a `single` satellite meshes with both."""
+
+    inner: tuple[bool, bool]
+    single: bool = False
+
+    @property
+    def signs(self) -> tuple[int, int]:
+        """+1 for a mesh of an inner wheel, whose satellite turns as it does against the carrier, else −1."""
+        first, second = self.inner
+        return 1 if first else -1, 1 if second else -1
+
+    @property
+    def sign(self) -> int:
+        """Of z₂z₃/(z₁z₂′) in u₁H = 1 ± z₂z₃/(z₁z₂′)."""
+        first, second = self.signs
+        return -first * second
+
+
+SCHEMES: Mapping[str, TrainScheme] = {
+    "single": TrainScheme((False, True), single=True),
+    "double": TrainScheme((False, True)),
+    "double-outer": TrainScheme((False, False)),
+    "double-inner": TrainScheme((True, True)),
+}
+
+
+class Teeth(NamedTuple):
+    """The numbers of teeth z₁, z₂, z₂′, z₃: whole numbers."""
+
+    one: int
+    two: int
+    other: int
+    three: int
+
+
+@dataclass(frozen=True, slots=True)
+class Demand:
+    """What tooth numbers are sought for: a ratio u₁H within a share, so many satellites, limits, modules m/m₂."""
+
+    scheme: str
+    ratio: float
+    tolerance: float
+    satellites: int
+    least: int
+    most: int
+    modules: Fraction = Fraction(1)
+
+    @property
+    def of(self) -> TrainScheme:
+        return SCHEMES[self.scheme]
+
+
+@dataclass(frozen=True, slots=True)
+class Train:
+    """Tooth numbers in a scheme: their ratio, and what the conditions ask of them."""
+
+    scheme: str
+    teeth: Teeth
+    modules: Fraction = Fraction(1)
+
+    @property
+    def ratio(self) -> Fraction:
+        """u₁H with wheel 3 at rest."""
+        z = self.teeth
+        return 1 + SCHEMES[self.scheme].sign * Fraction(z.two * z.three, z.one * z.other)
+
+    @property
+    def size(self) -> float:
+        """The circle that the satellites' reference circles touch from inside, in modules m₂."""
+        return float(sizes(SCHEMES[self.scheme], np.array([self.teeth]).T, self.modules)[0])
+
+    def turns(self, satellites: int) -> int | None:
+        """P of u₁H z₁ (1 + kP)/k, the least that makes it whole; None where no P does."""
+        lowest = self.ratio * self.teeth.one / satellites
+        if math.gcd(lowest.denominator, satellites) > 1:
+            return None
+        return pow(-satellites, -1, lowest.denominator)
+
+    @property
+    def satellites(self) -> tuple[int, ...]:
+        """The numbers of satellites that have room and can be assembled."""
+        rows = np.array([self.teeth]).T
+        return tuple(
+            k
+            for k in range(2, MOST_SATELLITES + 1)
+            if _neighbours(SCHEMES[self.scheme], rows, k, self.modules)[0] and self.turns(k) is not None
+        )
+
+
+# --- conditions over many trains, z [4, N] ---------------------------------------------------------------
+
+
+def ratios(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
+    z1, z2, z2p, z3 = z
+    found: NDArray[np.float64] = 1 + scheme.sign * (z2 * z3) / (z1 * z2p)
+    return found
+
+
+def axis(scheme: TrainScheme, z: Wholes) -> Wholes:
+    """Twice the distance between the axes of wheel 1 and satellite 2, in modules."""
+    first, _ = scheme.signs
+    found: Wholes = np.abs(z[0] - first * z[1])
+    return found
+
+
+def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
+    """Outer wheels are not undercut; inner wheels have more teeth than their satellites by the usual number."""
+    holds: Flags = (z[1] >= LEAST_OUTER) & (z[2] >= LEAST_OUTER)
+    for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
+        holds &= wheel - satellite >= LEAST_DIFFERENCE if inner else wheel >= LEAST_OUTER
+    return holds
+
+
+def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Flags:
+    """The tips of satellites beside each other leave a gap: (z + 2)/(z₁ ± z₂) < sin(π/k) of both wheels of them."""
+    room = math.sin(math.pi / k) * axis(scheme, z)
+    holds: Flags = (z[1] + 2 < room) & ((z[2] + 2) / float(modules) < room)
+    return holds
+
+
+def _assembly(scheme: TrainScheme, z: Wholes, k: int) -> Flags:
+    """u₁H z₁ (1 + kP)/k is whole for some whole P: just when in lowest terms u₁H z₁/k has no factor of k below."""
+    z1, z2, z2p, z3 = z
+    below = k * z2p // np.gcd(z1 * z2p + scheme.sign * z2 * z3, k * z2p)
+    holds: Flags = np.gcd(below, k) == 1
+    return holds
+
+
+def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
+    """Whether wheels without profile shift mesh inside: no tip beyond an involute, no tips that meet elsewhere.
+
+    The tip circle of the inner wheel passes the point where the line of action touches the satellite's base circle,
+    and where both tip circles meet the satellite's tooth is past that of the inner wheel.
+    """
+    holds = np.ones(len(z[0]), bool)
+    for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
+        if not inner:
+            continue
+        a = (wheel - satellite) / 2
+        base2, base3 = satellite / 2 * math.cos(ALPHA), wheel / 2 * math.cos(ALPHA)
+        tip2, tip3 = satellite / 2 + 1, wheel / 2 - 1
+        with np.errstate(all="ignore"):
+            at2, at3 = np.arccos(base2 / tip2), np.arccos(base3 / tip3)
+            δ2 = np.arccos((tip3**2 - tip2**2 - a**2) / (2 * a * tip2))
+            δ3 = np.arccos((tip3**2 + a**2 - tip2**2) / (2 * a * tip3))
+            past = satellite * (_inv(at2) + δ2) - wheel * (_inv(at3) + δ3) + (wheel - satellite) * _inv(ALPHA)
+        involute = tip3**2 >= base3**2 + (a * math.sin(ALPHA)) ** 2
+        # Where the tip circles do not meet, δ is not a number and tips cannot meet either.
+        holds &= involute & ~(past < 0)
+    return holds
+
+
+def _inv(α: NDArray[np.float64] | float) -> NDArray[np.float64] | float:
+    return np.tan(α) - α
+
+
+def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
+    """Which trains fulfil each of the conditions."""
+    scheme, k = demand.of, demand.satellites
+    off = np.abs(ratios(scheme, z) - demand.ratio)
+    return {
+        "ratio": off <= (demand.tolerance + DUST) * abs(demand.ratio),
+        "interference": _interference(scheme, z),
+        "neighbours": _neighbours(scheme, z, k, demand.modules),
+        "assembly": _assembly(scheme, z, k),
+    }
+
+
+# --- all of them ------------------------------------------------------------------------------------------
+
+
+def coaxial(demand: Demand) -> Iterator[Wholes]:
+    """All tooth numbers within the limits that have one axis, m(z₁ ± z₂) = m₂(z₃ ± z₂′), in parts [N, 4]."""
+    scheme = demand.of
+    first, second = scheme.signs
+    every = np.arange(demand.least, demand.most + 1, dtype=np.int64)
+    two, other = (every, every) if scheme.single else (part.ravel() for part in np.meshgrid(every, every))
+    top, below = demand.modules.numerator, demand.modules.denominator
+    for one in every:
+        apart = top * (one - first * two)
+        three = apart // below + second * other
+        kept = (apart > 0) & (apart % below == 0) & (three >= demand.least) & (three <= demand.most)
+        yield np.column_stack((np.full(kept.sum(), one), two[kept], other[kept], three[kept]))
+
+
+@dataclass(frozen=True, eq=False)
+class TrainChoice:
+    """All tooth numbers [N, 4] that a demand finds, by size; how many are left after each condition."""
+
+    demand: Demand
+    sets: Wholes
+    free: Flags
+    """Which of them need no profile shift."""
+    left: Mapping[str, int]
+    nearest: Train | None
+    """The coaxial train, free of interference, whose ratio is nearest."""
+    refused: Mapping[str, Train]
+    """The smallest train that fulfils every condition but the one of its name."""
+
+    @property
+    def first(self) -> int:
+        """The number (from 0) of the smallest train, of those that need no profile shift if there are any."""
+        return int(np.argmax(self.free)) if self.free.any() else 0
+
+    def train(self, number: int) -> Train:
+        return _train(self.demand, self.sets[number])
+
+    @property
+    def chosen(self) -> Train:
+        return self.train(self.first)
+
+
+def _train(demand: Demand, row: Wholes) -> Train:
+    return Train(demand.scheme, Teeth(*map(int, row)), demand.modules)
+
+
+def sizes(scheme: TrainScheme, z: Wholes, modules: Fraction) -> NDArray[np.float64]:
+    """The circle that the satellites' reference circles touch from inside, in modules m₂; an inner wheel lies on it."""
+    m = float(modules)
+    found: NDArray[np.float64] = axis(scheme, z) * m + np.maximum(z[1] * m, z[2])
+    return found
+
+
+def in_order(demand: Demand, sets: Wholes) -> Wholes:
+    """By size, then by how far the ratio is off, then by their numbers."""
+    z, scheme = sets.T, demand.of
+    off = np.abs(ratios(scheme, z) - demand.ratio)
+    keys = (z[2], z[1], z[0], np.round(off, 12), np.round(sizes(scheme, z, demand.modules), 9))
+    return sets[np.lexsort(keys)]
+
+
+@lru_cache(maxsize=32)
+def choice(demand: Demand) -> TrainChoice:
+    """All trains that fulfil a demand."""
+    kept: list[Wholes] = []
+    left = dict.fromkeys(CONDITIONS, 0)
+    nearest: tuple[float, Wholes | None] = (math.inf, None)
+    misses: dict[str, list[Wholes]] = {name: [] for name in CONDITIONS[1:]}
+    for sets in coaxial(demand):
+        z = sets.T
+        holds = judged(demand, z)
+        together = np.ones(len(sets), bool)
+        for name, fulfilled in holds.items():
+            together &= fulfilled
+            left[name] += int(together.sum())
+        kept.append(sets[together])
+        for name, rows in misses.items():
+            others = np.logical_and.reduce([flags for other, flags in holds.items() if other != name])
+            rows.append(sets[others & ~holds[name]])
+        sound = sets[holds["interference"]]
+        if len(sound):
+            off = np.abs(ratios(demand.of, sound.T) - demand.ratio)
+            nearest = min(nearest, (float(off.min()), sound[off.argmin()]), key=lambda one: one[0])
+    found = in_order(demand, np.concatenate(kept))
+    refused = {name: in_order(demand, np.concatenate(rows)) for name, rows in misses.items()}
+    return TrainChoice(
+        demand,
+        found,
+        unshifted(demand.of, found.T),
+        left,
+        None if nearest[1] is None else _train(demand, nearest[1]),
+        {name: _train(demand, rows[0]) for name, rows in refused.items() if len(rows)},
+    )
+
+
+def mended(demand: Demand) -> tuple[int, ...]:
+    """The numbers of satellites with which the demand can be met."""
+    others = (replace(demand, satellites=k) for k in range(2, MOST_SATELLITES + 1))
+    return tuple(one.satellites for one in others if len(choice(one).sets))
+
+
+# --- how it goes together -----------------------------------------------------------------------------------
+
+
+def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ...]]:
+    """The angle of wheel 3, and of each satellite when the carrier is at 0, with a tooth of wheel 1 at 0.
+
+    A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one stands in a gap of the other.
+    An angle is None where no position of the satellite fits both wheels.
+    """
+    z, scheme = train.teeth, SCHEMES[train.scheme]
+
+    def at_mesh(inner: bool, γ: float, wheel: float, number: int) -> tuple[float, float]:
+        """The direction from the satellite's axis to the mesh, and by how many of its teeth a tooth is before it."""
+        passed = (γ - wheel) * number / math.tau
+        return (γ, passed - 0.5) if inner else (γ + math.pi, 0.5 - passed)
+
+    def fits(γ: float, ψ: float, wheel: float) -> float:
+        towards, share = at_mesh(scheme.inner[1], γ, wheel, z.three)
+        return math.remainder((towards - ψ) * z.other / math.tau - share, 1)
+
+    def first(γ: float) -> float:
+        towards, share = at_mesh(scheme.inner[0], γ, 0.0, z.one)
+        return towards - share * math.tau / z.two
+
+    # Wheel 3 is turned until it meets the first satellite: by a part of a tooth.
+    missing = fits(0.0, first(0.0), 0.0)
+    three = -missing * math.tau / z.three * scheme.signs[1]
+    found: list[float | None] = []
+    for number in range(satellites):
+        γ = number * math.tau / satellites
+        tried = (first(γ) + tooth * math.tau / z.two for tooth in range(z.two))
+        found.append(next((ψ for ψ in tried if abs(fits(γ, ψ, three)) < FITS), None))
+    return three, tuple(found)
+
+
+# --- efficiency -------------------------------------------------------------------------------------------
+
+
+def power_way(ratio: float, carrier_drives: bool) -> int:
+    """+1 where, seen from the carrier, power goes from wheel 1 to wheel 3, else −1.
+
+    Its sense is that of M₁(ω₁ − ω_H) = M₁ω₁ (1 − 1/u), where M₁ω₁ is positive for a driving wheel 1.
+    """
+    along = 1 - 1 / ratio
+    return 1 if (along > 0) != carrier_drives else -1

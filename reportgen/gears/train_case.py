@@ -1,0 +1,348 @@
+"""A planetary train as a case: its report and its task with their tables and lines, its key, its results."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen.base.units import MM
+from reportgen.drawing.film import Film
+from reportgen.drawing.sheet import DrawingSheet
+from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
+from reportgen.formula.sheet import Family
+from reportgen.gears import train_drawings
+from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train
+from reportgen.gears.train_drawings import scheme_views, velocity_triangles
+from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Contents,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    PageBreak,
+    Section,
+    Table,
+    Text,
+    Value,
+    Words,
+    listed,
+)
+from reportgen.report.case import Key
+from reportgen.report.numbering import number
+from reportgen.report.prose import Prose
+
+SECTIONS = ("given", "ratio", "conditions", "candidates", "choice", "checks", "total", "scheme", "rates")
+LATER = ("triangles", "efficiency", "conclusion")
+SHORT = frozenset({"triangles"})
+"""The sections that a short report goes without."""
+ROWS, SHORT_ROWS = 15, 6
+"""So many of the tooth numbers found stand in the table."""
+WORDS = 60
+"""A wider column has words."""
+SHOWN_SETS = 500
+"""So many of the tooth numbers that are found stand in the results."""
+
+
+def report(case: SolvedTrain) -> Document:
+    """The finished, numbered report."""
+    page, words, assignment = TrainPage(case), case.words, case.assignment
+    prose, full = Prose(case.places), assignment.report.extent == "full"
+    names = page.names()
+    found: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
+    for section in (*SECTIONS, *LATER):
+        if page.has(section) and (full or section not in SHORT):
+            found += prose.render(f"train-{section}", names)
+    return number(
+        Document(
+            language=assignment.language,
+            title=f"{words['cover']['title']} – {case.title}",
+            author=assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=Words.among(words["document"]),
+            blocks=tuple(found),
+            close=not full,
+        )
+    )
+
+
+def task(case: SolvedTrain, key: Key, by_section: bool = False) -> Document:
+    """The student's handout: the given data and the empty answer sheet."""
+    from reportgen.marking.paper import empty_sheet, task_paper
+
+    names = {**TrainPage(case).names(), "answer_tables": empty_sheet(key, by_section)}
+    title = (Section(1, (Text(case.words["train"]["task"].format(title=case.title)),), numbered=False),)
+    return task_paper(case, key, title, Prose(case.places).render("train-task", names))
+
+
+@dataclass(frozen=True)
+class TrainPage:
+    """A planetary train as templates name it."""
+
+    case: SolvedTrain
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        found: Mapping[str, Any] = self.case.words["train"]
+        return found
+
+    def has(self, section: str) -> bool:
+        given = self.case.given
+        return {"total": bool(given.before or given.behind), "efficiency": given.efficiency is not None}.get(
+            section, True
+        )
+
+    def names(self) -> dict[str, Any]:
+        case, given, choice = self.case, self.case.given, self.case.choice
+        families, written = case.ledger.families, case.printed
+        return {
+            "words": case.words,
+            "given": given,
+            "choice": choice,
+            "single": case.scheme.single,
+            "inner": case.scheme.inner,
+            "met": written["train.off"].at(1) == 0,
+            "free": bool(choice.free[choice.first]),
+            "rows": len(given.before) + len(given.behind),
+            "row_ratios": [id for id in families if id in ids.train_row_ratio],
+            "teeth": [ids.train_teeth(wheel) for wheel in self.wheels],
+            "rates": [id for id in families if id in ids.train_omega],
+            "readings": [id for id in families if id in ids.train_read],
+            "segments": [id for id in families if id in ids.train_segment],
+            "self_locking": given.efficiency is not None and written[ids.train_efficiency("train")].at(1) <= 0,
+            "tolerance": Value(self.tolerance),
+            "possible": listed(Text(str(k)) for k in case.train.satellites),
+            "shown": min(self.rows, len(choice.sets)),
+            "data": self.data,
+            "relation": self.relation,
+            "assembly": self.assembly,
+            "candidates": self.candidates,
+            "checks": self.checks,
+            "rates_table": self.rates_table,
+            "known": lambda id: id in written,
+            "value": lambda id: Value(written.number(id)),
+            "quantity": lambda id: said((written.symbol(id), " = ", written.number(id))),
+            "lines": lambda quantities: Equation(tuple(written.chain(id) for id in quantities if id in written)),
+            "formulas": lambda quantities: Equation(tuple(Chain(written.chain(id).parts[:2]) for id in quantities)),
+            "math": self.math,
+            "figure": self.figure,
+        }
+
+    @property
+    def wheels(self) -> tuple[str, ...]:
+        return ("1", "2", "3") if self.case.scheme.single else ("1", "2", OTHER, "3")
+
+    @property
+    def rows(self) -> int:
+        return ROWS if self.case.assignment.report.extent == "full" else SHORT_ROWS
+
+    # --- symbols and lines
+
+    def math(self, text: str) -> Symbol:
+        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
+        if text in self.case.printed:
+            return self.case.printed.symbol(text)
+        base, _, sub = text.partition("_")
+        return vocabulary.in_language(Symbol(base, sub.replace("2p", OTHER)), self.case.words["symbols"])
+
+    @property
+    def relation(self) -> Equation:
+        """The formula of Willis, and the ratio with wheel 3 at rest."""
+        ω, z = ({wheel: Symbol(letter, wheel) for wheel in ("1", "2", OTHER, "3", "H")} for letter in "ωz")
+        u0, u, scheme = Symbol("u", "13", "(H)"), Symbol("u", "1H"), self.case.scheme
+        term = term_of(scheme, z)
+        willis = Chain((u0, (ω["1"] - ω["H"]) / (ω["3"] - ω["H"]), signed(-scheme.sign, term)))
+        return Equation((willis, Chain((u, ω["1"] / ω["H"], 1 - u0, 1 + signed(scheme.sign, term)))))
+
+    @property
+    def assembly(self) -> Equation:
+        """Of a single satellite u₁H z₁ is z₁ + z₃, and one turn is as good as any."""
+        k, z1, z3 = Symbol("k"), Symbol("z", "1"), Symbol("z", "3")
+        top = Symbol("u", "1H") * z1
+        if self.case.scheme.single:
+            return Equation((Chain((Symbol("N"), top / k, (z1 + z3) / k)),))
+        return Equation((Chain((Symbol("N"), top * (1 + k * Symbol("P")) / k)),))
+
+    # --- tables
+
+    def _table(self, name: str, head: Iterable[Any], rows: Iterable[Iterable[Any]], widths: Iterable[float]) -> Table:
+        """A table of what `said` prints; its first column stands to the left if it is wide."""
+        caption = Prose(self.case.places).inlines(self.words["captions"][name])
+        cells = (tuple(Cell(said(one)) for one in row) for row in (head, *rows))
+        columns = tuple(Column(width, "left" if width > WORDS else "center") for width in widths)
+        return Table(columns, (next(cells),), tuple(cells), caption, f"tab.{name}")
+
+    @property
+    def data(self) -> Table:
+        """The data with their names, symbols and values."""
+        given, printed, words = self.case.given, self.case.printed, self.words
+        rows: list[tuple[Any, ...]] = []
+        for key, value in (("scheme", given.scheme), ("drives", given.drives)):
+            rows.append((words["choices"][key]["name"], "–", words["choices"][key][value]))
+        for id, name in self.case.words["given"].items():
+            if id in printed and (given.u or id != "train.u"):
+                rows.append((name, printed.symbol(id), printed.number(id)))
+        for i, row in enumerate((*given.before, *given.behind)):
+            symbols = Symbol("z", str(FIRST_ROW_WHEEL + 2 * i)), ", ", Symbol("z", str(FIRST_ROW_WHEEL + 2 * i + 1))
+            rows.append(
+                (words["row_before" if i < len(given.before) else "row_behind"], symbols, f"{row[0]}, {row[1]}")
+            )
+        rows.append((words["limits"], Symbol("z"), f"{given.z.from_} … {given.z.to}"))
+        rows.append((words["tolerance"], Symbol("Δu"), self.tolerance))
+        heads = (self.case.words["table"][key] for key in ("quantity", "symbol", "value"))
+        return self._table("data", heads, rows, (82, 20, 58))
+
+    @property
+    def tolerance(self) -> Number:
+        return Number(float(f"{self.case.given.tolerance.si * 100:.6g}"), None, "%")
+
+    @property
+    def candidates(self) -> Table:
+        """The smallest of the tooth numbers found, and the chosen ones, with what decides."""
+        given, choice, words = self.case.given, self.case.choice, self.words["candidates"]
+        rows: list[tuple[Any, ...]] = []
+        for n in sorted({*range(min(self.rows, len(choice.sets))), choice.first}):
+            train = choice.train(n)
+            u = given.of_input(float(train.ratio))
+            across = train.size * given.second_module.si * MM
+            numbers = _short(u, 4), _short((u / given.wanted - 1) * 100, 2), _short(across, 2)
+            z = [str(one) for one in train.teeth]
+            mark = words["yes" if choice.free[n] else "no"] + (f" {words['chosen']}" if n == choice.first else "")
+            rows.append((str(n + 1), *(z[:2] + z[3:] if self.case.scheme.single else z), *numbers, mark))
+        wheels = (Symbol("z", wheel) for wheel in self.wheels)
+        u1H = Symbol("u", "H1" if given.by_carrier else "1H")
+        head = ("№", *wheels, u1H, (Symbol("Δu"), ", %"), (Symbol("D"), ", mm"), words["unshifted"])
+        return self._table("candidates", head, rows, (10, *(14,) * len(self.wheels), 22, 18, 22, 32))
+
+    @property
+    def checks(self) -> Table:
+        """What is required, what there is, and whether it holds."""
+        case, words, z = self.case, self.words["checks"], self.case.train.teeth
+        symbol, value = case.printed.symbol, case.printed.number
+        free = bool(case.choice.free[case.choice.first])
+        meshes = tuple(zip(case.scheme.inner, (z.one, z.three), (z.two, z.other), strict=True))
+        outer = min(z.two, z.other, *(wheel for inner, wheel, _ in meshes if not inner))
+        rows: list[tuple[Any, Any, Any, bool]] = [
+            ("coaxial", (symbol("train.a.1"), " = ", symbol("train.a.2")), value("train.a.1"), True),
+            ("neighbours", ("< ", value("train.room")), value("train.gap"), True),
+            ("assembly", words["whole"], (symbol("train.N"), " = ", value("train.N")), True),
+            ("outer", f"≥ {LEAST_OUTER}", str(outer), True),
+        ]
+        for name, (inner, wheel, satellite) in zip(("first", "second"), meshes, strict=True):
+            if inner:
+                rows.append((name, f"≥ {LEAST_DIFFERENCE}", f"{wheel} − {satellite} = {wheel - satellite}", True))
+        if any(case.scheme.inner):
+            rows.append(("unshifted", "–", words["free" if free else "shift"], free))
+        told = ((words[name], *parts, words["yes" if holds else "no"]) for name, *parts, holds in rows)
+        return self._table("checks", words["head"], told, (62, 34, 40, 24))
+
+    @property
+    def rates_table(self) -> Table:
+        """Angular velocities by Willis and as they are read off, with the difference."""
+        rows = []
+        for wheel in ("1", "2", "H"):
+            by, read = (self.case.printed.number(id(wheel)) for id in (ids.train_omega, ids.train_read))
+            off = Number((read.shown / by.shown - 1) * 100, 2)
+            rows.append((Symbol("ω", wheel), Number(by.value, by.decimals), Number(read.value, read.decimals), off))
+        return self._table("rates", self.words["rates"], rows, (40, 40, 40, 40))
+
+    # --- figures
+
+    def figure(self, name: str) -> Figure:
+        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
+        scene = scheme_views(self.case) if name == "scheme" else velocity_triangles(self.case)
+        return Figure((scene,), caption, f"fig.{name}")
+
+
+def said(what: Any) -> Inlines:
+    """Words, symbols and numbers, one or several in a row, as they stand in a cell."""
+    match what:
+        case tuple():
+            return tuple(part for one in what for part in said(one))
+        case Symbol():
+            return (InlineMath(what),)
+        case Number():
+            return (Value(what),)
+        case _:
+            return (Text(str(what)),)
+
+
+def _short(value: float, decimals: int) -> Number:
+    """A number as it is where it has few decimals, else rounded."""
+    short = round(value, decimals)
+    return Number(short + 0.0, None) if np.isclose(value, short, rtol=1e-12, atol=1e-12) else Number(value, decimals)
+
+
+# --- the case --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class TrainCase(SolvedTrain):
+    """A planetary train, as a `Case`."""
+
+    @property
+    def families(self) -> Mapping[str, Family]:
+        return self.ledger.families
+
+    @property
+    def positions_of_a_turn(self) -> int:
+        return 1
+
+    @property
+    def balance(self) -> None:
+        """It has no forces."""
+
+    def fault(self) -> str:
+        return "" if self.choice.free[self.choice.first] else "train-shift"
+
+    def document(self) -> Document:
+        return self.bounded(report)
+
+    def key(self) -> Key:
+        from reportgen.marking.key import make_key
+
+        return make_key(self, self.ledger, self.printed, sense_of=self._sense)
+
+    def _sense(self, id: str) -> str:
+        family = self.ledger[id]
+        return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
+
+    def task(self, key: Key, by_section: bool = False) -> Document:
+        return self.bounded(partial(task, key=key, by_section=by_section))
+
+    def results(self) -> dict[str, Any]:
+        """All tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their rates."""
+        from reportgen.marking.results import results
+
+        found = self.choice
+        omega = {id.rpartition(".")[2]: self.ledger[id].at(1) for id in self.ledger.families if id in ids.train_omega}
+        shown = range(min(len(found.sets), SHOWN_SETS))
+        sets = [{**_told(found.train(n)), "unshifted": bool(found.free[n])} for n in shown]
+        return results(
+            self,
+            [{"number": 1, "wheels": {wheel: {"omega": float(rate)} for wheel, rate in omega.items()}}],
+            train={**_told(self.train), "satellites": self.given.k, "possible": list(self.train.satellites)},
+            found=len(found.sets),
+            sets=sets,
+        )
+
+    def film(self) -> Film:
+        return train_drawings.film(self)
+
+    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
+        return train_drawings.drawing_sheets(self, size, block)
+
+
+def _told(train: Train) -> dict[str, Any]:
+    z = train.teeth
+    return {"z": [z.one, z.two, z.other, z.three], "ratio": float(train.ratio)}

@@ -1,0 +1,317 @@
+"""Drawings of a planetary train true to scale: its scheme, its triangles of velocities, its page, its sheet."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from reportgen.base.units import MM, nice_up
+from reportgen.drawing import Arrow, Circle, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
+from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.sheet import ENLARGED, DrawingSheet, lettered
+from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula.vocabulary import KINDS
+from reportgen.gears.train import ALPHA, turned
+from reportgen.gears.train_solution import OTHER, STEPS, SolvedTrain
+from reportgen.sheets import on_sheets
+from reportgen.sheets.packing import DrawingPlate
+
+FRONT = 80.0
+"""What the scheme seen along its axis may fill on a page (mm)."""
+WHEEL = Pen(0.4)
+SATELLITE = Pen(0.4, style.BLUE)
+CARRIER = Pen(0.5, style.RED)
+RIM, BESIDE = 2.6, 0.45
+"""Half the width of a rim in the view from the side, and from a reference line to the rim that stands for it (mm)."""
+STEP = 13.0
+"""From one plane of wheels to the next, and to the carrier (mm)."""
+SHAFT = 14.0
+LEG = 4.0
+BEYOND = 6.0
+"""What lines of the triangles go on beyond their ends (mm)."""
+APART = 16.0
+"""White between the triangles and the plan of angular velocities (mm)."""
+SAMPLES = 360
+FILMED = 110.0
+"""What the wheels may fill on a page (mm)."""
+
+
+def radii(case: SolvedTrain) -> dict[str, float]:
+    """Reference radii of the wheels, and of the circle of the satellites' axes as H (m)."""
+    given, z = case.given, case.train.teeth
+    m, m2 = given.m.si, given.second_module.si
+    first, _ = case.scheme.signs
+    sizes = {"1": m * z.one, "2": m * z.two, OTHER: m2 * z.other, "3": m2 * z.three, "H": m * (z.one - first * z.two)}
+    return {wheel: size / 2 for wheel, size in sizes.items()}
+
+
+def outermost(r: dict[str, float]) -> float:
+    """How far wheels reach from the axis, by their reference circles."""
+    return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
+
+
+def scale_note(scale: float, sub: str = "l", unit: str = "mm/mm") -> Chain:
+    """The scale of a drawing: what a millimetre of paper stands for."""
+    return Chain((Symbol("μ", sub), Number(float(f"{scale:.6g}"), None, unit)))
+
+
+# --- two views of the scheme ------------------------------------------------------------------------------
+
+
+def scheme_views(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) -> Scene:
+    """Along the axis and from the side, on one height."""
+    # The scale is round once the drawing is enlarged.
+    scale = nice_up(2 * outermost(radii(case)) * MM / room / enlarged, STEPS) * enlarged
+    r = {wheel: size * MM / scale for wheel, size in radii(case).items()}
+    front, named = _along(case, r)
+    side, beside = _from_side(case, r, complex(outermost(r) + 36.0, 0))
+    return finish(Canvas((*front, *side), (*named, *beside)), notes=(scale_note(scale),), margin=2.0)
+
+
+def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
+    """Reference circles, the satellites evenly around, the first above the axis."""
+    k, single = case.given.k, case.scheme.single
+    places = [r["H"] * cmath.rect(1, math.pi / 2 + number * math.tau / k) for number in range(k)]
+    items: list[Item] = [Circle(0j, r["H"], style.AXIS)]
+    items += [Circle(0j, r[wheel], WHEEL) for wheel in ("1", "3")]
+    for place in places:
+        items += [Circle(place, r[wheel], SATELLITE) for wheel in dict.fromkeys(("2", "2" if single else OTHER))]
+        items += [Line(0j, place, CARRIER), style.joint(place)]
+    items.append(style.joint(0j))
+    ring = outermost(r)
+    items += [*_held(-1j * r["3"]), Line(complex(-ring - 4, 0), complex(ring + 4, 0), style.AXIS)]
+    requests = [
+        label(0j, Symbol("O"), gap=1.8, prefer=(-0.5, -2.6)),
+        label(places[0], Symbol("B"), gap=1.8, prefer=(0.5, 2.6)),
+        label([r["1"] * cmath.rect(1, φ) for φ in (-0.6, -2.5, 0.2, 2.9)], "1", gap=0.8),
+        label([places[0] + r["2"] * cmath.rect(1, φ) for φ in (0.4, 2.7, 1.2)], "2", gap=0.8),
+        label([r["3"] * cmath.rect(1, φ) for φ in (-1.0, -2.1, 0.3, 2.8)], "3", gap=0.8),
+        label([places[0] * share for share in (0.6, 0.5, 0.7)], "H", gap=0.8),
+    ]
+    if not single:
+        spots = [places[0] + r[OTHER] * cmath.rect(1, φ) for φ in (-0.4, -2.7, 0.8, 2.3)]
+        requests.append(label(spots, Symbol("2", sup="′"), gap=0.8))
+    return items, requests
+
+
+def _from_side(case: SolvedTrain, r: dict[str, float], at: complex) -> tuple[list[Item], list[Request]]:
+    """The axis level, each wheel a line with its rims; one of the satellites, above the axis."""
+    first, last = at, at + (0 if case.scheme.single else STEP)
+    carrier = last + STEP
+    B = complex(0, r["H"])
+    start, end = first - SHAFT, carrier + SHAFT
+    inner1, inner3 = case.scheme.inner
+    items: list[Item] = [Line(start - 4, end + 4, style.AXIS)]
+    items += [*_wheel(first, r["1"], WHEEL, inner1, first - STEP / 2 if inner1 else first)]
+    items += [*_wheel(first + B, r["2"], SATELLITE)]
+    if not case.scheme.single:
+        items += [*_wheel(last + B, r[OTHER], SATELLITE)]
+    items += [*_fixed(last, r["3"], inner3)]
+    items += [Line(start, first - (STEP / 2 if inner1 else 0), WHEEL)]
+    items += [
+        Line(first + B - 3, carrier + B, SATELLITE),
+        Line(carrier + B, carrier, CARRIER),
+        Line(carrier, end, CARRIER),
+    ]
+    for place in (start + SHAFT / 3, end - SHAFT / 3):
+        for up in (1j, -1j):
+            items += style.ground(place + 1.1 * up - 2.5, place + 1.1 * up + 2.5, round(up.imag))
+    requests = [
+        label([first - 1j * r["1"] * share for share in (0.7, 0.5, 0.9)], "1", gap=0.8),
+        label([first + B + 1j * r["2"] * share for share in (0.6, 0.4, 0.8)], "2", gap=0.8, prefer=(math.pi, 0.0)),
+        label([last - 1j * (r["3"] + LEG / 2), last - 1j * r["3"]], "3", gap=1.0),
+        label([carrier + B * share for share in (0.5, 0.35, 0.65)], "H", gap=0.8, prefer=(0.0,)),
+        label(first + B - 3, Symbol("B"), gap=0.8, prefer=(math.pi, 2.6)),
+        label(start, Symbol("O"), gap=0.8, prefer=(2.6, -2.6)),
+    ]
+    if not case.scheme.single:
+        spots = [last + B + 1j * r[OTHER] * share for share in (0.6, 0.4, 0.8)]
+        requests.append(label(spots, Symbol("2", sup="′"), gap=0.8, prefer=(0.0, math.pi)))
+    return items, requests
+
+
+def _wheel(at: complex, r: float, pen: Pen, inner: bool = False, disc: complex = 0j) -> Iterator[Item]:
+    """A wheel from the side; of an inner one the disc stands aside and the rims lie outside the reference line."""
+    if not inner:
+        yield Line(at - 1j * r, at + 1j * r, pen)
+    for up in (1j, -1j):
+        rim = at + up * (r + (BESIDE if inner else -BESIDE))
+        yield Line(rim - RIM, rim + RIM, pen)
+        if inner:
+            yield Polyline((disc, disc + up * (r + BESIDE + 2), rim + up * 2, rim), pen)
+
+
+def _fixed(at: complex, r: float, inner: bool) -> Iterator[Item]:
+    """Wheel 3, held by the ground below it, and an inner one above it, too."""
+    if not inner:
+        yield from _wheel(at, r, WHEEL)
+    for up in (1j, -1j) if inner else (-1j,):
+        rim = at + up * (r + (BESIDE if inner else -BESIDE))
+        yield Line(rim - RIM, rim + RIM, WHEEL)
+        yield from _held(rim, up)
+
+
+def _held(rim: complex, up: complex = -1j) -> Iterator[Item]:
+    """What holds the rim of wheel 3, which stands still."""
+    foot = rim + up * LEG
+    yield Line(rim, foot, WHEEL)
+    yield from style.ground(foot - 4, foot + 4, round(up.imag))
+
+
+# --- triangles of velocities --------------------------------------------------------------------------------
+
+
+def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
+    """Velocities at the distances of their points from the axis; below, the plan of angular velocities.
+
+    All is drawn so many `times` as large as the ledger has it.
+
+    A velocity in the sense of the driving shaft points to the right.  In the plan each ray from the pole K is parallel
+    to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
+    """
+    ledger = case.ledger
+
+    def mm(id: str) -> float:
+        return float(ledger[id].values[0]) * MM * times
+
+    p1, p3, pH = (mm(ids.train_line(line)) for line in ("OA", "OP", "OB"))
+    Aa, Bb, h = mm(ids.train_line("A")), mm(ids.train_line("B")), mm("train.pole")
+    slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
+    A, P, B = complex(0, p1), complex(0, p3), complex(0, pH)
+    a, b = A + Aa, B + Bb
+    ends = sorted((a, b, P), key=lambda one: one.imag)
+    items: list[Item] = [Line(-8j, complex(0, max(p1, p3, pH) + BEYOND), style.AXIS)]
+    items += [Line(0j, a, WHEEL), Line(0j, b, CARRIER), Line(ends[0], ends[-1], SATELLITE)]
+    items += [Arrow(A, a, style.VISIBLE, name="Aa"), Arrow(B, b, style.VISIBLE, name="Bb")]
+    items += [style.point(one) for one in (0j, A, B, P)]
+    left = {"O": Aa > 0, "A": Aa > 0, "B": Bb > 0, "P": Bb > 0, "a": Aa < 0, "b": Bb < 0}
+    requests = [
+        label(at, Symbol(name), gap=1.0, prefer=(math.pi if left[name] else 0.0,))
+        for at, name in ((0j, "O"), (A, "A"), (B, "B"), (P, "P"), (a, "a"), (b, "b"))
+    ]
+    requests += [label([end * share for share in (0.55, 0.4, 0.7)], name) for end, name in ((a, "1"), (b, "H"))]
+    parts = sorted(pairwise(ends), key=lambda pair: -abs(pair[1] - pair[0]))
+    requests.append(label([(one + other) / 2 for one, other in parts], "2"))
+    # The plan of angular velocities below: K stands under the level line of all ends.
+    K = complex(0, -APART - h)
+    level = K + 1j * h
+    tips = {wheel: level + h * slope for wheel, slope in slopes.items()}
+    reach = [0.0, *(tip.real for tip in tips.values())]
+    items += [
+        Line(level + min(reach) - BEYOND, level + max(reach) + BEYOND, style.VISIBLE),
+        Line(K, level, style.AXIS),
+        style.point(K),
+        *(style.point(tip) for tip in (level, *tips.values())),
+    ]
+    for wheel, pen in (("1", WHEEL), ("2", SATELLITE), ("H", CARRIER)):
+        items.append(Arrow(K, tips[wheel], pen, 0.0, name=f"s{wheel}"))
+        requests.append(label(tips[wheel], wheel, gap=1.0, prefer=(math.pi / 2,)))
+    requests += [
+        label(level, "3", gap=1.0, prefer=(math.pi / 2,)),
+        label(K, Symbol("K"), gap=1.0, prefer=(-math.pi / 2,)),
+        label([K + 0.5j * h, K + 0.35j * h, K + 0.7j * h], Symbol("h"), gap=0.6, prefer=(math.pi, 0.0)),
+    ]
+    units = {"l": "mm/mm", "v": "mm/(s·mm)", "omega": "rad/(s·mm)"}
+    scales = {of: case.printed.number(ids.train_scale(of)).value / times for of in units}
+    notes = tuple(scale_note(scales[of], case.ledger.symbol(ids.train_scale(of)).sub, units[of]) for of in units)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+
+
+# --- wheels that turn -----------------------------------------------------------------------------------------
+
+
+def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
+    """A wheel with straight flanks (mm), its first tooth to the right: what shows how teeth stand, not their form."""
+    m = 2 * radius / teeth
+    steps = ((-1.25, 1), (1.0, 1), (1.0, -1), (-1.25, -1))
+    points = []
+    for number in range(teeth):
+        for height, side in steps:
+            half = (math.pi / 4 - height * math.tan(ALPHA)) * m
+            r = radius - height * m if inner else radius + height * m
+            points.append(cmath.rect(r, number * math.tau / teeth - side * half / r))
+    return Polyline(tuple(points), Pen(0.2), closed=True)
+
+
+def film(case: SolvedTrain) -> Film:
+    """One turn of the carrier, however many the wheels make of it."""
+    knots = np.linspace(0, math.tau, SAMPLES + 1)
+    a = radii(case)["H"] * _at(case)
+    return Film(
+        knots=np.degrees(knots),
+        turns=1,
+        span=0.0,
+        positions=(("1", 0.0),),
+        shown=0,
+        stages=(_stage(case, knots),),
+        charts=(),
+        values=tuple(_values(case)),
+        errors=Errors(a * (1 - math.cos(math.pi / SAMPLES)), a, 0.0),
+    )
+
+
+def _at(case: SolvedTrain) -> float:
+    """Millimetres of the drawing for a metre."""
+    return FILMED / 2 / outermost(radii(case))
+
+
+def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
+    train, r, at = case.train, radii(case), _at(case)
+    z, (inner1, inner3) = train.teeth, case.scheme.inner
+    ω1, ω2, ωH = (float(case.ledger[ids.train_omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
+    θ = math.copysign(1, ωH) * knots
+    one, satellite = ω1 / ωH, ω2 / ωH
+    still, placed = turned(train, case.given.k)
+    centre, red = Track(np.zeros(1, complex)), Pen(0.35, style.RED)
+
+    def marked(wheel: str, teeth: int, inner: bool) -> tuple[Item, ...]:
+        """A wheel with a mark that shows how it turns; an inner one has its body around it."""
+        radius = r[wheel] * at
+        if inner:
+            rim = Circle(0j, radius * 1.08 + 2, style.VISIBLE)
+            return rim, toothed(teeth, radius, inner), Line(radius + 0j, radius * 1.08 + 0j, red)
+        return toothed(teeth, radius), Line(0.25 * radius + 0j, 0.8 * radius + 0j, red)
+
+    items: list[MovingItem] = [
+        Carried(marked("3", z.three, inner3), centre, Track(np.array([still]))),
+        Carried(marked("1", z.one, inner1), centre, Track(one * θ)),
+    ]
+    arm: list[Item] = [style.joint(0j)]
+    for number, ψ in enumerate(placed):
+        assert ψ is not None, "it can be assembled"
+        axis = r["H"] * at * cmath.rect(1, number * math.tau / case.given.k)
+        place = Track(axis * np.exp(1j * θ))
+        for wheel, teeth in [("2", z.two), (OTHER, z.other)][: 1 if case.scheme.single else 2]:
+            items.append(Carried(marked(wheel, teeth, False), place, Track(ψ + satellite * θ)))
+        arm += [Line(0j, axis, Pen(0.6, style.RED)), style.joint(axis)]
+    items.append(Carried(tuple(arm), centre, Track(θ)))
+    low, high = extent(items)
+    return Stage("train", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),))
+
+
+def _values(case: SolvedTrain) -> Iterator[MomentValue]:
+    for id in case.ledger.families:
+        if id in ids.train_omega:
+            number = case.printed.number(id)
+            shown = case.ledger[id].at(1) / KINDS["angular velocity"].scale
+            yield MomentValue(case.ledger.symbol(id), number.unit, Track(np.array([shown])), number.decimals or 2)
+
+
+# --- the drawing sheet ------------------------------------------------------------------------------------
+
+
+def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
+    """The sheet of scheme and triangles, scales round once they are enlarged; raises as `on_sheets` does."""
+    drawn = (
+        ("scheme", "scheme", scheme_views(case, FRONT, ENLARGED)),
+        ("triangles", "plans", velocity_triangles(case, 1.0 / ENLARGED)),
+    )
+    captions = case.words["train"]["captions"]
+    plates = [DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(one),)) for name, layer, one in drawn]
+    return on_sheets(case, {"train": plates}, size, block)

@@ -1,0 +1,90 @@
+"""The file of a planetary train: what it may say, and the tooth numbers that it asks for."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Decimal, Interval, Quantity, Ratio, RotationalSpeed, Whole
+from reportgen.base.units import Given
+from reportgen.gears.train import LEAST_OUTER, MOST_SATELLITES, Demand, TrainChoice, choice
+
+MOST_TEETH = 300
+
+Tolerance = Annotated[Given, Ratio(Interval(least=0, most=0.2, tiny=1e-6))]
+Teeth = Annotated[int, Whole(LEAST_OUTER, MOST_TEETH)]
+Module = Annotated[Given, Quantity("mm", Interval(least=0.1, most=100))]
+OfMesh = Annotated[float, Decimal(Interval(above=0.5, most=1))]
+RowPair = Annotated[tuple[Teeth, ...], Field(min_length=2, max_length=2)]
+Rows = Annotated[tuple[RowPair, ...], Field(max_length=4)]
+
+
+class TeethLimits(Part):
+    """The least and the greatest number of teeth of any wheel."""
+
+    from_: Annotated[int, Whole(8, MOST_TEETH)] = Field(default=LEAST_OUTER, alias="from")
+    to: Annotated[int, Whole(8, MOST_TEETH)] = 120
+
+
+class MeshEfficiency(Part):
+    """The efficiency of a mesh of two outer wheels, and of one with an inner wheel."""
+
+    outer: OfMesh = 0.97
+    inner: OfMesh = 0.98
+
+
+class Parameters(Part):
+    """A planetary train that is sought, with rows of ordinary wheels before and behind it."""
+
+    scheme: Literal["single", "double", "double-outer", "double-inner"]
+    u: Annotated[Given, Ratio(Interval(least=-2000, most=2000))] | None = None
+    n_out: RotationalSpeed | None = None
+    tolerance: Tolerance = Given(0.0, 0.0, "", "0")
+    k: Annotated[int, Whole(2, MOST_SATELLITES)]
+    z: TeethLimits = TeethLimits()
+    m: Module
+    m2: Module | None = None
+    n_in: RotationalSpeed
+    drives: Literal["wheel", "carrier"] = "wheel"
+    before: Rows = ()
+    behind: Rows = ()
+    efficiency: MeshEfficiency | None = None
+
+    @property
+    def by_carrier(self) -> bool:
+        return self.drives == "carrier"
+
+    @property
+    def second_module(self) -> Given:
+        return self.m if self.m2 is None else self.m2
+
+    @property
+    def row_ratio(self) -> float:
+        """By how much the rows of ordinary wheels slow down, by its size."""
+        return math.prod(driven / driver for driver, driven in (*self.before, *self.behind))
+
+    @property
+    def wanted(self) -> float:
+        """The ratio of the planetary train from its driving to its driven shaft."""
+        if self.u is not None:
+            return self.u.si
+        assert self.n_out is not None, "a check asks for one of them"
+        return self.n_in.si / self.n_out.si / self.row_ratio
+
+    def of_input(self, ratio: float) -> float:
+        """u₁H as the ratio from the driving to the driven shaft, and the other way round."""
+        return 1 / ratio if self.by_carrier else ratio
+
+    @property
+    def demand(self) -> Demand:
+        modules = Fraction(self.m.si / self.second_module.si).limit_denominator(10_000)
+        limits = (self.z.from_, self.z.to)
+        return Demand(self.scheme, self.of_input(self.wanted), self.tolerance.si, self.k, *limits, modules)
+
+    @property
+    def choice(self) -> TrainChoice:
+        return choice(self.demand)

@@ -1,0 +1,321 @@
+"""A planetary train as a ledger: tooth numbers by factors, ratio, conditions, rates, triangles of velocities."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.base.units import MM, nice_up
+from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, ids, signed, sin
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.rounding import printed
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import Chapter
+from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
+from reportgen.gears.train_file import Parameters
+from reportgen.report.case import Opened, Pitfalls
+
+OTHER = "2′"
+"""The second wheel of a double satellite."""
+FIRST_ROW_WHEEL = 4
+"""Wheels of ordinary rows are numbered from here."""
+PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
+"""What radii, velocities and the plan of angular velocities may take on paper (mm)."""
+POLES = (2, 5, 10, 15, 20, 25, 30, 40)
+"""Distances of the pole of the plan of angular velocities (mm)."""
+STEPS = (1.0, 2.0, 2.5, 4.0, 5.0)
+
+
+@dataclass(frozen=True)
+class SolvedTrain(Opened):
+    """An assignment of a planetary train with its ledger; each part is computed when it is first asked for."""
+
+    @property
+    def given(self) -> Parameters:
+        found: Parameters = self.assignment.parameters
+        return found
+
+    @property
+    def scheme(self) -> TrainScheme:
+        return SCHEMES[self.given.scheme]
+
+    @property
+    def choice(self) -> TrainChoice:
+        return self.given.choice
+
+    @property
+    def train(self) -> Train:
+        return self.choice.chosen
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        families = TrainSheet(self.given).written().families
+        return Ledger(families, 1, units=self.words["units"]).in_language(self.words["symbols"])
+
+    @cached_property
+    def printed(self) -> Ledger:
+        return printed(self.ledger)
+
+    @property
+    def speed(self) -> float:
+        """Of the shaft that comes in (rad/s)."""
+        return self.given.n_in.si
+
+    @cached_property
+    def pitfalls(self) -> Pitfalls:
+        """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
+        z = {wheel: Ref(ids.train_teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
+        term, sign, one = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
+        ω1, ωH = (Ref(ids.train_omega(wheel)) for wheel in ("1", "H"))
+        driven, inverse = (ω1, ωH * Ref("train.uH1")) if self.given.by_carrier else (ωH, ω1 * Ref("train.u1H"))
+        side, turned = self.scheme.signs[0], z["1"] / z["2"]
+        module, wheel = larger_satellite(self.train)
+        changed: Mapping[str, list[tuple[str, Expression]]] = {
+            "train.u1H": [("train-without-one", signed(sign, term)), ("train-ratio-sign", one + signed(-sign, term))],
+            driven.id: [("train-inverse", inverse)],
+            ids.train_omega("2"): [
+                ("train-carrier-still", signed(side, ω1 * turned)),
+                ("train-carrier-added", signed(side, (ω1 - ωH) * turned)),
+            ],
+            "train.tip": [("train-tips", Ref(module) * z[wheel])],
+        }
+        readings: dict[str, list[tuple[str, np.ndarray]]] = {}
+        for name in reversed(CONDITIONS[1:]):
+            if (refused := self.choice.refused.get(name)) is not None:
+                for teeth, number in zip(z.values(), refused.teeth, strict=True):
+                    if teeth.id in self.ledger:
+                        readings.setdefault(teeth.id, []).append((f"train-{name}", np.array([number])))
+        return Pitfalls(readings=readings, changed=changed)
+
+
+def term_of(scheme: TrainScheme, z: Mapping[str, Ref | Symbol]) -> Expression:
+    """z₂z₃/(z₁z₂′), of a single satellite z₃/z₁."""
+    return z["3"] / z["1"] if scheme.single else Product((z["2"], z["3"])) / Product((z["1"], z[OTHER]))
+
+
+def larger_satellite(train: Train) -> tuple[str, str]:
+    """The module and the wheel of the satellite with the larger tip circle."""
+    z, m = train.teeth, float(train.modules)
+    return ("train.m2" if m != 1 else "train.m", OTHER) if z.other + 2 > m * (z.two + 2) else ("train.m", "2")
+
+
+class TrainSheet:
+    """The sheet of a planetary train while it is written."""
+
+    def __init__(self, given: Parameters) -> None:
+        self.given, self.scheme, self.train = given, SCHEMES[given.scheme], given.choice.chosen
+        self.q = Sheet()
+        self.z: dict[str, Ref] = {}
+
+    def written(self) -> Sheet:
+        with self.q.within(Chapter.data):
+            self._enter_given()
+        with self.q.within(Chapter.geometry):
+            self._enter_teeth()
+            self._enter_ratio()
+            self._enter_conditions()
+            self._enter_efficiency()
+        with self.q.within(Chapter.velocity):
+            self._enter_rates()
+            self._enter_triangles()
+        return self.q
+
+    def _enter_given(self) -> None:
+        q, given = self.q, self.given
+        n = q.give("train.n.in", given.n_in.value, Symbol("n", "in"), "speed of rotation")
+        self.rows: list[tuple[str, Expression]] = []
+        for i, row in enumerate((*given.before, *given.behind)):
+            one, other = str(FIRST_ROW_WHEEL + 2 * i), str(FIRST_ROW_WHEEL + 2 * i + 1)
+            for wheel, teeth in zip((one, other), row, strict=True):
+                self.z[wheel] = q.give(ids.train_teeth(wheel), float(teeth))
+            self.rows.append((one, self.z[other] / self.z[one]))
+        wanted = Symbol("u", "H1" if given.by_carrier else "1H", "*")
+        if given.u is not None:
+            q.give("train.u", given.wanted, wanted, "ratio")
+        else:
+            assert given.n_out is not None, "a check asks for one of them"
+            out: Expression = q.give("train.n.out", given.n_out.value, Symbol("n", "out", "*"), "speed of rotation")
+            for _, slower in self.rows:
+                out = out * slower
+            q.define("train.u", n / out, wanted, "ratio")
+        q.give("train.k", float(given.k), "k", "count")
+        self.m = self.m2 = q.give("train.m", given.m.si, "m", "gear length")
+        if self.train.modules != 1:
+            self.m2 = q.give("train.m2", given.second_module.si, Symbol("m", "2"), "gear length")
+
+    # --- tooth numbers by factors
+
+    def _enter_teeth(self) -> None:
+        """z₁ = A e t, z₂ = B e t, z₂′ = C f t, z₃ = D f t; of a single satellite z₁ = A t, z₃ = D t."""
+        q, z, scheme = self.q, self.train.teeth, self.scheme
+
+        def factor(letter: str, value: int) -> Ref:
+            # They follow from the tooth numbers that a student finds: no data, which could be misread.
+            return q.give(ids.train_factor(letter), float(value), letter, "count", hidden=True)
+
+        if scheme.single:
+            ratio = Fraction(z.three, z.one)
+            A, D = factor("A", ratio.denominator), factor("D", ratio.numerator)
+            t = factor("t", z.one // ratio.denominator)
+            formulas: dict[str, Expression] = {"1": A * t, "3": D * t, "2": (D - A) * t / 2}
+        else:
+            first, second = Fraction(z.two, z.one), Fraction(z.three, z.other)
+            numbers = first.denominator, first.numerator, second.denominator, second.numerator
+            A, B, C, D = (factor(letter, value) for letter, value in zip("ABCD", numbers, strict=True))
+            side1, side2 = scheme.signs
+            # Coaxial: m (A ± B) e = m₂ (D ∓ C) f.
+            p, r = self.train.modules.numerator, self.train.modules.denominator
+            wide, long = p * (numbers[0] - side1 * numbers[1]), r * (numbers[3] - side2 * numbers[2])
+            common = math.gcd(wide, long)
+            e = self._factor("e", r, D + signed(-side2, C), common)
+            f = self._factor("f", p, A + signed(-side1, B), common)
+            t = factor("t", z.one // (numbers[0] * long // common))
+            formulas = {"1": A * e * t, "2": B * e * t, OTHER: C * f * t, "3": D * f * t}
+        for wheel, formula in formulas.items():
+            self.z[wheel] = q.define(ids.train_teeth(wheel), formula, Symbol("z", wheel))
+        self.z.setdefault(OTHER, self.z["2"])
+
+    def _factor(self, letter: str, times: int, of: Expression, over: int) -> Ref:
+        whole: Expression = of if times == 1 else times * of
+        formula = whole if over == 1 else whole / over
+        return self.q.define(ids.train_factor(letter), formula, letter, "count", optional=True)
+
+    # --- ratio
+
+    def _enter_ratio(self) -> None:
+        q, given = self.q, self.given
+        u = q.define(
+            "train.u1H", 1 + signed(self.scheme.sign, term_of(self.scheme, self.z)), Symbol("u", "1H"), "ratio"
+        )
+        if given.by_carrier:
+            u = q.define("train.uH1", 1 / u, Symbol("u", "H1"), "ratio")
+        self.u = u
+        q.define("train.off", (u - q["train.u"]) / q["train.u"], "Δu", "share", scale=1.0, optional=True)
+        ratios: list[Expression] = [
+            q.define(ids.train_row_ratio(one), -slower, Symbol("u", f"{one},{int(one) + 1}"))
+            for one, slower in self.rows
+        ]
+        if ratios:
+            ratios.insert(len(given.before), u)
+            u = q.define("train.total", Product(tuple(ratios)), Symbol("u", "tot"), "ratio")
+        q.define("train.n.reached", q["train.n.in"] / u, Symbol("n", "out"), "speed of rotation")
+
+    # --- conditions
+
+    def _enter_conditions(self) -> None:
+        q, z, (side1, side2) = self.q, self.z, self.scheme.signs
+        a = self._length("train.a.1", self.m * (z["1"] + signed(-side1, z["2"])) / 2, Symbol("a", "12"))
+        far = Symbol("a", "23" if self.scheme.single else f"{OTHER}3")
+        self._length("train.a.2", self.m2 * (z["3"] + signed(-side2, z[OTHER])) / 2, far)
+        module, wheel = larger_satellite(self.train)
+        tip = self._length("train.tip", q[module] * (z[wheel] + 2), Symbol("d", f"a{wheel}"))
+        q.define("train.gap", tip / (2 * a), "q", "ratio")
+        k = q["train.k"]
+        q.define("train.room", sin(PI / k), Symbol("q", "max"), "ratio")
+        if self.scheme.single:
+            whole = (z["1"] + z["3"]) / k
+        else:
+            turns = self.train.turns(self.given.k)
+            assert turns is not None, "it can be assembled"
+            P = q.give("train.P", float(turns), "P", "count", hidden=True)
+            top = Product((z["1"], z[OTHER])) + signed(self.scheme.sign, Product((z["2"], z["3"])))
+            whole = (Product((top, 1 + k * P)) if turns else top) / Product((k, z[OTHER]))
+        q.define("train.N", whole, "N", "count")
+
+    def _length(self, id: str, formula: Operand, symbol: Symbol) -> Ref:
+        return self.q.define(id, formula, symbol, "gear length")
+
+    # --- rates
+
+    def _enter_rates(self) -> None:
+        """Shaft by shaft from the motor to the machine; wheels on one shaft turn together."""
+        q, given, z = self.q, self.given, self.z
+        driver, driven = ("H", "1") if given.by_carrier else ("1", "H")
+        pairs = [(one, str(int(one) + 1), q[ids.train_row_ratio(one)]) for one, _ in self.rows]
+        pairs.insert(len(given.before), (driver, driven, self.u))
+        ω: Expression = 2 * PI * q["train.n.in"] / 60
+        for one, other, ratio in pairs:
+            start = q.define(ids.train_omega(one), ω)
+            ω = q.define(ids.train_omega(other), start / ratio)
+            if one == driver:
+                ω1, ωH = q[ids.train_omega("1")], q[ids.train_omega("H")]
+                turned = signed(self.scheme.signs[0], (ω1 - ωH) * z["1"] / z["2"])
+                q.define(ids.train_omega("2"), ωH + turned, scale=given.n_in.si)
+
+    # --- triangles of velocities
+
+    def _enter_triangles(self) -> None:
+        """Velocities over the distance from the axis are straight lines; parallels to them through a pole cut off ω."""
+        q, z, a = self.q, self.z, self.q["train.a.1"]
+        r1 = self._length("train.r.1", self.m * z["1"] / 2, Symbol("r", "1"))
+        r3 = self._length("train.r.3", self.m2 * z["3"] / 2, Symbol("r", "3"))
+        v = {
+            "A": q.define(ids.train_velocity("A"), q[ids.train_omega("1")] * r1),
+            "B": q.define(ids.train_velocity("B"), q[ids.train_omega("H")] * a),
+        }
+        far, fast = max(q.si(r1), q.si(r3), q.si(a)), max(abs(q.si(one)) for one in v.values())
+        μl = self._scale("l", nice_up(far * MM / PLAN_HEIGHT, STEPS), "length on paper")
+        μv = self._scale("v", nice_up(fast * MM / PLAN_WIDTH, STEPS), "velocity on paper")
+        at = {
+            place: q.si(q.define(ids.train_line(f"O{place}"), size / μl, over(f"O{place}"), "segment", optional=True))
+            for place, size in (("A", r1), ("B", a), ("P", r3))
+        }
+        known, read = ("B", "A") if self.given.by_carrier else ("A", "B")
+        drawn = q.define(
+            ids.train_line(known), v[known] / μv, over(f"{known}{known.lower()}"), "segment", optional=True
+        )
+        length = {known: q.si(drawn)}
+        length[read] = length[known] * (at[read] - at["P"]) / (at[known] - at["P"])
+        self._measured(ids.train_line(read), length[read], over(f"{read}{read.lower()}"))
+        slopes = {"1": length["A"] / at["A"], "2": length["A"] / (at["A"] - at["P"]), "H": length["B"] / at["B"]}
+        wide = max(*slopes.values(), 0.0) - min(*slopes.values(), 0.0)
+        pole = max(pole for pole in POLES if pole * wide <= RATES_WIDTH or pole == POLES[0]) / MM
+        h = q.give("train.pole", pole, "h", "segment", optional=True)
+        μω = self._scale("omega", μv / (μl * h), "rotation on paper")
+        for wheel, slope in slopes.items():
+            s = self._measured(ids.train_segment(wheel), pole * slope, Symbol("s", wheel))
+            q.define(ids.train_read(wheel), μω * s, Symbol("ω", wheel), "angular velocity", optional=True)
+
+    def _scale(self, of: str, value: Operand, kind: str) -> Ref:
+        enter = self.q.give if isinstance(value, float) else self.q.define
+        return enter(ids.train_scale(of), value, Symbol("μ", "ω" if of == "omega" else of), kind, optional=True)
+
+    def _measured(self, id: str, value: float, symbol: Symbol) -> Ref:
+        return self.q.give(id, value, symbol, "segment", exact=False, optional=True)
+
+    # --- efficiency
+
+    def _enter_efficiency(self) -> None:
+        q, given = self.q, self.given
+        if given.efficiency is None:
+            return
+        of_mesh = [given.efficiency.inner if inner else given.efficiency.outer for inner in self.scheme.inner]
+        second = Symbol("η", "23" if self.scheme.single else f"{OTHER}3")
+
+        def give(of: str, value: float, symbol: Symbol) -> Ref:
+            with q.within(Chapter.data):
+                return q.give(ids.train_efficiency(of), value, symbol)
+
+        η0 = q.define(
+            ids.train_efficiency("0"),
+            give("12", of_mesh[0], Symbol("η", "12")) * give("23", of_mesh[1], second),
+            Symbol("η", "0"),
+        )
+        u0 = q.define("train.u0", 1 - q["train.u1H"], Symbol("u", "13", "(H)"), "ratio")
+        lossless = 1 - u0
+        lost = 1 - u0 * η0 if power_way(float(self.train.ratio), given.by_carrier) > 0 else 1 - u0 / η0
+        formula = lossless / lost if given.by_carrier else lost / lossless
+        η = q.define(ids.train_efficiency("train"), formula, Symbol("η", "H1" if given.by_carrier else "1H"))
+        if self.rows:
+            ηr = give("row", given.efficiency.outer, Symbol("η", "r"))
+            q.define(ids.train_efficiency("total"), η * ηr ** len(self.rows), Symbol("η", "tot"))
+
+
+def over(points: str) -> Symbol:
+    """A line on paper between two points."""
+    return Symbol(points, over="segment")

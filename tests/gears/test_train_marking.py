@@ -1,0 +1,136 @@
+"""A class of twelve with drawn trains: task, key, marking, and the usual mistakes by their names."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pymupdf
+import pytest
+
+from reportgen import api
+from reportgen.base.units import write
+from reportgen.cases import open_case
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.variants import make_variants
+from reportgen.formula import ids
+from reportgen.formula.evaluation import evaluate
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import MarkingScheme, Policy, marking_scheme
+from reportgen.marking.mistakes import Mistake
+from tests.marking import demo, students
+
+FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
+STUDENTS = 12
+DRAWN = {"u: 14.5": "u: {from: 8, to: 14.5, step: 0.1}", "n_in: 1440 rpm": "n_in: [960 rpm, 1440 rpm, 2880 rpm]"}
+TEETH = tuple(ids.train_teeth(wheel) for wheel in ("1", "2", "2′", "3"))
+
+
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of twelve variants, by ratios and speeds."""
+    folder = tmp_path_factory.mktemp("trains")
+    text = (FOLDER / "train-double.yaml").read_text(encoding="utf-8")
+    for old, new in DRAWN.items():
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    (folder / "spec.yaml").write_text(text, encoding="utf-8")
+    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
+    (folder / "roster.csv").write_text(roster, encoding="utf-8")
+    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
+    assert len(made.files) == STUDENTS
+    return folder
+
+
+@pytest.fixture(scope="module")
+def graded(drawn: Path) -> Graded:
+    """Sheets of three figures; the first student takes the ratio without the 1 and goes on from that."""
+    (drawn / "sheets").mkdir()
+    for path in sorted((drawn / "variants").glob("S*.yaml")):
+        scheme = marking_scheme(open_case(path))
+        slip = named(scheme, "train-without-one", "train.u1H") if path.stem == "S01" else None
+        sheet = students.written(scheme, students.worked_out(scheme, slip))
+        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
+    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+
+
+def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
+    """A mistake of that name in some quantities, as the case knows it."""
+    changes = {}
+    for id in where:
+        for called, definition in scheme.pitfalls.changed.get(id, ()):
+            if called == name:
+                changes[id] = lambda _, values, made=definition: np.atleast_1d(evaluate(made, values))
+        for called, values in scheme.pitfalls.readings.get(id, ()):
+            if called == name:
+                changes[id] = lambda _, __, read=values: read
+    assert changes, name
+    return Mistake(name, where[0], changes)
+
+
+def test_variants_differ(drawn: Path) -> None:
+    answers = {open_case(path).train for path in (drawn / "variants").glob("S*.yaml")}  # type: ignore[attr-defined]
+    assert len(answers) > STUDENTS / 2
+
+
+def test_right_sheets_get_all_marks_and_a_slip_costs_few(graded: Graded) -> None:
+    assert graded.problems == ()
+    full = {marking.key.id for marking in graded.markings if marking.points == marking.out_of}
+    assert full == {f"S{number:02d}" for number in range(2, STUDENTS + 1)}
+    slipped = next(one for one in graded.markings if one.key.id == "S01")
+    assert {cell.id for cell in slipped.first_errors} == {"train.u1H"}
+    assert {cell.mistake for cell in slipped.first_errors} == {"train-without-one"}
+    assert slipped.out_of - slipped.points == 1
+
+
+def test_the_task_holds_no_answer(drawn: Path) -> None:
+    """None of the numbers asked for that have four figures stands in it; in the key each of them does."""
+    file = drawn / "variants" / "S02.yaml"
+    task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
+    texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
+    rows = open_case(file, "en").key().asked
+    shown = [
+        write(abs(float(row.printed[row.at(k)])), row.decimals, "en")
+        for row in rows
+        for k in row.positions
+        if row.decimals is not None
+    ]
+    telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
+    assert telling
+    assert [text for text in telling if text in texts[0]] == []
+    assert [text for text in telling if text not in texts[1]] == []
+
+
+MISTAKES = [
+    ("train-double", "train-without-one", ("train.u1H",)),
+    ("train-double", "train-ratio-sign", ("train.u1H",)),
+    ("train-double", "train-inverse", ("train.omega.H",)),
+    ("train-rings", "train-inverse", ("train.omega.1",)),
+    ("train-double", "train-carrier-still", ("train.omega.2",)),
+    ("train-single", "train-carrier-added", ("train.omega.2",)),
+    ("train-double", "train-tips", ("train.tip",)),
+    ("train-double", "train-assembly", TEETH),
+    ("train-single", "train-assembly", (TEETH[0], TEETH[1], TEETH[3])),
+    ("train-rings", "train-neighbours", TEETH),
+]
+
+
+@pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))
+def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str, ...]) -> None:
+    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    sheet = students.written(scheme, students.worked_out(scheme, named(scheme, mistake, *where)))
+    first = mark(scheme, sheet).first_errors
+    assert first
+    assert {cell.mistake for cell in first} == {mistake}
+    assert {cell.id for cell in first} <= set(where)
+
+
+def test_mistakes_have_words_in_both_languages() -> None:
+    for language in ("vi", "en"):
+        case = open_case(FOLDER / "train-double.yaml", language)  # type: ignore[arg-type]
+        pitfalls = case.pitfalls
+        names = {name for many in (*pitfalls.changed.values(), *pitfalls.readings.values()) for name, _ in many}
+        for name in names:
+            assert "{symbol}" in case.words["mistakes"][name]
+            assert case.words["mistake_names"][name]
