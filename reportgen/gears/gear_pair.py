@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from reportgen.gears.pair_case import PairCase
 
 TURNS = 1
+PART = "gears"
+"""What its ids begin with, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 FIND = "find"

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 Parameters = train_file.Parameters
 TURNS = 1
+PART = "train"
+"""What its ids begin with, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
 
