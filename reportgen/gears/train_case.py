@@ -303,7 +303,8 @@ class TrainCase(SolvedTrain):
         """It has no forces."""
 
     def fault(self) -> str:
-        return "" if self.choice.free[self.choice.first] else "train-shift"
+        # That a train is found is among the checks of its file.
+        return ""
 
     def document(self) -> Document:
         return self.bounded(report)
@@ -339,7 +340,10 @@ class TrainCase(SolvedTrain):
     def film(self) -> Film:
         return train_drawings.film(self)
 
-    def sheets(self, size: str = "", sets: Collection[str] = (), block: Path | None = None) -> list[DrawingSheet]:
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        """Its scheme and its triangles on a sheet; there are no sets of them to choose from."""
         return train_drawings.drawing_sheets(self, size, block)
 
 

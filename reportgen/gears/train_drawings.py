@@ -37,6 +37,8 @@ BEYOND = 6.0
 """What lines of the triangles go on beyond their ends (mm)."""
 APART = 16.0
 """White between the triangles and the plan of angular velocities (mm)."""
+ON_SHEETS = 1.5
+"""On sheets the scheme may be so many times as large, before it is enlarged as all figures there; triangles are 2:1."""
 SAMPLES = 360
 FILMED = 110.0
 """What the wheels may fill on a page (mm)."""
@@ -71,7 +73,7 @@ def scheme_views(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) 
     r = {wheel: size * MM / scale for wheel, size in radii(case).items()}
     front, named = _along(case, r)
     side, beside = _from_side(case, r, complex(outermost(r) + 36.0, 0))
-    return finish(Canvas((*front, *side), (*named, *beside)), notes=(scale_note(scale),), margin=2.0)
+    return finish(Canvas((*front, *side), (*named, *beside)), notes=(scale_note(scale / enlarged),), margin=2.0)
 
 
 def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
@@ -167,10 +169,10 @@ def _held(rim: complex, up: complex = -1j) -> Iterator[Item]:
 # --- triangles of velocities --------------------------------------------------------------------------------
 
 
-def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
+def velocity_triangles(case: SolvedTrain, times: float = 1.0, enlarged: float = 1.0) -> Scene:
     """Velocities at the distances of their points from the axis; below, the plan of angular velocities.
 
-    All is drawn so many `times` as large as the ledger has it.
+    All is so many `times` as large as the ledger has it once it is enlarged.
 
     A velocity in the sense of the driving shaft points to the right.  In the plan each ray from the pole K is parallel
     to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
@@ -178,7 +180,7 @@ def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
     ledger = case.ledger
 
     def mm(id: str) -> float:
-        return float(ledger[id].values[0]) * MM * times
+        return float(ledger[id].values[0]) * MM * times / enlarged
 
     p1, p3, pH = (mm(ids.train_line(line)) for line in ("OA", "OP", "OB"))
     Aa, Bb, h = mm(ids.train_line("A")), mm(ids.train_line("B")), mm("train.pole")
@@ -223,7 +225,7 @@ def velocity_triangles(case: SolvedTrain, times: float = 1.0) -> Scene:
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
-# --- wheels that turn -----------------------------------------------------------------------------------------
+# --- wheels that turn ---------------------------------------------------------------------------------------
 
 
 def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
@@ -309,8 +311,8 @@ def _values(case: SolvedTrain) -> Iterator[MomentValue]:
 def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
     """The sheet of scheme and triangles, scales round once they are enlarged; raises as `on_sheets` does."""
     drawn = (
-        ("scheme", "scheme", scheme_views(case, FRONT, ENLARGED)),
-        ("triangles", "plans", velocity_triangles(case, 1.0 / ENLARGED)),
+        ("scheme", "scheme", scheme_views(case, ON_SHEETS * FRONT, ENLARGED)),
+        ("triangles", "plans", velocity_triangles(case, 2.0, ENLARGED)),
     )
     captions = case.words["train"]["captions"]
     plates = [DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(one),)) for name, layer, one in drawn]

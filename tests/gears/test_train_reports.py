@@ -153,6 +153,10 @@ def test_words_page_sheet_and_results(name: str) -> None:
     film = case.film()
     assert math.isclose(film.knots[-1], 360)
     (sheet,) = case.sheets()
+    # On the sheet, too, a length is what its scale says: triangles are drawn twice as large.
+    lines = [item for part in sheet.parts for item in part.scene.items if isinstance(item, Arrow) and item.name == "Aa"]
+    drawn = (lines[0].end - lines[0].start).real
+    assert drawn == pytest.approx(2 * MM * case.ledger[ids.train_line("A")].at(1))
     for part in sheet.parts:
         low, high = part.box
         assert low.real >= 0
