@@ -17,7 +17,6 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
-from reportgen.coursework.case import Coursework
 from reportgen.formula import ids
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
@@ -35,6 +34,9 @@ def opened(assignment: Assignment) -> Case:
     case: Case = getattr(catalogue.module(assignment.kind), "case", MachineCase)(assignment)
     if not assignment.parts:
         return case
+    # Its joining of trees loads what renders templates, which most commands of one part go without.
+    from reportgen.coursework.case import Coursework
+
     return Coursework.of(case, [opened(part.within(assignment)) for part in assignment.parts])
 
 

@@ -21,7 +21,12 @@ from reportgen.report.prose import Prose, _environment
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]
 ASSIGNMENTS = REPOSITORY / "assignments"
-OTHERS = {"plane-motion/01.yaml": {"plane-motion.md", "steps.md"}, "cam/roller-01.yaml": {"cam.md"}}
+OTHERS = {
+    "plane-motion/01.yaml": {"plane-motion.md", "steps.md"},
+    "cam/roller-01.yaml": {"cam.md"},
+    "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
+    "gears/train-motor.yaml": {"planetary-train.md"},
+}
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
 OF_REPORT = {*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS}
