@@ -50,6 +50,8 @@ def open_case(path: Path | str, language: Language | None = None) -> Case:
 
 def opener() -> Callable[[Path | str, Language | None], Case]:
     """As `open_case`, for a file that is opened again and again: a part that has not changed is not computed again."""
+    from reportgen.coursework.case import Coursework
+
     earlier: Case | None = None
 
     def reopened(path: Path | str, language: Language | None = None) -> Case:
