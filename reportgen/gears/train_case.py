@@ -41,9 +41,11 @@ from reportgen.report.case import Key
 from reportgen.report.numbering import number
 from reportgen.report.prose import Prose
 
-SECTIONS = ("given", "ratio", "conditions", "candidates", "choice", "checks", "total", "scheme", "rates")
-LATER = ("triangles", "efficiency", "conclusion")
-SHORT = frozenset({"triangles"})
+SECTIONS = (
+    *("train-given", "train-ratio", "train-conditions", "train-candidates", "train-choice", "train-checks"),
+    *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency", "train-conclusion"),
+)
+SHORT = frozenset({"train-triangles"})
 """The sections that a short report goes without."""
 ROWS, SHORT_ROWS = 15, 6
 """So many of the tooth numbers found stand in the table."""
@@ -59,9 +61,9 @@ def report(case: SolvedTrain) -> Document:
     prose, full = Prose(case.places), assignment.report.extent == "full"
     names = page.names()
     found: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
-    for section in (*SECTIONS, *LATER):
+    for section in SECTIONS:
         if page.has(section) and (full or section not in SHORT):
-            found += prose.render(f"train-{section}", names)
+            found += prose.render(section, names)
     return number(
         Document(
             language=assignment.language,
@@ -98,41 +100,37 @@ class TrainPage:
 
     def has(self, section: str) -> bool:
         given = self.case.given
-        return {"total": bool(given.before or given.behind), "efficiency": given.efficiency is not None}.get(
-            section, True
-        )
+        rows, losses = bool(given.before or given.behind), given.efficiency is not None
+        return {"train-total": rows, "train-efficiency": losses}.get(section, True)
 
     def names(self) -> dict[str, Any]:
         case, given, choice = self.case, self.case.given, self.case.choice
-        families, written = case.ledger.families, case.printed
+        written, shown = case.printed, min(self.rows, len(choice.sets))
         return {
             "words": case.words,
             "given": given,
             "choice": choice,
             "single": case.scheme.single,
-            "inner": case.scheme.inner,
+            "inner": any(case.scheme.inner),
             "met": written["train.off"].at(1) == 0,
             "free": bool(choice.free[choice.first]),
-            "rows": len(given.before) + len(given.behind),
-            "row_ratios": [id for id in families if id in ids.train_row_ratio],
-            "teeth": [ids.train_teeth(wheel) for wheel in self.wheels],
-            "rates": [id for id in families if id in ids.train_omega],
-            "readings": [id for id in families if id in ids.train_read],
-            "segments": [id for id in families if id in ids.train_segment],
+            "one_smaller": choice.first == 1,
+            "rows": bool(given.before or given.behind),
             "self_locking": given.efficiency is not None and written[ids.train_efficiency("train")].at(1) <= 0,
             "tolerance": Value(self.tolerance),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
-            "shown": min(self.rows, len(choice.sets)),
+            "shown": shown,
+            "all_shown": shown == len(choice.sets),
             "data": self.data,
             "relation": self.relation,
             "assembly": self.assembly,
             "candidates": self.candidates,
             "checks": self.checks,
             "rates_table": self.rates_table,
-            "known": lambda id: id in written,
+            "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
             "value": lambda id: Value(written.number(id)),
             "quantity": lambda id: said((written.symbol(id), " = ", written.number(id))),
-            "lines": lambda quantities: Equation(tuple(written.chain(id) for id in quantities if id in written)),
+            "lines": lambda quantities: Equation(tuple(written.chain(id) for id in quantities)),
             "formulas": lambda quantities: Equation(tuple(Chain(written.chain(id).parts[:2]) for id in quantities)),
             "math": self.math,
             "figure": self.figure,

@@ -29,6 +29,20 @@ PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
 POLES = (2, 5, 10, 15, 20, 25, 30, 40)
 """Distances of the pole of the plan of angular velocities (mm)."""
 STEPS = (1.0, 2.0, 2.5, 4.0, 5.0)
+LINES: Mapping[str, tuple[str, ...]] = {
+    "wanted": ("train.u",),
+    "factors": ("train.factor.e", "train.factor.f"),
+    "ratio": ("train.u1H", "train.uH1", "train.off"),
+    "coaxial": ("train.a.1", "train.a.2"),
+    "neighbours": ("train.gap", "train.room"),
+    "conditions": ("train.a.1", "train.a.2", "train.tip", "train.gap", "train.room"),
+    "whole": ("train.N",),
+    "reached": ("train.n.reached",),
+    "plan": ("train.mu.omega",),
+    "efficiency": ("train.eta.0", "train.u0", "train.eta.train"),
+    "with_rows": ("train.eta.total",),
+}
+"""What the report sets out together, beside what differs from scheme to scheme."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +68,9 @@ class SolvedTrain(Opened):
 
     @cached_property
     def ledger(self) -> Ledger:
-        families = TrainSheet(self.given).written().families
-        return Ledger(families, 1, units=self.words["units"]).in_language(self.words["symbols"])
+        sheet = TrainSheet(self.given).written()
+        made = Ledger(sheet.families, sheet.positions, units=self.words["units"], lines=sheet.lines)
+        return made.in_language(self.words["symbols"])
 
     @cached_property
     def printed(self) -> Ledger:
@@ -123,6 +138,8 @@ class TrainSheet:
         with self.q.within(Chapter.velocity):
             self._enter_rates()
             self._enter_triangles()
+        for name, lines in LINES.items():
+            self.q.set_out(name, *lines)
         return self.q
 
     def _enter_given(self) -> None:
@@ -178,6 +195,7 @@ class TrainSheet:
             formulas = {"1": A * e * t, "2": B * e * t, OTHER: C * f * t, "3": D * f * t}
         for wheel, formula in formulas.items():
             self.z[wheel] = q.define(ids.train_teeth(wheel), formula, Symbol("z", wheel))
+        q.set_out("teeth", *(self.z[wheel] for wheel in ("1", "2", OTHER, "3") if wheel in formulas))
         self.z.setdefault(OTHER, self.z["2"])
 
     def _factor(self, letter: str, times: int, of: Expression, over: int) -> Ref:
@@ -196,13 +214,14 @@ class TrainSheet:
             u = q.define("train.uH1", 1 / u, Symbol("u", "H1"), "ratio")
         self.u = u
         q.define("train.off", (u - q["train.u"]) / q["train.u"], "Δu", "share", scale=1.0, optional=True)
-        ratios: list[Expression] = [
+        of_rows = [
             q.define(ids.train_row_ratio(one), -slower, Symbol("u", f"{one},{int(one) + 1}"))
             for one, slower in self.rows
         ]
-        if ratios:
-            ratios.insert(len(given.before), u)
-            u = q.define("train.total", Product(tuple(ratios)), Symbol("u", "tot"), "ratio")
+        if of_rows:
+            ratios = *of_rows[: len(given.before)], u, *of_rows[len(given.before) :]
+            u = q.define("train.total", Product(ratios), Symbol("u", "tot"), "ratio")
+            q.set_out("total", *of_rows, u, "train.n.reached")
         q.define("train.n.reached", q["train.n.in"] / u, Symbol("n", "out"), "speed of rotation")
 
     # --- conditions
@@ -241,11 +260,12 @@ class TrainSheet:
         ω: Expression = 2 * PI * q["train.n.in"] / 60
         for one, other, ratio in pairs:
             start = q.define(ids.train_omega(one), ω)
-            ω = q.define(ids.train_omega(other), start / ratio)
+            ω = end = q.define(ids.train_omega(other), start / ratio)
+            q.set_out("rates", start, end)
             if one == driver:
                 ω1, ωH = q[ids.train_omega("1")], q[ids.train_omega("H")]
                 turned = signed(self.scheme.signs[0], (ω1 - ωH) * z["1"] / z["2"])
-                q.define(ids.train_omega("2"), ωH + turned, scale=given.n_in.si)
+                q.set_out("rates", q.define(ids.train_omega("2"), ωH + turned, scale=given.n_in.si))
 
     # --- triangles of velocities
 
@@ -269,6 +289,8 @@ class TrainSheet:
         drawn = q.define(
             ids.train_line(known), v[known] / μv, over(f"{known}{known.lower()}"), "segment", optional=True
         )
+        q.set_out("velocities", r1, r3, v[known])
+        q.set_out("laid_off", *(ids.train_line(f"O{place}") for place in at), drawn)
         length = {known: q.si(drawn)}
         length[read] = length[known] * (at[read] - at["P"]) / (at[known] - at["P"])
         self._measured(ids.train_line(read), length[read], over(f"{read}{read.lower()}"))
@@ -279,7 +301,9 @@ class TrainSheet:
         μω = self._scale("omega", μv / (μl * h), "rotation on paper")
         for wheel, slope in slopes.items():
             s = self._measured(ids.train_segment(wheel), pole * slope, Symbol("s", wheel))
-            q.define(ids.train_read(wheel), μω * s, Symbol("ω", wheel), "angular velocity", optional=True)
+            ω = q.define(ids.train_read(wheel), μω * s, Symbol("ω", wheel), "angular velocity", optional=True)
+            q.set_out("segments", s)
+            q.set_out("readings", ω)
 
     def _scale(self, of: str, value: Operand, kind: str) -> Ref:
         enter = self.q.give if isinstance(value, float) else self.q.define
