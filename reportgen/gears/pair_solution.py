@@ -87,6 +87,12 @@ WHEEL: Mapping[str, tuple[Symbol, str]] = {
     "lambda": (Symbol("λ"), NUMBER),
 }
 """and of what each wheel has."""
+MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
+"""What the report sets out of the pair in mesh,"""
+DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
+"""of each wheel,"""
+OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("rho_f",), "sliding": ("rho", "lambda")}
+"""and of both wheels together."""
 
 
 @dataclass(frozen=True)
@@ -147,6 +153,7 @@ class PairSheet:
             self.enter_contact()
         with self.q.within(Chapter.acceleration):
             self.enter_sliding()
+        self.set_out()
 
     def __getitem__(self, quantity: str) -> Ref:
         return self.q[f"gears.{quantity}"]
@@ -248,6 +255,14 @@ class PairSheet:
         ρ2 = self.define("rho", self["g"] - ρ1, 2)
         self.define("lambda", 1 - ρ2 / (u * ρ1), 1)
         self.define("lambda", 1 - u * ρ1 / ρ2, 2)
+
+    def set_out(self) -> None:
+        self.q.set_out("mesh", *(f"gears.{one}" for one in MESH))
+        for name, wheel in zip(("pinion", "wheel"), WHEELS, strict=True):
+            self.q.set_out(name, *(ids.gear(one, wheel) for one in DIMENSIONS))
+        self.q.set_out("contact", "gears.epsilon", "gears.g", "gears.g_a")
+        for name, among in OF_BOTH.items():
+            self.q.set_out(name, *(ids.gear(one, wheel) for one in among for wheel in WHEELS))
 
 
 def named(quantity: str, wheel: int) -> tuple[str, Symbol, str]:

@@ -27,14 +27,24 @@ from reportgen.report import (
     Text,
     Value,
     Words,
-    listed,
 )
 from reportgen.report.case import Key
 from reportgen.report.numbering import number
 from reportgen.report.prose import Prose
 
-SECTIONS = ("given", "shifts", "mesh", "wheels", "contact", "sliding", "region", "checks", "drawing", "conclusion")
-SHORT = frozenset({"region"})
+SECTIONS = (
+    "pair-given",
+    "pair-shifts",
+    "pair-mesh",
+    "pair-wheels",
+    "pair-contact",
+    "pair-sliding",
+    "pair-region",
+    "pair-checks",
+    "pair-drawing",
+    "pair-conclusion",
+)
+SHORT = frozenset({"pair-region"})
 """The sections, and what templates ask for by `full`, that a short report goes without."""
 DATA = (95.0, 25.0, 40.0)
 PAIR = (68.0, 22.0, 35.0, 35.0)
@@ -44,8 +54,6 @@ SHARED = ("alpha_w", "a_w", "y", "dy", "h", "p", "p_b", "epsilon", "g", "g_a")
 """What the table of the pair has for both wheels,"""
 OWN = ("x", "d", "d_b", "d_w", "d_a", "d_f", "h_a", "s", "s_w", "s_a", "alpha_a", "rho_p", "rho_a")
 """and for each of them."""
-MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
-WHEEL = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
 
 
 def report(case: SolvedPair) -> Document:
@@ -56,7 +64,7 @@ def report(case: SolvedPair) -> Document:
     blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
     for section in SECTIONS:
         if full or section not in SHORT:
-            blocks += prose.render(f"pair-{section}", names)
+            blocks += prose.render(section, names)
     return number(
         Document(
             language=assignment.language,
@@ -75,11 +83,7 @@ def task(case: SolvedPair, key: Key, by_section: bool = False) -> Document:
     """The student's handout: the given data and the empty answer sheet."""
     from reportgen.marking.paper import empty_sheet, task_paper
 
-    names = {
-        **PairPage(case).names(),
-        "answer_tables": empty_sheet(key, by_section),
-        "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
-    }
+    names = {**PairPage(case).names(), "answer_tables": empty_sheet(key, by_section)}
     title = (Section(1, (Text(case.words["pair"]["task"].format(title=case.title)),), numbered=False),)
     return task_paper(case, key, title, Prose(case.places).render("pair-task", names))
 
@@ -99,34 +103,31 @@ class PairPage:
         case, chosen = self.case, self.case.chosen
         return {
             "words": case.words,
-            "title": case.title,
-            "variant": case.assignment.variant,
             "full": case.assignment.report.extent == "full",
             "rule": chosen.rule,
+            "sought": self.sought,
             "follows": chosen.follows,
             "iso": math.isclose(chosen.pair.rack.alpha, math.radians(20))
             and (chosen.pair.rack.ha, chosen.pair.rack.c) == (1.0, 0.25),
-            "zero": not chosen.pair.x.any(),
-            "standard": abs(float(chosen.pair.x.sum())) < 1e-9,
-            "wheels": WHEELS,
-            "worked": case.worked,
             "count": case.count,
-            "mesh_ids": [f"gears.{one}" for one in MESH],
-            "wheel_ids": lambda wheel: [ids.gear(one, wheel) for one in WHEEL],
             "of": ids.gear,
+            "sheet": case.printed.lines,
             "data": self.data,
             "pair_table": self.pair_table,
             "sliding_table": self.sliding_table,
             "checks": self.checks,
             "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
-            "known": lambda id: id in case.ledger,
-            "symbol": case.printed.symbol,
             "value": lambda id, k=None: Value(case.printed.number(id, k)),
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
             "figure": self.figure,
         }
+
+    @property
+    def sought(self) -> bool:
+        """Whether the shifts are to be chosen."""
+        return self.case.chosen.rule != "given"
 
     # --- symbols and lines
 
@@ -168,7 +169,7 @@ class PairPage:
     def data(self) -> Table:
         """The data with their names, symbols and values; shifts that were found are left out."""
         ledger, heads = self.case.printed, self.case.words["table"]
-        sought = {ids.gear("x", wheel) for wheel in WHEELS} if self.case.chosen.rule != "given" else set()
+        sought = {ids.gear("x", wheel) for wheel in WHEELS} if self.sought else set()
         rows = [
             ((Text(str(name)),), (InlineMath(ledger.symbol(id)),), (Value(ledger.number(id)),))
             for id, name in self.case.words["given"].items()
