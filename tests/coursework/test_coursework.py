@@ -74,6 +74,18 @@ def headings(document: Document, level: int) -> list[tuple[str, str]]:
 # --- one booklet ------------------------------------------------------------------------------------
 
 
+def test_machine_train_pair_and_cam_are_one_booklet_from_motor_to_cam() -> None:
+    """The motor's 960 rpm become the crank's 80 rpm: 6 by the train, 2 by the pair behind it."""
+    whole = coursework(FOLDER / "shaper-whole.yaml")
+    numbers = [number for number, _ in headings(whole.document(), 1) if number]
+    assert numbers == ["1", "2", "3", "4", "5"]
+    asked = {row.id.partition(".")[0] for row in whole.key().rows}
+    assert {"train", "gears", "cam"} <= asked
+    # Outer wheels turn against each other.
+    assert whole.printed.number("train.n.reached").value == -whole.printed.number("n").value == -80
+    assert whole.printed.number("cam.n").value == 80
+
+
 def test_the_chapters_of_the_parts_follow_those_of_the_machine(three: Coursework) -> None:
     document, alone = three.document(), three.machine.document()
     chapters = [title for number, title in headings(document, 1) if number]
