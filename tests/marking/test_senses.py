@@ -93,7 +93,7 @@ def of_the_v_engine(row: KeyRow, one: Position) -> float | None:
     """The joint D and its motion by the axis of cylinder E, at 70° from x; the engine turns anticlockwise."""
     axis = complex(np.exp(1j * np.radians(70.0)))
     side, joint = 1j * axis, one["points"]["D"]
-    ahead = "positive to the side to which the crank leaves the top dead centre of piston E"
+    ahead = "positive to the side to which the crank leaves the top dead centre of piston 5"
     if row.id in ("f.h", "beta.4"):
         assert row.positive == (ahead if row.id == "f.h" else "positive where h is")
         h = along(vector(joint["p"]), side)
