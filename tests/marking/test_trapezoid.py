@@ -11,7 +11,7 @@ from reportgen.formula.vocabulary import Chapter
 from tests.marking import students
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
-WITH_FLYWHEEL = [name for name in FILES if "unevenness" in Path("assignments", f"{name}.yaml").read_text("utf-8")]
+WITH_FLYWHEEL = [name for name in FILES if "flywheel:" in Path("assignments", f"{name}.yaml").read_text("utf-8")]
 
 
 @pytest.mark.parametrize("name", WITH_FLYWHEEL)
