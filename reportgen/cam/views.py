@@ -16,7 +16,7 @@ from reportgen.cam.laws import FollowerLaw, Piece
 from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
-from reportgen.formula import Chain, Expression, Number, Symbol, ids, substitute, vocabulary
+from reportgen.formula import Call, Chain, Expression, Number, Symbol, ids, substitute, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.report import (
     Block,
@@ -288,8 +288,8 @@ class CamPage:
             note = self._between(one.piece) if len(stretches) > 1 and law.table is None else ""
             for id in names:
                 definition = self.case.ledger[id].definition
-                assert definition is not None
-                branch = definition.arguments[1 + n]  # type: ignore[union-attr]
+                assert isinstance(definition, Call)
+                branch = definition.arguments[1 + n]
                 shown = substitute(branch, lambda ref: ledger.symbol(ref.id))
                 rows.append(Chain((ledger.symbol(id), shown), note if id == names[0] else ""))
             if law.table is not None and len(stretches) > 2:

@@ -19,23 +19,27 @@ Letters = Mapping[Symbol, Symbol]
 
 def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
     """A tree of dataclasses, tuples and tables with `change` made of each node of a kind; what it leaves is itself."""
-    node: Any = tree
+    found: Tree = _changed(tree, kind, change)
+    return found
+
+
+def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Any:
     if isinstance(node, kind):
-        return change(node)  # type: ignore[no-any-return]
+        return change(node)
     if isinstance(node, (tuple, list)):
-        items = [changed(item, kind, change) for item in node]
+        items = [_changed(item, kind, change) for item in node]
         same = all(new is old for new, old in zip(items, node, strict=True))
         # A tuple with names takes its items one by one.
-        return node if same else type(node)(*items) if hasattr(node, "_fields") else type(node)(items)  # type: ignore[return-value]
+        return node if same else type(node)(*items) if hasattr(node, "_fields") else type(node)(items)
     if isinstance(node, dict):
-        table = {key: changed(value, kind, change) for key, value in node.items()}
-        return table if any(table[key] is not node[key] for key in node) else tree  # type: ignore[return-value]
+        table = {key: _changed(value, kind, change) for key, value in node.items()}
+        return table if any(table[key] is not node[key] for key in node) else node
     if is_dataclass(node) and not isinstance(node, type):
         held = {one.name: getattr(node, one.name) for one in fields(node) if one.init}
-        new = {name: changed(value, kind, change) for name, value in held.items()}
+        new = {name: _changed(value, kind, change) for name, value in held.items()}
         other = {name: value for name, value in new.items() if value is not held[name]}
-        return replace(node, **other) if other else node  # type: ignore[return-value]
-    return tree
+        return replace(node, **other) if other else node
+    return node
 
 
 def nodes(tree: Any, kind: type) -> Iterator[Any]:
