@@ -219,8 +219,8 @@ def typeset(
     if engine == "latex":
         from reportgen.writers import latex, pdflatex
 
-        source = latex.write(tree, letter)
-        return source, pdflatex.compile(source, ahead=ahead).pdf
+        compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
+        return compiled.source, compiled.pdf
     from reportgen.writers import typst
 
     source = typst.write(tree, letter)

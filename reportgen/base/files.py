@@ -302,7 +302,7 @@ def keep(name: str, data: bytes) -> Path | None:
         except OSError:
             os.unlink(stream.name)
             raise
-        _prune(found)
+        prune(found)
         return found / name
     return None
 
@@ -321,8 +321,12 @@ def version() -> str:
         return "0"
 
 
-def _prune(found: Path) -> None:
-    """Remove from the folder what was used least, down to the `LARGEST` size, and what is older than the `OLDEST`."""
+@cache
+def prune(found: Path) -> None:
+    """Remove from the folder what was used least, down to the `LARGEST` size, and what is older than the `OLDEST`.
+
+    Once a process, when something is added: looking at every file takes longer than reading a few.
+    """
     files = []
     for path in found.iterdir():
         # Another process may have removed it meanwhile.
@@ -345,7 +349,6 @@ def folder() -> Path | None:
     with suppress(OSError):
         found.mkdir(mode=0o700, parents=True, exist_ok=True)
         if _is_private(found):
-            _prune(found)
             return found
     return None
 

@@ -33,6 +33,8 @@ DEEPEST = 12
 MOST_KEYS = 200
 MOST_FAULTS = 100
 """After so many faults of its syntax a file is read no further."""
+_MAY_BE_MORE = re.compile(r"(?m)(?:^|[\s\[{,])[&*!]\S")
+"""What anchors, aliases and tags look like, and some other texts."""
 _NULL = {"", "~", "null", "Null", "NULL"}
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
@@ -174,14 +176,19 @@ def read_own(text: str, file: str = "") -> Source:
     """As `read_text`, for text of the program's own."""
     faults: list[Fault] = []
     try:
-        events = yaml.parse(text, Loader=yaml.CSafeLoader)
-        if any(isinstance(event, yaml.NodeEvent) and (event.anchor or getattr(event, "tag", None)) for event in events):
+        if _MAY_BE_MORE.search(text) and _is_more(text):
             return read_text(text, file)
         root = yaml.compose(text, Loader=yaml.CSafeLoader)
     except (AttributeError, yaml.YAMLError):  # a PyYAML without libyaml has no such loader
         return read_text(text, file)
     top = root and _node(root, file, faults)
     return Source(file, text, top) if top and not faults else read_text(text, file)
+
+
+def _is_more(text: str) -> bool:
+    """Whether a text has an anchor, an alias or a tag."""
+    events = yaml.parse(text, Loader=yaml.CSafeLoader)
+    return any(isinstance(event, yaml.NodeEvent) and (event.anchor or getattr(event, "tag", None)) for event in events)
 
 
 def plain(node: Node, said: Callable[[Scalar], str] = attrgetter("text")) -> Any:

@@ -74,11 +74,14 @@ class Name:
 
     def read(self, id: str) -> dict[str, str] | None:
         """What stands in the places of an id, "" in one that is missing; None for an id of another family."""
+        # Most families begin otherwise: their patterns need not even be compiled.
+        if not id.startswith(self._beginning):
+            return None
         found = self._pattern.fullmatch(id)
         return None if found is None else {name: text or "" for name, text in found.groupdict().items()}
 
     def __contains__(self, id: str) -> bool:
-        return self._pattern.fullmatch(id) is not None
+        return id.startswith(self._beginning) and self._pattern.fullmatch(id) is not None
 
     def only(self, **words: str) -> Name:
         """The narrower family that has these words in these places."""
@@ -93,6 +96,11 @@ class Name:
         """What the words are put into, by their number: with what is in brackets and without."""
         texts = _MAY_BE_MISSING.sub("", self.text), _MAY_BE_MISSING.sub(r"\1", self.text)
         return {len(_PLACE.findall(text)): _PLACE.sub("%s", text) for text in texts}
+
+    @cached_property
+    def _beginning(self) -> str:
+        """What all ids of the family begin with."""
+        return re.split(r"[{\[]", self.text, maxsplit=1)[0]
 
     @cached_property
     def _pattern(self) -> re.Pattern[str]:

@@ -11,7 +11,7 @@ import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import TYPE_CHECKING
 
 from reportgen import report as tree
@@ -49,20 +49,35 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
 
     Raises `TypesetterError` for a character the fonts do not have.
     """
-    body = _Writer(document).blocks(document.blocks)
-    return _frame().render(
+    return "".join(pieces(document, letter))
+
+
+def pieces(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> Iterator[str]:
+    """The source as it is written: all up to the end of the contents, then each block.
+
+    Raises `TypesetterError` for a character the fonts do not have.
+    """
+    frame = _frame().render(
         title=hexadecimal(document.title),
         author=hexadecimal(document.author),
-        identity=hashlib.sha256(body.encode()).hexdigest()[:32],
         language=document.language,
         header=[escape(text) for text in document.header],
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
         gap=f"{tree.ABREAST:g}",
         close=document.close,
-        body=body,
         **_type(letter),
     )
+    identity = hashlib.sha256()
+    body = _Writer(document).each(document.blocks)
+    listed = next((n for n, block in enumerate(document.blocks, 1) if isinstance(block, tree.Contents)), 0)
+    begun = "\n".join((frame, *islice(body, listed), ""))
+    yield begun
+    identity.update(begun.encode())
+    for block in body:
+        identity.update(block.encode())
+        yield f"{block}\n"
+    yield _command("closing", identity.hexdigest()[:32])
 
 
 def opening(letter: tree.Letter, close: bool) -> str:
@@ -121,7 +136,10 @@ class _Writer:
         }
 
     def blocks(self, blocks: Sequence[tree.Block]) -> str:
-        return "\n".join(self.kept(blocks[index:]) for index in range(len(blocks)))
+        return "\n".join(self.each(blocks))
+
+    def each(self, blocks: Sequence[tree.Block]) -> Iterator[str]:
+        return (self.kept(blocks[index:]) for index in range(len(blocks)))
 
     def kept(self, blocks: Sequence[tree.Block]) -> str:
         """The first of the blocks, on one page with the next one if it leads to that."""

@@ -4,7 +4,8 @@ The run may read and write that directory only, starts no other program, and sto
 or at the time limit.  The same source gives the same bytes.
 
 Page numbers are kept from one report to the next of the same contents: where they still hold, one pass is enough.
-What all reports begin with may be read ahead, while the rest of one is still worked out.
+What all reports begin with may be read ahead, while the rest of one is still worked out, and the rest while it is
+written.
 """
 
 from __future__ import annotations
@@ -15,9 +16,11 @@ import re
 import shutil
 import subprocess
 import tempfile
-from contextlib import ExitStack
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Timer
 from typing import Self
 
 from reportgen.base.errors import TypesetterError
@@ -66,8 +69,9 @@ _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class Compiled:
-    """A finished PDF, the passes it took, and the log's lines about boxes more than 1 pt too large."""
+    """A finished PDF with its source, the passes it took, and the log's lines about boxes more than 1 pt too large."""
 
+    source: str
     pdf: bytes
     passes: int
     overfull: tuple[str, ...]
@@ -105,10 +109,10 @@ class Ahead:
         return self.process is not None and source.startswith(self.opening)
 
 
-def compile(source: str, timeout: float = 120.0, ahead: Ahead | None = None) -> Compiled:
+def compile(source: str | Iterable[str], timeout: float = 120.0, ahead: Ahead | None = None) -> Compiled:
     """Typeset a whole document; passes end when the auxiliary file no longer changes.
 
-    Of a source that begins with what is read `ahead` the first pass reads the rest.
+    A source in pieces, whose first one holds the contents, is read as they come if its opening was read `ahead`.
 
     Raises `TypesetterError` if pdflatex or one of its packages is missing (with the command that
     installs them), if TeX stops at an error (with the first lines of the log that say why), if it
@@ -117,48 +121,75 @@ def compile(source: str, timeout: float = 120.0, ahead: Ahead | None = None) -> 
     program = shutil.which(_COMMAND[0])
     if program is None:
         raise TypesetterError(f"the LaTeX engine needs pdflatex; install it with\n    {INSTALL}")
-    name = _kept_as(source)
+    pieces = iter((source,) if isinstance(source, str) else source)
+    whole = [next(pieces, "")]
+    name = _kept_as(whole[0])
     known = kept(name) or b"" if name else b""
-    begun = ahead if ahead and ahead.begins(source) else None
     with ExitStack() as stack:
-        directory = (
-            begun.directory if begun else Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="reportgen-")))
-        )
-        (directory / "report.tex").write_text(source, encoding="utf-8")
+        run: subprocess.Popen[bytes] | None = None
+        if ahead and ahead.begins(whole[0]):
+            directory, run = ahead.directory, ahead.process
+            (directory / "report.aux").write_bytes(known)
+            rest = whole[0].removeprefix(ahead.opening)
+            whole += _told(run, rest, pieces, timeout) if run else ()
+        else:
+            directory = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="reportgen-")))
+        whole += pieces
+        text = "".join(whole)
+        (directory / "report.tex").write_text(text, encoding="utf-8")
         try:
-            first, rest = (begun.process, source.removeprefix(begun.opening)) if begun else (None, "")
-            compiled, auxiliary = _settled(program, directory, timeout, known, first, rest.encode())
+            compiled, auxiliary = _settled(program, directory, timeout, text, known, run)
         except TypesetterError:
             if not known:
                 raise
             # What was kept may be damaged.
-            compiled, auxiliary = _settled(program, directory, timeout, b"")
+            compiled, auxiliary = _settled(program, directory, timeout, text, b"")
     if name and auxiliary != known:
         keep(name, auxiliary)
     return compiled
+
+
+def _told(run: subprocess.Popen[bytes], begun: str, pieces: Iterable[str], timeout: float) -> Iterator[str]:
+    """The pieces of a source, each once the run was told it, after what it had `begun` with."""
+    late = Timer(timeout, run.kill)
+    late.start()
+    assert run.stdin
+    try:
+        # A run that has ended says why in its log.
+        with suppress(BrokenPipeError):
+            run.stdin.write(begun.encode())
+        for piece in pieces:
+            with suppress(BrokenPipeError):
+                run.stdin.write(piece.encode())
+            yield piece
+        if not late.is_alive():
+            raise TypesetterError(f"pdflatex was stopped after {timeout:g} s")
+    finally:
+        late.cancel()
 
 
 def _settled(
     program: str,
     directory: Path,
     timeout: float,
+    source: str,
     auxiliary: bytes,
     first: subprocess.Popen[bytes] | None = None,
-    rest: bytes = b"",
 ) -> tuple[Compiled, bytes]:
     """The PDF with page numbers that hold, and the auxiliary file that has them; `auxiliary` is one from before.
 
-    The `first` pass may have begun and wait for the `rest` of the source.  Contents have room for any number, so that
-    the pages do not depend on what was known of them.
+    The `first` pass may have begun.  Contents have room for any number, so that the pages do not depend on what was
+    known of them.
     """
-    (directory / "report.aux").write_bytes(auxiliary)
+    if first is None:
+        (directory / "report.aux").write_bytes(auxiliary)
     for passes in range(1, MAX_PASSES + 1):
-        _finish(first or _started(program, directory, "report.tex"), directory, timeout, rest)
-        first, rest = None, b""
+        _finish(first or _started(program, directory, "report.tex"), directory, timeout)
+        first = None
         latest = (directory / "report.aux").read_bytes()
         if latest == auxiliary or b"\\newlabel" not in latest:
             log = _log(directory)
-            return Compiled((directory / "report.pdf").read_bytes(), passes, overfull(log)), latest
+            return Compiled(source, (directory / "report.pdf").read_bytes(), passes, overfull(log)), latest
         auxiliary = latest
     raise TypesetterError(f"the page numbers did not settle within {MAX_PASSES} passes of pdflatex")
 
@@ -194,9 +225,9 @@ def _stop(run: subprocess.Popen[bytes]) -> None:
     run.communicate()
 
 
-def _finish(run: subprocess.Popen[bytes], directory: Path, timeout: float, rest: bytes) -> None:
+def _finish(run: subprocess.Popen[bytes], directory: Path, timeout: float) -> None:
     try:
-        run.communicate(rest or None, timeout)
+        run.communicate(timeout=timeout)
     except subprocess.TimeoutExpired:
         raise TypesetterError(f"pdflatex was stopped after {timeout:g} s") from None
     finally:
