@@ -156,11 +156,16 @@ NAME = "reportgen-job"
 """The name of the processes, which distinguishes them from others."""
 
 
-def local(workers: int) -> Pool:
-    """A pool of so many processes at a time; the server that starts them begins to load at once."""
+def local(workers: int, kinds: Iterable[str] = ()) -> Pool:
+    """A pool of so many processes at a time; the server that starts them begins to load at once.
+
+    It prepares `kinds`, each as `kind:language`, for all of them.
+    """
     # It understands `context` but is annotated with another name.
     process: Any = concurrent.process
-    start: Callable[[Job], Future[Outcome]] = process(name=NAME, timeout=LIMIT, context=_context())(_work)
+    start: Callable[[Job], Future[Outcome]] = process(
+        name=NAME, timeout=LIMIT, context=_context((*LOADED, READY), kinds)
+    )(_work)
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
         waiting = deque((job, 1) for job in jobs)
@@ -223,9 +228,12 @@ LOADED = (
     "typst",
 )
 """What the process that workers are forked from has loaded, so that each finds it loaded."""
+READY = "reportgen.classes.ready"
+"""Loaded last there, it prepares the kinds that `KINDS` names in the environment."""
+KINDS = "REPORTGEN_KINDS"
 
 
-def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext:
+def _context(loaded: Sequence[str] = LOADED, kinds: Iterable[str] = ()) -> ForkServerContext | SpawnContext:
     """New processes come from a server that has imported everything already, where the system allows it."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
@@ -235,8 +243,9 @@ def _context(loaded: Sequence[str] = LOADED) -> ForkServerContext | SpawnContext
     context.set_forkserver_preload(list(loaded))
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    before = {name: os.environ.get(name) for name in ONE_THREAD}
-    os.environ |= ONE_THREAD
+    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds)}
+    before = {name: os.environ.get(name) for name in surroundings}
+    os.environ |= surroundings
     try:
         with _uninterrupted():
             forkserver.ensure_running()

@@ -10,6 +10,7 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
+from itertools import islice
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, Literal, TextIO
 
@@ -22,6 +23,7 @@ from reportgen.base.errors import Fault, Mark, OutputError, Problem
 from reportgen.base.files import contents, held, put_file, put_set, remove_unfinished, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
+from reportgen.classes import ready
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
 from reportgen.classes.roster import Assigned, Roster, RosterEntry, beside, match_files, read_roster
 from reportgen.classes.variants import make_variants
@@ -113,7 +115,7 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     chosen = {
         name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
     }
-    workers = pool or _pool(order)
+    workers = pool or _pool(order, len(roster.students))
     with locked(order.out, order.language), reported(order.out), scratch(order.out) as temporary:
         return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
 
@@ -291,14 +293,15 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, 
         return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
 
 
-def _pool(order: Order) -> Pool:
-    if order.cluster is None:
-        # As many as there are cores that this process may use.
-        cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-        return local(order.jobs or cores)
-    from reportgen.classes.pool import cluster
+def _pool(order: Order, students: int) -> Pool:
+    if order.cluster is not None:
+        from reportgen.classes.pool import cluster
 
-    return cluster(order.cluster, order.language)
+        return cluster(order.cluster, order.language)
+    # As many as there are cores that this process may use.
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    given = sorted(order.assignments.rglob("*.yaml")) if order.assignments else filter(None, (order.spec,))
+    return local(order.jobs or cores, ready.kinds(islice(given, ready.FEW), order.language, students))
 
 
 # --- files ------------------------------------------------------------------------------------------

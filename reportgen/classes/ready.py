@@ -1,0 +1,70 @@
+"""What all reports of a kind have in common, made ready once by the process that workers are forked from.
+
+The parsed words, the compiled templates and the tables of symbols that the sample of a kind needs stay in the memory
+that each worker begins with.  No student's file and no school's template is worked out there: none may end it.
+"""
+
+from __future__ import annotations
+
+import gc
+import os
+import re
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+
+from reportgen.base.units import Language
+from reportgen.base.words import DEFAULT_LANGUAGE, sample
+from reportgen.classes.pool import KINDS
+
+FEW = 4
+"""From so many students on it pays; so many files are asked for their kind."""
+COLLECTED = 100_000
+"""New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
+_KIND, _LANGUAGE = re.compile(r"(?m)^kind: *([\w-]+)"), re.compile(r"(?m)^  +language: *(\w+)")
+
+
+def kinds(files: Iterable[Path], language: Language | None, students: int) -> frozenset[str]:
+    """What to prepare for a class: the kind and language, as `kind:language`, of a spec or of assignment files.
+
+    `language` is that of all, if given.  For a `FEW` students it does not pay.
+    """
+    found: set[str] = set()
+    for file in files if students >= FEW else ():
+        with suppress(OSError, UnicodeDecodeError):
+            text = file.read_text(encoding="utf-8")
+            if kind := _KIND.search(text):
+                own = _LANGUAGE.search(text)
+                found.add(f"{kind[1]}:{language or (own[1] if own else DEFAULT_LANGUAGE)}")
+    return frozenset(found)
+
+
+def prepare(kind: str, language: Language) -> None:
+    """Work the sample of a kind out, up to what a typesetter is given, and forget it.
+
+    Raises `KeyError` for no kind of this program.
+    """
+    from reportgen import api, catalogue
+    from reportgen.base.source import read_own
+    from reportgen.writers import latex, typst
+
+    assignment, _ = catalogue.assess(read_own(sample(kind, language)), Path(f"{kind}.yaml"))
+    if assignment is not None:
+        document = api.document(assignment)
+        typst.write(document)
+        latex.write(document)
+
+
+def _prepare_named() -> None:
+    for named in os.environ[KINDS].split():
+        kind, language = named.split(":")
+        # What cannot be prepared is done by each worker, which can tell of it.
+        with suppress(Exception):
+            prepare(kind, "en" if language == "en" else "vi")
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(COLLECTED)
+
+
+if KINDS in os.environ:
+    _prepare_named()
