@@ -1,14 +1,14 @@
 """Document → Typst source → PDF, by the typesetter that comes embedded in its Python package.
 
 The source is one self-standing file: the frame `templates/frames/typst/report.typ`, which holds the
-look and defines short names, then the report as calls of these names, a block a line.  In formulas names
-and numbers travel as string literals, so nothing in them can become markup, and every operator stands
-between spaces, because identifiers of Typst may hold a hyphen.
+look and defines short names, then the report as calls of these names, a block a line.  What the typesetter would have
+to measure is told it where our own estimate is beyond doubt: that an equation has room, that a row is one line high.
 """
 
 from __future__ import annotations
 
 import json
+import math
 import re
 import tempfile
 import unicodedata
@@ -17,94 +17,28 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.units import Language, by_power_of_ten
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
-from reportgen.drawing.geometry import moved
+from reportgen.drawing.geometry import box, moved
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
-from reportgen.formula.setting import (
-    NAMED,
-    NARROW,
-    PRIMES,
-    Sign,
-    TextSetter,
-    Written,
-    columns,
-    displayed,
-    parted,
-    sides,
-    written,
-)
-from reportgen.formula.vocabulary import numbered, runs
+from reportgen.formula.setting import NARROW, columns, displayed, sides, written
 from reportgen.writers.drawing import paint_typst
-
-
-def literal(text: str) -> str:
-    """A string literal of Typst that reads back as `text`."""
-    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
-    return '"' + escaped.replace("\n", "\\n").replace("\r", "\\r").replace("\t", "\\t") + '"'
-
-
-class TypstFormulas(TextSetter):
-    BELOW = "%s_(script(%s))"
-    RAISED = POWER = "%s^(%s)"
-    QUOTIENT, RADICAL = "frac(%s, %s)", "sqrt(%s)"
-    FENCES: ClassVar = {"": "%s", "(": "(%s)", "|": "abs(%s)", "[": 'mat(delim: "[", %s)'}
-    ENTRY, LINE = ", ", "; "
-    APPLIED = CALL = "%s %s"
-    NOTE = " quad %s"
-    SIGNS: ClassVar = {"·": "dot.c", "×": "times"}
-
-    def text(self, text: str) -> str:
-        return literal(text)
-
-    def inline(self, mathematics: str) -> str:
-        return f"${mathematics}$"
-
-    def number(self, number: Written) -> str:
-        return f"{literal(number.digits)} thin {literal(number.unit)}" if number.spaced else literal(number.text(""))
-
-    def sign(self, sign: Sign) -> str:
-        match sign.role:
-            case "prefix":
-                return sign.of
-            case "slash":
-                return literal(sign.of)
-            case "separator":
-                return f' class("punctuation", "{sign.of}") '
-            case _:
-                return f" {self.SIGNS.get(sign.of, sign.of)} "
-
-    def function(self, name: str) -> str:
-        return name if name in NAMED else f"op({literal(name)})"
-
-    def symbol(self, node: Symbol) -> str:
-        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
-        letters, above = parted(node)
-        single = len(letters) == 1 and letters.isalpha()
-        base = letters if single else self.lowered(runs(letters), lambda part: f"italic({literal(part)})")
-        if node.over == "vector":
-            base = f"arrow({base})"
-        below = f"_({self.lowered(numbered(node.sub), literal)})" if node.sub else ""
-        marked = base + below + (f"^({_superscript(above)})" if above else "")
-        return f"overline({marked})" if node.over == "segment" else marked
-
-
-def _superscript(text: str) -> str:
-    """Primes as Typst's own symbol, which has the right size, everything else upright."""
-    letters = text.lstrip(PRIMES)
-    primes = {"′": "prime", "″": "prime.double"}
-    names = [primes[char] for char in text[: len(text) - len(letters)]]
-    return " ".join([*names, literal(letters)] if letters else names)
-
+from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+NUMBER_ROOM = 20.0
+"""What the number of an equation takes with the gap before it at most, mm."""
+LOW = 0.9
+"""The share of its cell's room that a line may take by our estimate, so that it is one line beyond doubt."""
+CELL, CELL_INSET = 10.0, 3.0
+"""The size of letters in tables, in points, and the white on both sides of a cell, mm."""
 PPI = 220
 """Dots an inch of pictures."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
@@ -127,7 +61,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
             *(("close: true",) if document.close else ()),
         )
     )
-    body = _Blocks(document.language, document.words).write(document.blocks)
+    body = _Blocks(document.language, document.words, letter).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
 
 
@@ -165,10 +99,13 @@ def _array(items: Iterable[str]) -> str:
 class _Blocks:
     """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
 
-    def __init__(self, language: Language, words: tree.Words, room: float = tree.TEXT_WIDTH) -> None:
+    def __init__(
+        self, language: Language, words: tree.Words, letter: tree.Letter, room: float = tree.TEXT_WIDTH
+    ) -> None:
         self.language = language
         self.formulas = TypstFormulas(language)
         self.words = words
+        self.letter = letter
         self.room = room
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
@@ -279,7 +216,7 @@ class _Blocks:
     # --- blocks -----------------------------------------------------------------------------------
 
     def items(self, block: tree.List) -> str:
-        inner = _Blocks(self.language, self.words, self.room - LIST_INDENT)
+        inner = _Blocks(self.language, self.words, self.letter, self.room - LIST_INDENT)
         name = f"enum(start:{block.start}," if block.ordered else "list("
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
@@ -288,14 +225,35 @@ class _Blocks:
         groups = tree.in_groups(equation.rows, self.room)
         lines = []
         for index, group in enumerate(groups):
-            number = literal(equation.number if index == len(groups) - 1 else "")
+            number = equation.number if index == len(groups) - 1 else ""
             first = group[0]
             if isinstance(first, VectorEquation):
-                lines.append(f"#V({number},{self.room:g},{self.vector_equation(first)})")
+                lines.append(f"#V({literal(number)},{self.room:g},{self.vector_equation(first)})")
             else:
                 rows = ",".join(_array(self.row(row)) for row in group)
-                lines.append(f"#E({number},{self.room:g},{tree.ABREAST:g},{rows})")
+                lines.append(f"#{self.setter(group, number)}{literal(number)},{tree.ABREAST:g},{rows})")
         return "\n".join(lines) + _label(equation.key)
+
+    def setter(self, rows: Sequence[Expression], number: str) -> str:
+        """Which function of the frame sets rows alike: `F` below each other, `A` two abreast, `E` by measuring.
+
+        Rows without a number stand two abreast where they have room so.
+        """
+        own = [box(row, self.letter.size, displayed=True).width for row in rows]
+        heads = [_head(row, self.letter.size) for row in rows]
+
+        def aligned(start: int, step: int) -> float:
+            """What rows take whose relations stand below each other."""
+            left = heads[start::step]
+            return max(left) + max(row - head for row, head in zip(own[start::step], left, strict=True))
+
+        below, two = aligned(0, 1), math.inf
+        if len(rows) > 1 and not number:
+            two = aligned(0, 2) + tree.ABREAST + aligned(1, 2)
+        room = self.room - (NUMBER_ROOM if number else 0.0)
+        if two + _doubt(two) <= room:
+            return "A("
+        return "F(" if two - _doubt(two) > room >= below + _doubt(below) else f"E({self.room:g},"
 
     def row(self, row: Expression) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
@@ -319,7 +277,30 @@ class _Blocks:
         whole = "0" if len(table.rows) <= tree.WHOLE_TABLE else str(tree.TOGETHER)
         again = self.again(self.words.table, table) if table.number else "none"
         framed = "framed:true," if table.framed else ""
+        low = [not self.letter.font and self.is_low(row, table.columns) for row in table.rows]
+        framed += f"low:{'true' if all(low) else _array(map(str, map(int, low)))}," if any(low) else ""
         return f"#R({framed}{label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
+
+    def is_low(self, row: Sequence[tree.Cell], columns: Sequence[tree.Column]) -> bool:
+        """Whether a row of a table is one line of plain texts and symbols high beyond doubt."""
+        at = 0
+        for cell in row:
+            width = 0.0
+            for inline in cell.inlines:
+                match inline:
+                    case tree.Text(text):
+                        width += box(text, CELL).width
+                    case tree.Value(number) if not by_power_of_ten(number.value, number.decimals):
+                        width += box(written(number, self.language).text(NARROW), CELL).width
+                    case tree.InlineMath(Symbol() as symbol) if not symbol.over:
+                        width += box(symbol, CELL).width
+                    case _:
+                        return False
+            room = sum(column.width for column in columns[at : at + cell.span]) - CELL_INSET
+            if width > LOW * room:
+                return False
+            at += cell.span
+        return True
 
     def cell(self, cell: tree.Cell, spanned: str) -> str:
         body = self.content(cell.inlines)
@@ -338,6 +319,16 @@ class _Blocks:
     def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The label of what goes on from the page before."""
         return literal(f"{word} {block.number} ({self.words.continued})")
+
+
+def _head(row: Expression, size: float) -> float:
+    """What a displayed row takes before its first relation (mm)."""
+    return box(row.parts[0], size, displayed=True).width if isinstance(row, Chain) else 0.0
+
+
+def _doubt(width: float) -> float:
+    """By what a width (mm) may be wrong that is estimated: a few letters, and a few of a hundred."""
+    return 4.0 + 0.05 * width if width < math.inf else 0.0
 
 
 def _text(text: str) -> str:

@@ -11,7 +11,7 @@ import typst
 from reportgen.drawing.geometry import box
 from reportgen.drawing.labels import CLEAR
 from reportgen.formula import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
-from reportgen.writers.typst import TypstFormulas
+from reportgen.writers.typst_math import TypstFormulas
 
 LABELS: tuple[Expression | str, ...] = (
     Symbol("p"),

@@ -16,7 +16,7 @@ from reportgen.formula.setting import Part, laid
 from reportgen.page.elements import MathmlFormulas, Runs
 from reportgen.sheets.dxf import MText
 from reportgen.writers.latex_math import LatexFormulas
-from reportgen.writers.typst import TypstFormulas
+from reportgen.writers.typst_math import TypstFormulas
 from tests.writers import sample
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

@@ -25,7 +25,7 @@ from reportgen.report import (
     Table,
     Value,
 )
-from reportgen.writers.typst import TypstFormulas
+from reportgen.writers.typst_math import TypstFormulas
 from tests.report import built
 from tests.report.calculator import Line
 from tests.report.source_lines import typst_formula, worked_lines

@@ -30,7 +30,7 @@ from reportgen.report import (
     in_rows,
 )
 from reportgen.writers import typst
-from reportgen.writers.typst import literal
+from reportgen.writers.typst_math import literal
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, opened, plain, sides, text_of
 

@@ -30,7 +30,7 @@ from reportgen.formula import (
 from reportgen.formula.evaluation import evaluate
 from reportgen.report import Equation, InlineMath, Paragraph
 from reportgen.writers.latex_math import LatexFormulas
-from reportgen.writers.typst import TypstFormulas
+from reportgen.writers.typst_math import TypstFormulas
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, plain, text_of
 
