@@ -426,10 +426,11 @@ def _telling(places: NDArray[np.complex128]) -> list[int]:
         if not len(inner):
             continue
         chord = places[last] - places[first]
-        share = np.clip((inner * np.conj(chord)).real / max(abs(chord) ** 2, TINY), 0.0, 1.0)
-        off = np.abs(inner - share * chord)
-        middle = first + 1 + int(off.argmax())
-        if off.max() > CLOSE:
+        share = (inner * chord.conjugate()).real / max(abs(chord) ** 2, TINY)
+        off = np.abs(inner - np.minimum(np.maximum(share, 0.0), 1.0) * chord)
+        furthest = int(off.argmax())
+        middle = first + 1 + furthest
+        if off[furthest] > CLOSE:
             kept.add(middle)
             parts += [(first, middle), (middle, last)]
     return sorted(kept)

@@ -28,20 +28,20 @@ CELL = 0.25
 """Side of the cells of paper (mm) in which strokes are looked up."""
 
 
-def ends(item: Item) -> Complexes:
-    """The item's strokes as segments, an array [K, 2] of complex points; a label has none."""
+def ends(item: Item) -> Sequence[complex] | Complexes:
+    """The item's strokes as segments: the start and the end of each, one after the other; a label has none."""
     match item:
         case Line(start, end):
-            return np.array([[start, end]])
+            return start, end
         case Arrow(start, end, _, head):
             size = abs(end - start)
             if size == 0:
-                return np.array([[start, end]])
+                return start, end
             # Labels keep clear of the head, which is a third as wide as it is long.
             u = (end - start) / size
             head = min(head, size)
             left, right = end - head * u * (1 + 0.18j), end - head * u * (1 - 0.18j)
-            return np.array([[start, end], [end, left], [end, right], [left, right]])
+            return start, end, end, left, end, right, left, right
         case Circle(centre, radius):
             return _chain(_arc(centre, radius, 0.0, math.tau))
         case Arc(centre, radius, start, stop):
@@ -51,7 +51,7 @@ def ends(item: Item) -> Complexes:
         case Hatch(points):
             return _chain(np.array([*points, points[0]]))
         case Label():
-            return np.empty((0, 2), dtype=np.complex128)
+            return ()
 
 
 def _arc(centre: complex, radius: float, start: float, stop: float) -> Complexes:
@@ -60,13 +60,24 @@ def _arc(centre: complex, radius: float, start: float, stop: float) -> Complexes
 
 
 def _chain(points: Complexes) -> Complexes:
-    return np.column_stack((points[:-1], points[1:]))
+    return np.column_stack((points[:-1], points[1:])).ravel()
 
 
 def segments(items: Iterable[Item]) -> Complexes:
     """All strokes of the items as segments [K, 2]."""
-    parts = [ends(item) for item in items]
-    return np.concatenate(parts) if parts else np.empty((0, 2), dtype=np.complex128)
+    return _stacked(map(ends, items)).reshape(-1, 2)
+
+
+def _stacked(parts: Iterable[Sequence[complex] | Complexes]) -> Complexes:
+    """All points of the parts in a row; most parts are a few points, of which an array each would take long."""
+    few: list[complex] = []
+    many: list[Complexes] = []
+    for part in parts:
+        if isinstance(part, np.ndarray):
+            many.append(part.ravel())
+        else:
+            few += part
+    return np.concatenate((np.array(few, dtype=np.complex128), *many))
 
 
 def frame(label: Label) -> tuple[complex, complex]:
@@ -80,22 +91,22 @@ def frame(label: Label) -> tuple[complex, complex]:
     return label.at + complex(right * width, up * height) / 2, complex(width, height) / 2
 
 
-def corners(item: Item) -> Complexes:
+def corners(item: Item) -> Sequence[complex] | Complexes:
     """Points whose bounding box is the item's."""
     match item:
         case Label():
             centre, half = frame(item)
-            return np.array([centre - half, centre + half])
+            return centre - half, centre + half
         case Circle(centre, radius):
-            return np.array([centre - radius * (1 + 1j), centre + radius * (1 + 1j)])
+            return centre - radius * (1 + 1j), centre + radius * (1 + 1j)
         case _:
-            return ends(item).ravel()
+            return ends(item)
 
 
 def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
     """Lower left and upper right corner of the box around all items; (0, 0) for none."""
-    points = [corners(item) for item in items]
-    return corners_of(np.concatenate(points)) if points else (0j, 0j)
+    points = _stacked(map(corners, items))
+    return corners_of(points) if points.size else (0j, 0j)
 
 
 def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
@@ -107,14 +118,16 @@ def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]
 def moved(item: Item, by: complex) -> Item:
     """The item shifted by a vector in mm."""
     match item:
-        case Line(start, end) | Arrow(start, end):
-            return replace(item, start=start + by, end=end + by)
+        case Line(start, end, stroke):
+            return Line(start + by, end + by, stroke)
+        case Arrow(start, end, stroke, head, name):
+            return Arrow(start + by, end + by, stroke, head, name)
         case Circle(centre) | Arc(centre):
             return replace(item, centre=centre + by)
         case Polyline(points) | Hatch(points):
             return replace(item, points=tuple(point + by for point in points))
-        case Label(at):
-            return replace(item, at=at + by)
+        case Label(at, content, anchor, size, turn, background, narrow):
+            return Label(at + by, content, anchor, size, turn, background, narrow)
 
 
 def enlarged(item: Item, factor: float) -> Item:

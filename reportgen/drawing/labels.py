@@ -482,7 +482,7 @@ def finish(
     done = Canvas(draft.items + labels)
     low, high = corners_of((*bounds(done.items), *(frame or ())))
     below = _notes([*key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
-    low, high = corners_of((low, high, *bounds((*done.items, *below))))
+    low, high = corners_of((low, high, *(bounds(below) if below else ())))
     white = complex(margin, margin)
     size = high + white - (low - white)
     items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))

@@ -289,12 +289,18 @@ def set_apart(vectors: Sequence[PlanVector[complex]]) -> list[complex]:
 
 def _on_one_line(one: PlanVector[complex], other: PlanVector[complex]) -> bool:
     """Whether two vectors, long enough to see, cover a part of one line that is longer than an arrow's head."""
-    if min(one.length, other.length) < TINY:
+    shorter, longer = sorted((abs(one.end - one.start), abs(other.end - other.start)))
+    if shorter < TINY or _across(one, other) > 2 * style.ON_LINE * longer:
         return False
     # Two vectors with one start and one end are one arrow with two names.
     if abs(one.start - other.start) + abs(one.end - other.end) < SAME_POINT:
         return False
     return on_one_line((one.start, one.end), (other.start, other.end), style.ON_LINE, style.HEAD)
+
+
+def _across(one: PlanVector[complex], other: PlanVector[complex]) -> float:
+    """How far one vector leads away from the line of another, times the length of that."""
+    return abs(((one.end - one.start).conjugate() * (other.end - other.start)).imag)
 
 
 def _marks(drawing: Plan) -> list[Item]:

@@ -33,10 +33,14 @@ from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
 """What a list takes from the width of its items at most, mm."""
+LONG_HEAD = 0.45
+"""Behind what takes a larger share of the room the rows of an equation are not aligned, as in the frame."""
 NUMBER_ROOM = 20.0
 """What the number of an equation takes with the gap before it at most, mm."""
 LOW = 0.9
 """The share of its cell's room that a line may take by our estimate, so that it is one line beyond doubt."""
+CAPITAL, OUT = 2.4, 0.8
+"""Height of capitals there, and how far a formula may stand out above them or below the line, mm."""
 CELL, CELL_INSET = 10.0, 3.0
 """The size of letters in tables, in points, and the white on both sides of a cell, mm."""
 PPI = 220
@@ -100,7 +104,11 @@ class _Blocks:
     """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
 
     def __init__(
-        self, language: Language, words: tree.Words, letter: tree.Letter, room: float = tree.TEXT_WIDTH
+        self,
+        language: Language,
+        words: tree.Words,
+        letter: tree.Letter = tree.OWN_LETTER,
+        room: float = tree.TEXT_WIDTH,
     ) -> None:
         self.language = language
         self.formulas = TypstFormulas(language)
@@ -240,7 +248,7 @@ class _Blocks:
         Rows without a number stand two abreast where they have room so.
         """
         own = [box(row, self.letter.size, displayed=True).width for row in rows]
-        heads = [_head(row, self.letter.size) for row in rows]
+        heads = [self.head(row) for row in rows]
 
         def aligned(start: int, step: int) -> float:
             """What rows take whose relations stand below each other."""
@@ -253,7 +261,15 @@ class _Blocks:
         room = self.room - (NUMBER_ROOM if number else 0.0)
         if two + _doubt(two) <= room:
             return "A("
-        return "F(" if two - _doubt(two) > room >= below + _doubt(below) else f"E({self.room:g},"
+        # Behind something long rows are not aligned.
+        short = len(rows) == 1 or max(heads) + _doubt(max(heads)) <= LONG_HEAD * room
+        return "F(" if short and two - _doubt(two) > room >= below + _doubt(below) else f"E({self.room:g},"
+
+    def head(self, row: Expression) -> float:
+        """What a displayed row takes before its first relation (mm)."""
+        if not isinstance(row, Chain) or len(displayed(row, self.language)) == 1:
+            return 0.0
+        return box(row.parts[0], self.letter.size, displayed=True).width
 
     def row(self, row: Expression) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
@@ -292,8 +308,11 @@ class _Blocks:
                         width += box(text, CELL).width
                     case tree.Value(number) if not by_power_of_ten(number.value, number.decimals):
                         width += box(written(number, self.language).text(NARROW), CELL).width
-                    case tree.InlineMath(Symbol() as symbol) if not symbol.over:
-                        width += box(symbol, CELL).width
+                    case tree.InlineMath(Symbol(base, sup="", over="") as symbol) if base.isalpha():
+                        extent = box(symbol, CELL)
+                        width += extent.width
+                        if max(extent.height - CAPITAL, extent.depth) > OUT:
+                            return False
                     case _:
                         return False
             room = sum(column.width for column in columns[at : at + cell.span]) - CELL_INSET
@@ -319,11 +338,6 @@ class _Blocks:
     def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The label of what goes on from the page before."""
         return literal(f"{word} {block.number} ({self.words.continued})")
-
-
-def _head(row: Expression, size: float) -> float:
-    """What a displayed row takes before its first relation (mm)."""
-    return box(row.parts[0], size, displayed=True).width if isinstance(row, Chain) else 0.0
 
 
 def _doubt(width: float) -> float:
