@@ -201,9 +201,9 @@ def _fonts(engine: Engine) -> list[str]:
         from reportgen.writers import latex
 
         return list(latex.FAMILIES)
-    from reportgen.writers import typst
+    from reportgen.writers import typst_fonts
 
-    return typst.families()
+    return typst_fonts.families()
 
 
 def typeset(

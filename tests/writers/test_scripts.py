@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.writers import typst
-from reportgen.writers.typst import MissingLettersWarning, lacking, needs_system_fonts, uncommon
+from reportgen.writers.typst_fonts import MissingLettersWarning, lacking, needs_system_fonts, uncommon
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
 RARE = "\U00012000\U00014400\U00017000\U0001b170\U0001d800\U00016800\U00011a00\U000118a0"

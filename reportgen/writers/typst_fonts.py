@@ -1,0 +1,99 @@
+"""The fonts that Typst sets in, and the letters that its own ones lack: names in Chinese, Thai, Lao, emoji.
+
+Typst leaves out in silence what no font has.  So its fonts are asked first, then those of the system; what neither has
+is told as a warning.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import unicodedata
+import warnings
+from collections.abc import Callable
+from functools import lru_cache
+
+COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
+"""Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
+FONT = "New Computer Modern"
+NOWHERE = r"\u{10fffe}"
+"""No character, and therefore in no font: the typesetter sets the same in its place as for a letter it lacks."""
+BATCH = 400
+"""So many different letters are asked for at most; a text of more is not worth a warning."""
+
+Lacking = Callable[[str, bool], str]
+"""Those of some letters that none of the typesetter's own fonts has, or, if asked, the system's either."""
+
+QUESTION = """\
+#set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
+#context [
+  #let size(letter) = {{ let box = measure(letter); (box.width, box.height) }}
+  #metadata(({letters},).filter(letter => size(letter) == size("{nowhere}"))) <lacking>
+]
+"""
+
+
+BREADTH = """\
+#let breadth(font, weight) = measure(text(font: font, weight: weight, size: 10pt)[
+  Hamburgefonstiv vận tốc góc của khâu 0123456789,0123456789]).width
+#context [#metadata(calc.max(..("regular", "bold").map(weight =>
+  breadth("{font}", weight) / breadth("{own}", weight)))) <breadth>]
+"""
+"""What the typesetter is asked about the letters of a font; words and numbers, as tables have them."""
+
+
+def families() -> list[str]:
+    """The fonts that a source may name: the typesetter's own and those of the system, in order."""
+    import typst
+
+    return sorted(typst.Fonts(include_system_fonts=True).families())
+
+
+@lru_cache(maxsize=16)
+def breadth(font: str) -> float:
+    """How many times as broad as in the typesetter's own font a text is in another, at least 1."""
+    import typst
+
+    answer = typst.query(BREADTH.format(font=font, own=FONT).encode(), "<breadth>", field="value", one=True)
+    return max(1.0, float(json.loads(answer)))
+
+
+def lacking(letters: str, system: bool) -> str:
+    """Those of the letters that none of the typesetter's own fonts, or the `system`'s either, has."""
+    import typst
+
+    if not letters:
+        return ""
+    asked = question(letters).encode()
+    answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
+    return "".join(json.loads(answer))
+
+
+class MissingLettersWarning(UserWarning):
+    """Letters of a text have no place on the page, since no font has them."""
+
+    def __init__(self, letters: str) -> None:
+        self.letters = letters
+        super().__init__(f"no font has {' '.join(letters)}: left out on the page")
+
+
+def uncommon(text: str) -> str:
+    """The letters, digits and signs of a text, each once, that the typesetter's own fonts may lack."""
+    left = dict.fromkeys(COMMON.sub("", text))
+    return "".join(letter for letter in left if unicodedata.category(letter)[0] in "LNPS")[:BATCH]
+
+
+def question(letters: str) -> str:
+    """What the typesetter is asked: which of the letters, one at least, it sets as it sets what no font has."""
+    listed = ", ".join(f'"\\u{{{ord(letter):x}}}"' for letter in letters)
+    return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
+
+
+def needs_system_fonts(text: str, lacking: Lacking) -> bool:
+    """Whether a text has letters that only the system's fonts may have; warns of those that no font has."""
+    wanted = lacking(uncommon(text), False)
+    if not wanted:
+        return False
+    if missing := lacking(wanted, True):
+        warnings.warn(MissingLettersWarning(missing), stacklevel=2)
+    return missing != wanted
