@@ -9,7 +9,6 @@ from __future__ import annotations
 import gc
 import os
 import re
-from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
@@ -24,13 +23,13 @@ COLLECTED = 100_000
 _KIND, _LANGUAGE = re.compile(r"(?m)^kind: *([\w-]+)"), re.compile(r"(?m)^  +language: *(\w+)")
 
 
-def kinds(files: Iterable[Path], language: Language | None, students: int) -> frozenset[str]:
-    """What to prepare for a class: the kind and language, as `kind:language`, of a spec or of assignment files.
+def kinds(given: Path, language: Language | None) -> frozenset[str]:
+    """Kinds and languages, as `kind:language`, of a spec or of the first assignment files of a folder.
 
-    `language` is that of all, if given.  For a `FEW` students it does not pay.
+    `language` is that of all, if one is given.
     """
     found: set[str] = set()
-    for file in files if students >= FEW else ():
+    for file in sorted(given.rglob("*.yaml"))[:FEW] if given.is_dir() else (given,):
         with suppress(OSError, UnicodeDecodeError):
             text = file.read_text(encoding="utf-8")
             if kind := _KIND.search(text):

@@ -10,7 +10,6 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
-from itertools import islice
 from pathlib import Path, PurePath
 from typing import TYPE_CHECKING, Any, Literal, TextIO
 
@@ -300,8 +299,8 @@ def _pool(order: Order, students: int) -> Pool:
         return cluster(order.cluster, order.language)
     # As many as there are cores that this process may use.
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    given = sorted(order.assignments.rglob("*.yaml")) if order.assignments else filter(None, (order.spec,))
-    return local(order.jobs or cores, ready.kinds(islice(given, ready.FEW), order.language, students))
+    given = order.assignments or order.spec
+    return local(order.jobs or cores, ready.kinds(given, order.language) if given and students >= ready.FEW else ())
 
 
 # --- files ------------------------------------------------------------------------------------------

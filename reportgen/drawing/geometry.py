@@ -127,7 +127,7 @@ def moved(item: Item, by: complex) -> Item:
         case Polyline(points) | Hatch(points):
             return replace(item, points=tuple(point + by for point in points))
         case Label(at, content, anchor, size, turn, background, narrow):
-            return Label(at + by, content, anchor, size, turn, background, narrow)
+            return Label(at + by, content, anchor, size, turn=turn, background=background, narrow=narrow)
 
 
 def enlarged(item: Item, factor: float) -> Item:

@@ -1,0 +1,47 @@
+"""What is made ready for all workers of a class."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from reportgen.classes import ready
+from reportgen.classes.pool import KINDS
+
+ASKED = (
+    "import reportgen.classes.ready; from reportgen.report import prose; from reportgen.base import words; "
+    "print(prose._environment.cache_info().currsize, words._as_of.cache_info().currsize)"
+)
+
+
+def in_a_server(kinds: str) -> list[int]:
+    """How many environments of templates and files of words are read where workers are forked from."""
+    surroundings = {**os.environ, KINDS: kinds}
+    done = subprocess.run((sys.executable, "-c", ASKED), env=surroundings, capture_output=True, text=True, check=True)
+    return list(map(int, done.stdout.split()))
+
+
+def test_kind_and_language_are_read_off_a_spec_and_off_files(tmp_path: Path) -> None:
+    spec = tmp_path / "spec.yaml"
+    spec.write_text("kind: shaper\nsalt: 1\nreport:\n  language: en\n", encoding="utf-8")
+    assert ready.kinds(spec, None) == {"shaper:en"}
+    assert ready.kinds(spec, "vi") == {"shaper:vi"}
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "1.yaml").write_text("kind: four-bar\n", encoding="utf-8")
+    (tmp_path / "a" / "2.yaml").write_bytes(b"\xff\xfe kind")
+    assert ready.kinds(tmp_path / "a", None) == {"four-bar:vi"}
+
+
+@pytest.mark.parametrize("kinds", ["slider-crank:vi", "no-such-kind:vi slider-crank:en"])
+def test_words_and_templates_of_the_kinds_are_there(kinds: str) -> None:
+    environments, files = in_a_server(kinds)
+    assert environments >= 1
+    assert files >= 1
+
+
+def test_nothing_is_read_for_no_kind() -> None:
+    assert in_a_server("")[0] == 0
