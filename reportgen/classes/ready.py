@@ -18,7 +18,7 @@ from reportgen.classes.pool import KINDS
 
 FEW = 4
 """From so many students on it pays; so many files are asked for their kind."""
-COLLECTED = 100_000
+COLLECTED = 1_000_000
 """New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
 _KIND, _LANGUAGE = re.compile(r"(?m)^kind: *([\w-]+)"), re.compile(r"(?m)^  +language: *(\w+)")
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 STOPPED = "reportgen: đã dừng (interrupted)\n"
 """Said where no words are loaded yet."""
 
-COLLECTED = 100_000
+COLLECTED = 1_000_000
 """New objects between two searches for garbage: a report makes many that last, and hardly any cycles."""
 
 

@@ -277,4 +277,5 @@ def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> 
 
 def decimal(value: float) -> str:
     """A length to a thousandth of a millimetre, without trailing zeros and without a negative zero."""
-    return f"{round(value, 3) + 0.0:.3f}".rstrip("0").rstrip(".")
+    text = f"{value:.3f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text

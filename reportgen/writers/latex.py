@@ -116,10 +116,7 @@ def _frame() -> Template:
 
 
 def _command(name: str, *arguments: str) -> str:
-    from pylatex import Command, NoEscape
-
-    source: str = Command(name, arguments=[NoEscape(argument) for argument in arguments]).dumps()
-    return source
+    return f"\\{name}{''.join(f'{{{argument}}}' for argument in arguments)}"
 
 
 class _Writer:
