@@ -8,7 +8,7 @@ their figure and table in tables of their own.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -42,7 +42,7 @@ from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
-from reportgen.report.figures import PAPERS, FigureScenes
+from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.numbering import number
 from reportgen.report.report import Report
@@ -214,6 +214,8 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
         caption = report.words["captions"][words or name].format(k=position, g=group)
     drawn = draw(report, *shown)
+    if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
+        drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))
     inlines = report.prose.inlines(caption)
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
