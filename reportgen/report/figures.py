@@ -65,7 +65,7 @@ CLOSE = 5.5
 LEAST_MARGIN = 0.5
 """The white (mm) that remains around a scene."""
 SCHEME_BOX = (120.0, 75.0)
-HALF_PAGE = 132.0
+HALF_PAGE = 100.0
 """The height (mm) up to which a figure leaves about half a page to the text."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 LEGIBLE = 0.4

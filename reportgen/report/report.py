@@ -60,8 +60,8 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             *("comments/reactions", "comments/torque", "comments/flywheel"),
             # in tables relative velocities and accelerations, and loads at other than worked positions
             *("relative", "loads-everywhere"),
-            # positions as large as they are measured by, links that are drawn by themselves drawn together before
-            *("true-size", "links-together"),
+            # positions as large as they are measured by, links and directions that another figure shows as well
+            *("true-size", "links-together", "mechanism-beside-forces"),
             # the usual size of type, pages of their own for the contents
             *("usual-type", "contents-page"),
         )

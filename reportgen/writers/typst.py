@@ -127,7 +127,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
             *(("close: true",) if document.close else ()),
         )
     )
-    body = _Blocks(document.language, document.words).write(document.blocks)
+    body = _Blocks(document.language, document.words, close=document.close).write(document.blocks)
     return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
 
 
@@ -165,11 +165,14 @@ def _array(items: Iterable[str]) -> str:
 class _Blocks:
     """Writes blocks in one language; `room` is the width that lists leave for equations, in mm."""
 
-    def __init__(self, language: Language, words: tree.Words, room: float = tree.TEXT_WIDTH) -> None:
+    def __init__(
+        self, language: Language, words: tree.Words, room: float = tree.TEXT_WIDTH, close: bool = False
+    ) -> None:
         self.language = language
         self.formulas = TypstFormulas(language)
         self.words = words
         self.room = room
+        self.close = close
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
         lines: list[str] = []
@@ -279,13 +282,13 @@ class _Blocks:
     # --- blocks -----------------------------------------------------------------------------------
 
     def items(self, block: tree.List) -> str:
-        inner = _Blocks(self.language, self.words, self.room - LIST_INDENT)
+        inner = _Blocks(self.language, self.words, self.room - LIST_INDENT, self.close)
         name = f"enum(start:{block.start}," if block.ordered else "list("
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
     def equation(self, equation: tree.Equation) -> str:
         """Rows that are set alike in one block each; the number on the last."""
-        groups = tree.in_groups(equation.rows, self.room)
+        groups = tree.in_groups(equation.rows, tree.room_for(self.room, self.close))
         lines = []
         for index, group in enumerate(groups):
             number = literal(equation.number if index == len(groups) - 1 else "")
