@@ -341,8 +341,7 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; more than have room in several tables below one another."""
     columns = [
-        (lower_digits(line), *(bare(report, name(line), None) for name in LENGTHS))
-        for line in report.drawn_lines
+        (lower_digits(line), *(bare(report, name(line), None) for name in LENGTHS)) for line in report.drawn_lines
     ]
     widths = (column_width(report, name(line), (None,)) for line in report.drawn_lines for name in LENGTHS)
     most = int((TEXT_WIDTH - TITLES) / max(widths, default=WIDEST_COLUMN))
