@@ -81,6 +81,8 @@ class Report:
     case: Calculation
     enlarged: float = 1.0
     samples: Analysis | None = None
+    occurring: frozenset[Symbol] | None = None
+    """The symbols that its text uses, once it is written."""
 
     # --- what it is made of
 
