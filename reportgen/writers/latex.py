@@ -36,7 +36,7 @@ FRAME = r"\vrule width\heavyrulewidth"
 LEADING = 1.2
 """From line to line, in font sizes."""
 STOREYS, LONG, SHORT = 42, 28, 18
-"""Of words with what they lead to: a vector equation in two storeys, one in one or a list's first step, any other row."""
+"""Of words with what they lead to: a vector equation in two storeys, one in one or the start of a list, other rows."""
 ONE_STOREY = 6
 """So many vectors stand in one storey."""
 
@@ -139,11 +139,8 @@ class _Writer:
         if isinstance(block, tree.Equation):
             return rf"\let\eqend\nobreak {self.block(block)}\let\eqend\relax\par\nobreak"
         room = self.room_to_table(blocks)
-        if room:
-            needed = _command("needed", f"{room:g}mm")
-        else:
-            needed = _command("neededbelow", f"{_beginning(following):g}mm")
-        return f"{needed}{self.block(block)}\\par\\nobreak"
+        name, room = ("needed", room) if room else ("neededbelow", _beginning(following))
+        return f"{_command(name, f'{room:g}mm')}{self.block(block)}\\par\\nobreak"
 
     def room_to_table(self, blocks: Sequence[tree.Block]) -> float:
         """About how much paper (mm) blocks need that lead one to the next and at last to a table; 0 for others."""

@@ -171,8 +171,7 @@ class _Blocks:
         self.language = language
         self.formulas = TypstFormulas(language)
         self.words = words
-        self.room = room
-        self.close = close
+        self.room, self.close = room, close
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
         lines: list[str] = []
