@@ -122,3 +122,5 @@ class Scene:
     items: tuple[Item, ...] = field(default=())
     title: str = ""
     """A short plain title printed below one of several scenes of a figure, e.g. "a)"."""
+    margin: float = 0.0
+    """The white around what is drawn, mm each side."""

@@ -18,6 +18,8 @@ from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
 """The area inside the axes of curves, mm; with its text a chart is about 150 × 85 mm."""
+LOW = 46.0
+"""The height of that area where curves are drawn low, mm."""
 SHEET_WIDTH, SHEET_HEIGHT = 90.0, 45.0
 """Of that area on a drawing sheet at most, mm."""
 HALF_WIDTH, HALF_HEIGHT = 78.0, 46.0
@@ -166,6 +168,7 @@ def plotted(
     turn: bool = True,
     levels: Sequence[tuple[float, Content]] = (),
     half: bool = False,
+    height: float = HEIGHT,
     area: Area | None = None,
     inclinations: Sequence[Inclination] = (),
 ) -> Plotted:
@@ -174,7 +177,7 @@ def plotted(
     `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side; with an `area`
     both scales are round and printed.  Raises `ValueError` if no value is finite.
     """
-    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area)
+    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area, height)
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
     for level, name in levels:
@@ -283,7 +286,12 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
 
 
 def _window(
-    series: Sequence[PlottedCurve], levels: Sequence[float], turn: bool, half: bool, area: Area | None
+    series: Sequence[PlottedCurve],
+    levels: Sequence[float],
+    turn: bool,
+    half: bool,
+    area: Area | None,
+    height: float = HEIGHT,
 ) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, of a round step upwards."""
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
@@ -304,7 +312,7 @@ def _window(
         scales = area.scales or (area.per_mm(across, area.width), area.per_mm(up, area.height))
         width, height = across / scales[0] / area.enlarged, up / scales[1] / area.enlarged
     else:
-        width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, HEIGHT)
+        width, height = (HALF_WIDTH - _beside(x_ticks, y_ticks), HALF_HEIGHT) if half else (WIDTH, height)
     return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), width, height), x_ticks, y_ticks
 
 

@@ -486,7 +486,7 @@ def finish(
     white = complex(margin, margin)
     size = high + white - (low - white)
     items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
-    return Scene(size.real, size.imag, items, title)
+    return Scene(size.real, size.imag, items, title, margin)
 
 
 def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:

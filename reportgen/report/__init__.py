@@ -347,6 +347,10 @@ ABREAST = 8.0
 """Between two short rows of an equation side by side, mm."""
 TEXT_SIZE = 12.0
 """Of running text and formulas, points."""
+CLOSE_SIZE = 11.0
+"""Of those of a document that is set close."""
+CERTAIN = 0.96
+"""Rows are measured to about so much: one that is too wide for its pair would part all others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -376,6 +380,11 @@ TOGETHER_HEIGHT = 120.0
 """Rows of a figure that are together higher than this (mm) stand apart, the later ones as its continuation."""
 
 # --- equations --------------------------------------------------------------------------------------
+
+
+def room_for(room: float, close: bool) -> float:
+    """How broad a room (mm) is for rows measured in the usual type: the smaller type of close documents has more."""
+    return room * TEXT_SIZE / CLOSE_SIZE * CERTAIN if close else room
 
 
 def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression, ...]]:

@@ -157,7 +157,10 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)
     across = _driver_axis(report)
-    return charts.plotted((curve,), across, title, levels=levels, turn=not slides, half=half, area=report.area)
+    height = charts.HEIGHT if report.parts("high-curves") else charts.LOW
+    return charts.plotted(
+        (curve,), across, title, levels=levels, turn=not slides, half=half, height=height, area=report.area
+    )
 
 
 def polar(report: Report) -> FigureScenes:

@@ -6,7 +6,7 @@ of the mechanism are its scheme, groups and positions, the gas beside the cylind
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -62,7 +62,11 @@ WHITE = (34.0, 64.0)
 HALF = 0.5
 CLOSE = 5.5
 """What of their margins (mm) scenes of one figure give up to stand side by side."""
+LEAST_MARGIN = 0.5
+"""The white (mm) that remains around a scene."""
 SCHEME_BOX = (120.0, 75.0)
+HALF_PAGE = 100.0
+"""The height (mm) up to which a figure leaves about half a page to the text."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
 LEGIBLE = 0.4
 """Of the scheme's size: groups drawn smaller yet would be hard to read."""
@@ -93,8 +97,12 @@ def across(scene: Scene) -> bool:
 
 def close(scene: Scene) -> Scene:
     """A scene without the outer part of the white around it."""
-    items = tuple(moved(item, complex(-CLOSE, -CLOSE)) for item in scene.items)
-    return replace(scene, width=scene.width - 2 * CLOSE, height=scene.height - 2 * CLOSE, items=items)
+    trim = scene.margin - LEAST_MARGIN
+    if trim <= 0.0:
+        return scene
+    items = tuple(moved(item, complex(-trim, -trim)) for item in scene.items)
+    width, height = scene.width - 2 * trim, scene.height - 2 * trim
+    return replace(scene, width=width, height=height, items=items, margin=LEAST_MARGIN)
 
 
 def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
@@ -192,7 +200,22 @@ def _reduction(report: Report) -> float:
 
 
 def positions(report: Report) -> FigureScenes:
-    return on_paper(positions_scene(report))
+    return _as_large_as_asked(report, lambda factor: positions_scene(report, factor=factor))
+
+
+def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
+    """A drawing to μ_l, by which it is measured, or at the first reduction that leaves half a page to the text.
+
+    What is wider than the text stands turned, as large as the page allows.
+    """
+    if report.parts("true-size"):
+        return on_paper(draw(1.0))
+    for drawn in (close(draw(factor)) for factor in REDUCTIONS):
+        if drawn.width > TEXT_WIDTH and across(drawn):
+            return FigureScenes((drawn,), turned=True)
+        if drawn.width <= TEXT_WIDTH and drawn.height <= HALF_PAGE:
+            return FigureScenes((drawn,))
+    return on_paper(drawn)
 
 
 def plan_in_text(report: Report) -> bool:
@@ -200,7 +223,7 @@ def plan_in_text(report: Report) -> bool:
     return positions(report).paper is None
 
 
-def positions_scene(report: Report, beside: Canvas | None = None) -> Scene:
+def positions_scene(report: Report, beside: Canvas | None = None, factor: float = 1.0) -> Scene:
     """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
     machine = report.machine
     shows = PositionPlan(
@@ -210,7 +233,7 @@ def positions_scene(report: Report, beside: Canvas | None = None) -> Scene:
         labels=tuple(map(str, report.positions)),
     )
     one_turn = _motion(machine, machine.cycle_angles[[k - 1 for k in report.positions]])
-    return _position_plan(report, one_turn, shows, beside)
+    return _position_plan(report, one_turn, shows, beside, factor)
 
 
 def extremes(report: Report) -> FigureScenes:
@@ -279,9 +302,13 @@ def _numbered(report: Report) -> tuple[str, ...]:
 
 def indicator(report: Report) -> FigureScenes:
     """The diagram in line with the first piston's stroke, every piston's positions read from it."""
+    return _as_large_as_asked(report, lambda factor: _indicator(report, factor))
+
+
+def _indicator(report: Report, factor: float) -> Scene:
     machine, gases = report.machine, report.analysis.gas
     first = machine.pistons[0]
-    unit, scale = 1e4, drawing_scale(report)
+    unit, scale = 1e4, drawing_scale(report) * factor
     top, bottom = first.top * scale, first.bottom * scale
     read = [float(pressure) for gas in gases.values() for pressure in gas.pressure]
     read += [float(pressure) for row in first.indicator.rows for pressure in row]
@@ -306,7 +333,7 @@ def indicator(report: Report) -> FigureScenes:
         for gas in gases.values()
         for k in report.all_positions
     ]
-    return on_paper(positions_scene(report, indicator_figure.indicator(frame, branches, readings)))
+    return positions_scene(report, indicator_figure.indicator(frame, branches, readings), factor)
 
 
 def _free_side(machine: Machine) -> complex:

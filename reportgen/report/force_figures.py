@@ -131,7 +131,10 @@ def true_sense(report: Report, name: str, k: int) -> complex:
 
 
 def bodies(report: Report, k: int, group: GroupView) -> FigureScenes:
-    """The group with all its forces, at half size; then each link that moments are taken of, with the arms."""
+    """The group with all its forces, at half size; then each link that moments are taken of, with the arms.
+
+    Where not all is shown twice, a group whose links both stand by themselves is not drawn as a whole.
+    """
     return beside_one_another(*separated(report, k, group))
 
 
@@ -146,8 +149,11 @@ def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
         *both.outer(group, group.j),
     ]
     title = report.words["figure"]["group"].format(i=group.i, j=group.j)
-    scenes = [both.scene(forces, turning=both.couples(), title=title)]
-    for link, pin in _moments(report, group, k):
+    alone = _moments(report, group, k)
+    scenes = []
+    if report.parts("links-together") or {link for link, _ in alone} != {group.i, group.j}:
+        scenes.append(both.scene(forces, turning=both.couples(), title=title))
+    for link, pin in alone:
         one = _Bodies(report, k, (link,))
         forces = [*one.loads(), *one.found_before(group.polygon), *one.outer(group, link), one.inner(group, link)]
         arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"

@@ -8,8 +8,9 @@ their figure and table in tables of their own.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 from typing import Any
 
 from reportgen.machine.analysis import Position
@@ -42,9 +43,10 @@ from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
-from reportgen.report.figures import PAPERS, FigureScenes
+from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.numbering import number
+from reportgen.report.occurring import occurring
 from reportgen.report.report import Report
 
 # --- names without parentheses ----------------------------------------------------------------------
@@ -214,6 +216,8 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
         caption = report.words["captions"][words or name].format(k=position, g=group)
     drawn = draw(report, *shown)
+    if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
+        drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))
     inlines = report.prose.inlines(caption)
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
@@ -427,16 +431,26 @@ def names(report: Report) -> dict[str, Any]:
 # Cover, contents and the sections that the machine's outline names.
 
 
+LISTING = "symbols"
+"""The section of what all others use."""
+
+
 def compose(case: Calculation) -> Document:
     """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
     report = Report(case)
     words, named = report.words, names(report)
-    blocks: list[Block] = [case.cover]
-    for section in report.sections:
+    written: dict[str, Sequence[Block]] = {}
+    # The list of symbols comes last: it lists those of all other sections.
+    for section in sorted(report.sections, key=LISTING.__eq__):
         if section == "contents":
-            blocks += [PageBreak(), Contents(words["document"]["contents"], not report.parts("contents-page"))]
-        else:
-            blocks += report.prose.render(section, named)
+            brief = not report.parts("contents-page")
+            written[section] = [PageBreak(), Contents(words["document"]["contents"], brief)]
+            continue
+        if section == LISTING:
+            whole = replace(report, occurring=occurring(chain.from_iterable(written.values())))
+            named["table"] = partial(table, whole)
+        written[section] = report.prose.render(section, named)
+    blocks = [case.cover, *chain.from_iterable(written[section] for section in report.sections)]
     assignment = case.assignment
     return number(
         Document(

@@ -138,10 +138,10 @@ def motion_construction(report: Report, what: What) -> Construction[str]:
     return Construction(tuple(sketch.vectors), points, tuple(sketch.lines), _scale(report, ids.scale(what)))
 
 
-def _worked(report: Report, drawing: Plan, k: int) -> Scene:
-    """A worked plan with the mechanism beside it."""
-    small = thumbnail(report.machine.linkage, report.analysis.motion, k - 1)
-    return plan(drawing, beside=(small,), width=FIGURE_ROOM[0])
+def _worked(report: Report, drawing: Plan, k: int, alone: bool = False) -> Scene:
+    """A worked plan with the mechanism beside it, or `alone`."""
+    beside = () if alone else (thumbnail(report.machine.linkage, report.analysis.motion, k - 1),)
+    return plan(drawing, beside=beside, width=FIGURE_ROOM[0])
 
 
 def _scale(report: Report, id: str, k: int | None = None) -> Chain:
@@ -278,7 +278,9 @@ class _Sketch:
 
 def forces(report: Report, k: int, group: GroupView) -> FigureScenes:
     assert group.polygon is not None
-    return on_paper(_worked(report, force_plan(report, group.polygon, k), k))
+    # The separated links, too, show the directions on the mechanism.
+    alone = not report.parts("mechanism-beside-forces")
+    return on_paper(_worked(report, force_plan(report, group.polygon, k), k, alone))
 
 
 def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:

@@ -60,6 +60,8 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             *("comments/reactions", "comments/torque", "comments/flywheel"),
             # in tables relative velocities and accelerations, and loads at other than worked positions
             *("relative", "loads-everywhere"),
+            # positions as large as they are measured by, links and directions that another figure shows as well
+            *("true-size", "links-together", "mechanism-beside-forces", "high-curves"),
             # the usual size of type, pages of their own for the contents
             *("usual-type", "contents-page"),
         )
@@ -79,6 +81,8 @@ class Report:
     case: Calculation
     enlarged: float = 1.0
     samples: Analysis | None = None
+    occurring: frozenset[Symbol] | None = None
+    """The symbols that its text uses, once it is written."""
 
     # --- what it is made of
 

@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from reportgen.base.units import MM
 from reportgen.catalogue.given_loads import ByOrdinates
+from reportgen.drawing.geometry import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.machine.gas import StrokeIndicator
 from reportgen.machine.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
@@ -32,11 +34,18 @@ from reportgen.report.report import Report
 
 WIDEST_COLUMN = 26.0
 MOST_COLUMNS = 9
-MOST_LENGTHS = 7
-"""Columns of lengths that stand beside one another."""
+TITLES = 40.0
+"""The column that says what the rows of lengths are (mm)."""
+TABLE_SIZE = 10.0
+"""The size of type in tables, points."""
+PADDING = 2.2
+"""The white beside what stands in a column (mm)."""
 LONG_WORDS = 10
 """A column with a text this long is one of words and set flush left."""
 
+
+LENGTHS = (ids.length, ids.drawn)
+"""The two rows of a table of lengths."""
 
 # --- what tables are made with
 
@@ -91,13 +100,31 @@ def tables(
         unit = report.ledger.units.get(unit, unit)
         columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
+    room = TEXT_WIDTH - FIRST_COLUMN
+    widths = [] if report.parts("usual-type") else [column_width(report, id, at) for id in shown]
+    fitting = bool(widths) and sum(widths) <= room
     found = side_by_side(
-        report, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=MOST_COLUMNS - 1, heads=2
+        report,
+        key,
+        caption,
+        Column(FIRST_COLUMN),
+        titles=titles,
+        columns=columns,
+        most=len(shown) if fitting else MOST_COLUMNS - 1,
+        heads=2,
+        widths=[min(width + (room - sum(widths)) / len(widths), WIDEST_COLUMN) for width in widths] if fitting else (),
     )
     if not zeros or shown == list(quantities):
         return found
     equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
     return *found, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
+
+
+def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
+    """What a quantity's numbers and its symbol need across (mm), with the white beside them."""
+    numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
+    shown = (head_symbol(report, id), *(one for one in numbers if math.isfinite(one.value)))
+    return max(box(one, TABLE_SIZE).width for one in shown) + PADDING
 
 
 def side_by_side(
@@ -111,10 +138,12 @@ def side_by_side(
     heads: int = 1,
     widest: float = WIDEST_COLUMN,
     together: int = 1,
+    widths: Sequence[float] = (),
 ) -> tuple[Table, ...]:
     """Columns beside one of titles, each with its `heads` on top; several tables where there are too many.
 
-    Each table has at most so many columns, and keeps so many `together`; the key names the first.
+    Each table has at most so many columns, and keeps so many `together`; the key names the first.  The columns of one
+    table alone may have `widths` (mm) of their own.
     """
     count = max(-(-len(columns) // most), 1)
     size = together * -(-len(columns) // (together * count))
@@ -126,7 +155,7 @@ def side_by_side(
         title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
         found.append(
             Table(
-                (first, *(Column(width),) * len(part)),
+                (first, *(map(Column, widths) if widths else (Column(width),) * len(part))),
                 tuple(rows[:heads]),
                 tuple(rows[heads:]),
                 report.prose.inlines(title),
@@ -310,13 +339,14 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 
 
 def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
-    """Real and drawn lengths, one column a length; many lengths in several tables below one another."""
+    """Real and drawn lengths, one column a length; more than have room in several tables below one another."""
     columns = [
-        (lower_digits(line), *(bare(report, name(line), None) for name in (ids.length, ids.drawn)))
-        for line in report.drawn_lines
+        (lower_digits(line), *(bare(report, name(line), None) for name in LENGTHS)) for line in report.drawn_lines
     ]
+    widths = (column_width(report, name(line), (None,)) for line in report.drawn_lines for name in LENGTHS)
+    most = int((TEXT_WIDTH - TITLES) / max(widths, default=WIDEST_COLUMN))
     return side_by_side(
-        report, key, caption, Column(46.0, "left"), titles=head, columns=columns, most=MOST_LENGTHS, widest=22.0
+        report, key, caption, Column(TITLES, "left"), titles=head, columns=columns, most=most, widest=22.0
     )
 
 

@@ -18,6 +18,7 @@ from reportgen import report as tree
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.setting import columns
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
 
@@ -34,8 +35,10 @@ FRAME = r"\vrule width\heavyrulewidth"
 """The side of a framed table."""
 LEADING = 1.2
 """From line to line, in font sizes."""
-LONG, SHORT = 42, 18
-"""Of words with what they lead to: a vector equation in two storeys or the first step of a list, any other row."""
+STOREYS, LONG, SHORT = 42, 28, 18
+"""Of words with what they lead to: a vector equation in two storeys, one in one or the start of a list, other rows."""
+ONE_STOREY = 6
+"""So many vectors stand in one storey."""
 
 
 FAMILIES: Mapping[str, tuple[str, str, str]] = dict.fromkeys(
@@ -151,12 +154,8 @@ class _Writer:
         if isinstance(block, tree.Equation):
             return rf"\let\eqend\nobreak {self.block(block)}\let\eqend\relax\par\nobreak"
         room = self.room_to_table(blocks)
-        if room:
-            needed = _command("needed", f"{room:g}mm")
-        else:
-            short = isinstance(following, tree.Equation) and not isinstance(following.rows[0], VectorEquation)
-            needed = _command("neededbelow", f"{SHORT if short else LONG:g}mm")
-        return f"{needed}{self.block(block)}\\par\\nobreak"
+        name, room = ("needed", room) if room else ("neededbelow", _beginning(following))
+        return f"{_command(name, f'{room:g}mm')}{self.block(block)}\\par\\nobreak"
 
     def room_to_table(self, blocks: Sequence[tree.Block]) -> float:
         """About how much paper (mm) blocks need that lead one to the next and at last to a table; 0 for others."""
@@ -167,7 +166,7 @@ class _Writer:
             elif not tree.leads(block, following, self.language):
                 return 0.0
             elif isinstance(block, tree.Equation):
-                room += LINE * tree.lines(block.rows, tree.TEXT_WIDTH)
+                room += LINE * tree.lines(block.rows, tree.room_for(tree.TEXT_WIDTH, self.document.close))
             else:
                 room += WORDS if isinstance(following, tree.Equation) else OPENING
             if isinstance(following, tree.Table):
@@ -295,7 +294,7 @@ class _Writer:
     def equation(self, equation: tree.Equation) -> str:
         place = rf"\place{{{self.places[equation.key]}}}" if equation.key else ""
         number = place + (f"({escape(equation.number)})" if equation.number else "")
-        *before, last = tree.in_groups(equation.rows, tree.TEXT_WIDTH)
+        *before, last = tree.in_groups(equation.rows, tree.room_for(tree.TEXT_WIDTH, self.document.close))
         return "\n".join([*(self.aligned(group, "") for group in before), self.aligned(last, number)])
 
     def aligned(self, group: Sequence[Expression], number: str) -> str:
@@ -400,6 +399,17 @@ class _Writer:
             printed.append(source)
             at += cell.span
         return " & ".join(printed)
+
+
+def _beginning(block: tree.Block | None) -> float:
+    """About how much paper (mm) the beginning of a block needs with the words that lead to it."""
+    match block:
+        case tree.Equation(rows=(VectorEquation() as first, *_)):
+            return LONG if len(list(columns(first))) <= ONE_STOREY else STOREYS
+        case tree.Equation():
+            return SHORT
+        case _:
+            return LONG
 
 
 def _height(block: tree.Table) -> float:

@@ -58,11 +58,10 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
             *_in(letter),
-            *(("close: true",) if document.close else ()),
         )
     )
-    body = _Blocks(document.language, document.words, letter).write(document.blocks)
-    return f"{_frame()}\n#show: report.with({opening})\n\n{body}\n"
+    body = _Blocks(document.language, document.words, letter, document.close).write(document.blocks)
+    return f"{_frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
 
 
 def _in(letter: tree.Letter) -> Iterator[str]:
@@ -82,11 +81,11 @@ def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:
     return "\n".join((_frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
 
 
-def _frame() -> str:
-    """The frame's source: from the installed package, or beside it in a checkout."""
+def _frame(close: bool = False) -> str:
+    """The frame's source, for a document that is set `close` or not: from the package, or beside it in a checkout."""
     path = templates() / "frames" / "typst" / "report.typ"
     try:
-        return path.read_text(encoding="utf-8")
+        return f"#let close = {str(close).lower()}\n{path.read_text(encoding='utf-8')}"
     except OSError as error:
         raise TypesetterError(f"{path}: {error.strerror}") from error
 
@@ -104,12 +103,15 @@ class _Blocks:
         language: Language,
         words: tree.Words,
         letter: tree.Letter = tree.OWN_LETTER,
+        close: bool = False,
         room: float = tree.TEXT_WIDTH,
     ) -> None:
         self.language = language
         self.formulas = TypstFormulas(language)
         self.words = words
-        self.letter = letter
+        self.letter, self.close = letter, close
+        # Of a document that is set close the letters are a point smaller, as in the frame.
+        self.size = letter.size - close
         self.room = room
 
     def write(self, blocks: Sequence[tree.Block]) -> str:
@@ -220,13 +222,13 @@ class _Blocks:
     # --- blocks -----------------------------------------------------------------------------------
 
     def items(self, block: tree.List) -> str:
-        inner = _Blocks(self.language, self.words, self.letter, self.room - LIST_INDENT)
+        inner = _Blocks(self.language, self.words, self.letter, self.close, self.room - LIST_INDENT)
         name = f"enum(start:{block.start}," if block.ordered else "list("
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
     def equation(self, equation: tree.Equation) -> str:
         """Rows that are set alike in one block each; the number on the last."""
-        groups = tree.in_groups(equation.rows, self.room)
+        groups = tree.in_groups(equation.rows, tree.room_for(self.room, self.close))
         lines = []
         for index, group in enumerate(groups):
             number = equation.number if index == len(groups) - 1 else ""
@@ -243,7 +245,7 @@ class _Blocks:
 
         Rows without a number stand two abreast where they have room so.
         """
-        own = [box(row, self.letter.size, displayed=True).width for row in rows]
+        own = [box(row, self.size, displayed=True).width for row in rows]
         heads = [self.head(row) for row in rows]
 
         def aligned(start: int, step: int) -> float:
@@ -265,7 +267,7 @@ class _Blocks:
         """What a displayed row takes before its first relation (mm)."""
         if not isinstance(row, Chain) or len(displayed(row, self.language)) == 1:
             return 0.0
-        return box(row.parts[0], self.letter.size, displayed=True).width
+        return box(row.parts[0], self.size, displayed=True).width
 
     def row(self, row: Expression) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""

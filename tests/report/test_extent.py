@@ -28,8 +28,6 @@ TELLING = ["engine-twin-05", "shaper-01", "slotted-lever-01", "linkage-slide"]
 """A book's engine, curves that are asked for, motion alone, a sliding driver."""
 ENGINE, OTHER = 25, 20
 """Pages that a short report may take."""
-LARGER = {"linkage-8": 24, "toggle-press-01": 23}
-"""Those of three groups and of a flywheel take more, as counted."""
 
 
 def case(name: str, extent: Extent) -> MachineCase:
@@ -134,10 +132,10 @@ def test_its_contents_and_its_look() -> None:
     ),
 )
 def test_its_pages(name: str, engine: api.Engine) -> None:
-    """At most 25 for an engine and 20 for other machines, but for the larger ones."""
+    """At most 25 for an engine and 20 for other machines."""
     pdf = api.typeset(document(name, "short"), engine)[1]
     with pymupdf.open(stream=pdf) as pages:
-        assert len(pages) <= LARGER.get(name, ENGINE if name.startswith("engine") else OTHER)
+        assert len(pages) <= (ENGINE if name.startswith("engine") else OTHER)
 
 
 # --- what does not depend on it -------------------------------------------------------------------

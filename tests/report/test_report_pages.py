@@ -25,7 +25,7 @@ LEAST = 6.0
 """Points: the smallest letter that is read without effort from paper."""
 ROUNDED = 0.03
 """Points by which a size from a PDF may be off: sizes are products of rounded factors."""
-SHARE, FEW = 0.05, 3
+SHARE, FEW = 0.04, 2
 """Of the pages, or so many of a short report, may be thin, cover, contents and last page apart: a page ends early
 before a figure as high as a page and where a section has no more text to let run on."""
 LATE = 3

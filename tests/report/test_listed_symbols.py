@@ -1,0 +1,74 @@
+"""The list of symbols: those that the text uses, and no others."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import takewhile
+
+from reportgen.formula.plain import formula
+from reportgen.report import Block, Equation, InlineMath, Paragraph, Plate, Section, Table, plain
+from reportgen.report import Figure as Drawn
+from reportgen.report.chapters import symbol_kinds
+from reportgen.report.report import Report
+from tests.report.built import Written, walk
+
+
+def parts(written: Written) -> tuple[list[Block], list[Block]]:
+    """The blocks of the section with the list of symbols, and all others."""
+    blocks = written.document.blocks
+    at = next(n for n, block in enumerate(blocks) if isinstance(block, Table) and block.key == "tab.symbols")
+    start = max(n for n, block in enumerate(blocks[:at]) if isinstance(block, Section))
+    section = [blocks[start], *takewhile(lambda block: not isinstance(block, Section), blocks[start + 1 :])]
+    return section, [*blocks[:start], *blocks[start + len(section) :]]
+
+
+def printed(blocks: list[Block], language: str) -> Iterator[str]:
+    """What is read, block for block, drawings apart."""
+    for block in walk(tuple(blocks)):
+        match block:
+            case Paragraph(inlines):
+                yield plain(inlines, language)
+            case Equation(rows):
+                yield from (formula(row, language) for row in rows)
+            case Table():
+                yield plain(block.caption, language)
+                yield from (plain(cell.inlines, language) for row in (*block.head, *block.rows) for cell in row)
+            case Drawn(caption=caption) | Plate(caption=caption):
+                yield plain(caption, language)
+
+
+def occurs(symbol: str, text: str) -> bool:
+    """As a whole: v_B is no part of v_BA."""
+    return re.search(rf"(?<![\w_]){re.escape(symbol)}(?![\w_^])", text) is not None
+
+
+def test_each_symbol_that_is_listed_occurs(written: Written) -> None:
+    section, others = parts(written)
+    language = written.document.language
+    text = re.sub("[\u20d7\u2192|]", " ", "\n".join(printed(others, language)))
+    listed = [
+        formula(inline.expression, language)
+        for block in section
+        if isinstance(block, Table) and block.key == "tab.symbols"
+        for row in block.rows
+        for inline in row[0].inlines
+        if isinstance(inline, InlineMath)
+    ]
+    assert listed
+    assert [one for one in listed if not occurs(one, text)] == []
+
+
+def test_each_kind_of_symbol_that_occurs_is_listed(written: Written) -> None:
+    """But for what is explained where it stands."""
+    section, others = parts(written)
+    language = written.document.language
+    report = Report(written.case)
+    text = "\n".join(
+        formula(row, language) for block in walk(tuple(others)) if isinstance(block, Equation) for row in block.rows
+    )
+    table = next(block for block in section if isinstance(block, Table) and block.key == "tab.symbols")
+    listed = {plain(row[1].inlines, language) for row in table.rows}
+    for kind, alike in symbol_kinds(report).items():
+        if any(occurs(formula(report.ledger.symbol(id), language), text) for id in alike):
+            assert kind in listed
