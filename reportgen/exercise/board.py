@@ -118,6 +118,8 @@ class Board:
     q: Sheet
     layout: Layout
     steps: list[Step] = field(default_factory=list)
+    closed: bool = False
+    """Whether the loops of the system are solved already."""
 
     @property
     def motion(self) -> InstantMotion:

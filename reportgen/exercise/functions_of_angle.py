@@ -1,8 +1,7 @@
 """The equations of motion of a body whose place is a function of its angle alone, and their derivatives.
 
 Such a body rolls on a fixed line, or has two points on fixed lines that meet; each of its points then has
-P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.  The angle of a rod between a crank and a fixed line is a
-function of the crank's.
+P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.  All others follow from the loops of the system.
 """
 
 from __future__ import annotations
@@ -12,13 +11,14 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations, permutations
+from itertools import combinations
 
 import numpy as np
 
 from reportgen.exercise import file
 from reportgen.exercise.board import Board, Step, size_of
 from reportgen.exercise.centres import SAME_PLACE, Layout
+from reportgen.exercise.equations import by_loops
 from reportgen.exercise.places import parallel
 from reportgen.formula import (
     NOTHING,
@@ -27,12 +27,9 @@ from reportgen.formula import (
     Number,
     Ref,
     Symbol,
-    asin,
-    between,
     cos,
     cosine,
     ids,
-    is_zero,
     minus,
     over,
     plus,
@@ -99,88 +96,10 @@ def by_equations(board: Board) -> bool:
     """The rates of one more body from the equations of motion of its points."""
     for body in board.layout.members:
         if not board.knows(ids.formula_angle(body)):
-            found, rod = motion_laws(board.layout, body), rod_on_crank(board.layout, body)
-            if found is not None and _enter(board, body, *found):
+            found = motion_laws(board.layout, body)
+            if found is not None and not board.closed and _enter(board, body, *found):
                 return True
-            if rod is not None and _enter_rod(board, body, rod):
-                return True
-    return False
-
-
-# --- a rod that hangs on a crank ------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class RodOnCrank:
-    """A rod AB: A on a body that turns about a fixed centre, B on a fixed line in the direction `along`."""
-
-    crank: int
-    centre: str
-    pin: str
-    end: str
-    along: complex
-
-
-def rod_on_crank(layout: Layout, body: int) -> RodOnCrank | None:
-    """How a body hangs on a crank whose rotation is given, if it does."""
-    told = {one.body for one in layout.given.given if isinstance(one, file.OmegaOf)}
-    named = [one.point for one in layout.given.given if isinstance(one, file.VelocityOf) and one.size is not None]
-    cranks = {crank: one for crank, one in layout.centres.items() if crank != body and one.rule == "pivot"}
-    for pin, end in permutations(layout.own(body), 2):
-        for crank, centre in cranks.items():
-            turns = crank in told or any(name in layout.members[crank] for name in named)
-            if turns and end in layout.slots and pin in layout.members[crank] and not layout.is_centre(centre, pin):
-                return RodOnCrank(crank, centre.name, pin, end, layout.slots[end])
-    return None
-
-
-def _enter_rod(board: Board, body: int, rod: RodOnCrank) -> bool:
-    """φ of the rod as a function of the crank's: r sin(φ₁ − β) + l sin(φ₂ − β) = h, and what its derivative says.
-
-    h is the line's distance from the crank's centre, β its angle; whether the crank's rotation is known.
-    """
-    q, layout, points = board.q, board.layout, board.layout.points
-    if not board.knows_omega(rod.crank) or board.knows_omega(body):
-        return False
-    lines: list[str] = []
-
-    def line(id: str, formula: Expression, symbol: Symbol | str = "") -> Ref:
-        lines.append(id)
-        return q.define(id, formula, symbol)
-
-    arm, reach = points[rod.pin] - points[rod.centre], points[rod.end] - points[rod.pin]
-    r, l = board.length(rod.centre, rod.pin), board.length(rod.pin, rod.end)  # noqa: E741
-    offset = cross(rod.along, points[rod.end] - points[rod.centre])
-    h = as_number(offset)
-    β = Number(float(f"{math.degrees(cmath.phase(rod.along)):.10g}"), unit="°")
-    φ1 = q.find(ids.formula_angle(rod.crank)) or q.give(
-        ids.formula_angle(rod.crank), cmath.phase(arm), Symbol("φ", str(rod.crank)), exact=False
-    )
-    turned = between(φ1, β)
-    dip = asin(over(plus(h, minus(times(r, sine(turned)))), l))
-    ahead = (reach * rod.along.conjugate()).real > 0
-    angle = dip if ahead else STRAIGHT - dip
-    φ = line(ids.formula_angle(body), angle if is_zero(β) else plus(β, angle), Symbol("φ", str(body)))
-    lean = between(φ, β)
-    ω1 = signed(board.motion.omega(rod.crank) or 1.0, q[ids.angular_velocity(rod.crank)])
-    sense = board.motion.omega(body)
-    rate = over(minus(times(ω1, r, cosine(turned))), times(l, cosine(lean)))
-    ω = signed(sense or 1.0, line(ids.angular_velocity(body), signed(sense or 1.0, rate)))
-    for name in layout.own(body):
-        u = (points[name] - points[rod.pin]) / reach * abs(reach)
-        along, across = (_constant(board, part) for part in (u.real, u.imag))
-        e, n = (cosine(φ), sine(φ)), (minus(sine(φ)), cosine(φ))
-        pin = cosine(φ1), sine(φ1)
-        start = points[rod.centre]
-        for index, axis in enumerate("xy"):
-            fixed = as_number((start.real, start.imag)[index])
-            place = plus(fixed, times(r, pin[index]), times(along, e[index]), times(across, n[index]))
-            line(ids.formula_coordinate(axis, name), place)
-        v_x = plus(minus(times(ω1, r, pin[1])), minus(times(ω, plus(times(along, e[1]), times(across, n[1])))))
-        v_y = plus(times(ω1, r, pin[0]), times(ω, plus(times(along, e[0]), times(across, n[0]))))
-        _vector(board, line, "v", name, (v_x, v_y))
-    board.steps.append(Step("equations-rod", (φ1.id, *lines), body, rod.end, rod.pin))
-    return True
+    return by_loops(board)
 
 
 def as_number(value: float) -> Expression:

@@ -229,7 +229,8 @@ def find_velocities(board: Board, method: Method | None, alone: bool = False) ->
     """
     finders = CHOSEN
     if method is not None:
-        own = (about_joints, *OWN[method], by_moving_frame if method == "instant centre" else by_guided_frame)
+        joints = (by_equations, about_joints) if method == "equations" else (about_joints, *OWN[method])
+        own = (*joints, by_moving_frame if method == "instant centre" else by_guided_frame)
         finders = own if alone and method != "moving frame" else (*own, *CHOSEN)
     while any(find(board) for find in finders):
         pass
