@@ -80,7 +80,7 @@ class Rate:
 
 @dataclass(frozen=True, slots=True)
 class Spoke:
-    """A vector of a derivative: factor × rates along a direction turned by right angles; `size` is that of the factor."""
+    """A vector of a derivative: factor × rates along a direction turned by right angles; `size` is the factor's."""
 
     factor: Expression
     size: float
@@ -111,10 +111,12 @@ def derivative(leg: Leg, leader: int, order: int) -> Iterator[Spoke]:
 
 @dataclass(frozen=True)
 class VectorSum:
-    """Σ spokes = 0, from a loop or from a point whose rate is given."""
+    """Σ spokes = 0, from a loop through a point or from a point whose rate is given."""
 
+    point: str
     spokes: tuple[Spoke, ...]
     closure: tuple[Chain, ...] = ()
+    kind: str = "loop"
 
 
 @dataclass
@@ -287,7 +289,7 @@ class EquationsOfMotion:
                 waiting.remove(one)
                 if found:
                     system = (*one.closure, *self.rows(spokes))
-                    self._step("loop", (*self._read(one.spokes), *self._define(found)), system)
+                    self._step(one.kind, (*self._read(one.spokes), *self._define(found)), system, point=one.point)
                 return True
         return False
 
@@ -535,7 +537,7 @@ def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> Non
     for closure in linked.closures:
         legs = [*legs_of(closure)]
         spokes = tuple(one for leg in legs for one in derivative(leg, leg.direction.body, order))
-        sums.append(VectorSum(spokes, equations.closure(closure) if order == VELOCITY else ()))
+        sums.append(VectorSum(closure.point, spokes, equations.closure(closure) if order == VELOCITY else ()))
     sums += [one for rate in given if (one := _of_point(equations, rate)) is not None]
     equations.solve([one for one in sums if one.spokes])
     equations.points()
@@ -568,5 +570,6 @@ def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum |
     sense = dot(unit(rate.direction.si), of(rate.point))
     direction = given_direction(rate.direction.si, sense if size is None else size)
     if size == 0:
-        return VectorSum(tuple(moving))
-    return VectorSum((*moving, Spoke(minus(ONE), -1.0, direction, rates=(own,))))
+        return VectorSum(rate.point, tuple(moving), kind="given")
+    whole = (*moving, Spoke(minus(ONE), -1.0, direction, rates=(own,)))
+    return VectorSum(rate.point, whole, kind="given")

@@ -21,7 +21,7 @@ from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
-from reportgen.report import Equation, InlineMath, Inlines, Text, Value, listed
+from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.prose import NamedPoint
 
 AT = 1
@@ -62,6 +62,10 @@ class StepView:
     """Whether it projects on x or y."""
     contact: NamedPoint | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
+    turns: Inlines
+    """The rotations that are worked out, each with its sense."""
+    has_ways: bool
+    """Whether ways along straight lines are told."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +158,20 @@ class Solution:
             on_line=any(axis.letter == "ξ" for axis in step.axes),
             on_coordinates=any(axis.letter in COORDINATES for axis in step.axes),
             contact=NamedPoint(centre.name) if rolling and centre is not None else "",
+            turns=self._turns(shown),
+            has_ways=any(id in ids.slide_way for id in shown),
         )
+
+    def _turns(self, shown: Sequence[str]) -> Inlines:
+        """The rotations of bodies among some ids, each with its sense: ω₂ anticlockwise, ω₃ clockwise."""
+        motion, told = self.case.exercise.motion, list[Inline]()
+        for rate, family in ids.LINK_RATE.items():
+            for id in shown:
+                found = family.read(id)
+                if found is not None and (body := int(found["link"])) in motion.system.bodies:
+                    sense = Text(f" {self._sense(motion.turn(rate, body))}")
+                    told += [*([Text(", ")] if told else []), InlineMath(self.worked.printed.symbol(id)), sense]
+        return tuple(told)
 
     def _angles_of(self, id: str) -> list[str]:
         definition = self.worked.printed[id].definition
