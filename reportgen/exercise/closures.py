@@ -131,6 +131,8 @@ class Linked:
         given, layout = self.board.layout.given, self.board.layout
         self.members = {body: layout.own(body) for body in layout.members}
         self._join_turns()
+        moving = {name for names in self.members.values() for name in names}
+        self.places = {name: Place(self._coordinates(name)) for name in given.points if name not in moving}
         for joint in given.joints:
             if isinstance(joint, file.Pin) and GROUND in joint.bodies:
                 self.places[joint.at] = Place(self._coordinates(joint.at))

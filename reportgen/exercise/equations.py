@@ -35,6 +35,7 @@ from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.places import name_of, parallel, unit
 from reportgen.exercise.solving import NEGLIGIBLE, unknowns_of
 from reportgen.formula import (
+    MINUS_ONE,
     NOTHING,
     ONE,
     Call,
@@ -101,11 +102,12 @@ def derivative(leg: Leg, leader: int, order: int) -> Iterator[Spoke]:
     if leg.way is not None:
         # The length of a way has its sign in its value; its rate has it in the reversed leg's sign.
         sense = 1.0 if isinstance(leg.length, Ref) else -1.0
-        along = replace(length, factor=signed(sense, ONE), size=sense)
+        along = replace(length, factor=ONE if sense > 0 else MINUS_ONE, size=sense)
         yield replace(along, rates=(Rate(leg.way, order),))
         if order == ACCELERATION and leader != GROUND:
             ω = Rate(turn, VELOCITY)
-            coriolis = replace(along, factor=signed(sense, TWO), size=2 * sense, quarters=leg.quarters + 1)
+            twice = TWO if sense > 0 else minus(TWO)
+            coriolis = replace(along, factor=twice, size=2 * sense, quarters=leg.quarters + 1)
             yield replace(coriolis, rates=(Rate(leg.way, VELOCITY), ω))
 
 
@@ -202,7 +204,12 @@ class EquationsOfMotion:
         return times(*self._factors(a), *self._factors(b), self._trigonometric(between, quarters))
 
     def _factors(self, spoke: Spoke) -> tuple[Expression, ...]:
-        return self.product(spoke.rates), spoke.factor
+        return self._ordered(self.product(spoke.rates), spoke.factor)
+
+    @staticmethod
+    def _ordered(rates: Expression, factor: Expression) -> tuple[Expression, Expression]:
+        """A number stands before the rates, a length behind them."""
+        return (factor, rates) if isinstance(factor, Number) else (rates, factor)
 
     @staticmethod
     def _trigonometric(angle: Expression, quarters: int) -> Expression:
@@ -215,7 +222,7 @@ class EquationsOfMotion:
         terms = []
         for one in spokes:
             turned = self._trigonometric(self.linked.angle(one.direction), one.quarters + (axis == "x"))
-            terms.append(times(self.product(one.rates, by_symbol), one.factor, turned))
+            terms.append(times(*self._ordered(self.product(one.rates, by_symbol), one.factor), turned))
         return plus(*terms)
 
     # --- what is to be solved

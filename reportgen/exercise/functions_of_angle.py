@@ -18,7 +18,7 @@ import numpy as np
 from reportgen.exercise import file
 from reportgen.exercise.board import Board, Step, size_of
 from reportgen.exercise.centres import SAME_PLACE, Layout
-from reportgen.exercise.equations import by_loops
+from reportgen.exercise.equations import by_loops, coordinates
 from reportgen.exercise.places import parallel
 from reportgen.formula import (
     NOTHING,
@@ -93,7 +93,9 @@ def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]]
 
 
 def by_equations(board: Board) -> bool:
-    """The rates of one more body from the equations of motion of its points."""
+    """The rates of one more body from the equations of motion of its points, at last all of them from the loops."""
+    if coordinates(board.layout) != 1:
+        return False
     for body in board.layout.members:
         if not board.knows(ids.formula_angle(body)):
             found = motion_laws(board.layout, body)
@@ -185,7 +187,8 @@ def _acceleration(
             ):
                 values = [abs(_value(board, part)) for part in rates[point]]
                 index = int(values[1] > values[0])
-                degrees = Number(float(f"{math.degrees(direction.si):.10g}"), unit="°")
+                heading = math.degrees(direction.si) + (180.0 if size.si < 0 else 0.0)
+                degrees = Number(float(f"{heading:.10g}"), unit="°")
                 given = times(board.given(ids.acceleration(point), size.si), (cosine, sine)[index](degrees))
                 top = plus(given, minus(times(square(ω), second[point][index])))
                 return signed(sense or 1.0, line(id, signed(sense or 1.0, over(top, rates[point][index]))))

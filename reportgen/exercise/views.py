@@ -128,6 +128,8 @@ class Solution:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.printed, worked.layout
         shown = [id for id in step.ids if id in ledger and not self._is_declared_length(id)]
+        # What a system comes to is told by its results.
+        lines = [id for id in shown if not (step.results and ledger[id].constructed)]
         centre = layout.centres.get(step.body)
         rate = motion.omega(step.body) if step.body else 0.0
         if any(id in ids.angular_acceleration for id in shown):
@@ -144,7 +146,7 @@ class Solution:
             centre=NamedPoint(centre.name if centre is not None else ""),
             one=NamedPoint(others[0]),
             other=NamedPoint(step.other or others[1]),
-            lines=(Equation(tuple(map(self._chain, shown))),) if shown else (),
+            lines=(Equation(tuple(map(self._chain, lines))),) if lines else (),
             equation=(self._equation(step),) if step.equation is not None and step.equation.left else (),
             angles=tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             sense=self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),

@@ -81,7 +81,7 @@ def test_a_short_report_of_other_kinds() -> None:
         *beginning, "dimensions", *kinematics, *forces, "flywheel", *end,
     ]  # fmt: skip
     assert Report(case("slotted-lever-01", "short")).sections == [*beginning, "dimensions", *kinematics, *end]
-    # The source of the six-link lever mechanism ends its accelerations with the table of all velocities and accelerations.
+    # The source of the six-link lever mechanism has the table of all velocities and accelerations.
     assert Report(case("lever-six-bar-01", "short")).sections == [
         *beginning, "dimensions", *kinematics, "summary", *forces, *end,
     ]  # fmt: skip
