@@ -29,6 +29,7 @@ from reportgen.formula import (
     is_zero,
     minus,
     plus,
+    refs,
     signed,
 )
 from reportgen.formula.constructions import cross, dot
@@ -46,13 +47,13 @@ class Turn:
 
 
 @dataclass(frozen=True, slots=True)
-class Slide:
+class WayAlong:
     """The way of a point along a straight line, by its number among all of them."""
 
     number: int
 
 
-Coordinate = Turn | Slide
+Coordinate = Turn | WayAlong
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,7 +72,7 @@ class Leg:
     value: float
     direction: Direction
     quarters: int = 0
-    way: Slide | None = None
+    way: WayAlong | None = None
 
     def reversed(self) -> Leg:
         return replace(self, length=minus(self.length), value=-self.value)
@@ -98,7 +99,7 @@ class Closure:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class StraightWay:
     """What slides along a straight line: the point, its body, the body of the line and the direction of it."""
 
     point: str
@@ -119,13 +120,15 @@ class Linked:
     places: dict[str, Place] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     relations: list[Relation] = field(default_factory=list)
-    lines: list[Line] = field(default_factory=list)
+    lines: list[StraightWay] = field(default_factory=list)
     rods: dict[int, tuple[str, str]] = field(default_factory=dict)
     """The ends of rods that are no bodies of the file, by their numbers."""
     reference: dict[int, float] = field(default_factory=dict)
     """The φ of each body at the instant (rad)."""
     turning: dict[int, int] = field(default_factory=dict)
     """The body that each one turns with."""
+    read_off: dict[str, tuple[float, Symbol]] = field(default_factory=dict)
+    """The ways along lines, read off the figure unless a formula gives them before they are needed."""
 
     def __post_init__(self) -> None:
         given, layout = self.board.layout.given, self.board.layout
@@ -187,6 +190,17 @@ class Linked:
         """The angle of a body, as it is read off the figure."""
         q, id = self.board.q, ids.formula_angle(body)
         return q.find(id) or q.give(id, self.reference[body], Symbol("φ", self.letter(body)), exact=False)
+
+    def way_id(self, way: WayAlong) -> str:
+        return ids.slide_way(f"{self.lines[way.number].body},{way.number}")
+
+    def way(self, of: Expression) -> Expression:
+        """A length with the ways in it put on the board."""
+        for id in refs(of):
+            if id not in self.board.q:
+                value, symbol = self.read_off[id]
+                self.board.q.give(id, value, symbol, exact=False)
+        return of
 
     def letter(self, body: int) -> str:
         """What stands below the letters of a body: its number, of a rod its ends."""
@@ -271,16 +285,16 @@ class Linked:
                 return True
         return False
 
-    def _line(self, joint: file.SlotJoint | file.Slider | file.RollingOnLine) -> Line:
+    def _line(self, joint: file.SlotJoint | file.Slider | file.RollingOnLine) -> StraightWay:
         along = self.board.layout.geometry.direction(joint)
         match joint:
             case file.SlotJoint(point=point, body=body):
-                return Line(point, body, joint.on, along)
+                return StraightWay(point, body, joint.on, along)
             case file.Slider(body=body):
-                return Line(self.board.layout.given.bodies[body].carried[0], body, joint.on, along)
-        return Line(self.board.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
+                return StraightWay(self.board.layout.given.bodies[body].carried[0], body, joint.on, along)
+        return StraightWay(self.board.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
 
-    def _slide(self, joint: file.Joint, line: Line) -> None:
+    def _slide(self, joint: file.Joint, line: StraightWay) -> None:
         """P = T + s e + h n: along the line and across it from a point of its body, on the ground from the origin."""
         q, points, number = self.board.q, self.board.layout.points, len(self.lines)
         self.lines.append(line)
@@ -288,10 +302,11 @@ class Linked:
         base = "" if on_ground else self._base(line)
         there = points[line.point] - (points[base] if base else 0j)
         direction, sense = self.direction(line.on, line.along)
-        way = Slide(number)
+        way = WayAlong(number)
         gone = sense * dot(line.along, there)
-        s = q.give(ids.slide_way(f"{line.body},{number}"), gone, Symbol("s", line.point), exact=False)
-        legs = [Leg(s, gone, direction, way=way)]
+        id = self.way_id(way)
+        self.read_off[id] = (gone, Symbol("s", line.point))
+        legs = [Leg(Ref(id), gone, direction, way=way)]
         if abs(off := sense * cross(line.along, there)) > SAME_PLACE:
             id = ids.loop_distance(f"{line.body},{number}")
             h = q.give(id, abs(off), Symbol("h", line.point), exact=is_short(abs(off)))
@@ -305,7 +320,7 @@ class Linked:
         if isinstance(joint, file.RollingOnLine):
             self._roll(joint, way, self.lines[number])
 
-    def _base(self, line: Line) -> str:
+    def _base(self, line: StraightWay) -> str:
         """The point of a line's body that ways along it count from: one that is reached, and on the line at best."""
         points, names = self.board.layout.points, self.members[line.on]
         known = [name for name in names if name in self.places] or names
@@ -316,7 +331,7 @@ class Linked:
 
         return min(known, key=rank)
 
-    def _roll(self, joint: file.RollingOnLine, way: Slide, line: Line) -> None:
+    def _roll(self, joint: file.RollingOnLine, way: WayAlong, line: StraightWay) -> None:
         """ṡ = R (ω of the line − ω of the disc), of a disc to the left of the line."""
         layout = self.board.layout
         touch = layout.geometry.contact_on_line(joint)

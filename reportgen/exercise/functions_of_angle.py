@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
@@ -18,8 +18,12 @@ import numpy as np
 from reportgen.exercise import file
 from reportgen.exercise.board import Board, Step, size_of
 from reportgen.exercise.centres import SAME_PLACE, Layout
-from reportgen.exercise.equations import by_loops, coordinates
-from reportgen.exercise.places import parallel
+from reportgen.exercise.closures import Linked, Turn, WayAlong, given_direction, legs_of
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.derivatives import ACCELERATION, RATES, VELOCITY, CoordinateRate, Spoke, derivative
+from reportgen.exercise.equations import EquationsOfMotion, VectorSum
+from reportgen.exercise.places import name_of, parallel, unit
+from reportgen.exercise.solving import NEGLIGIBLE, unknowns_of
 from reportgen.formula import (
     NOTHING,
     ONE,
@@ -40,7 +44,7 @@ from reportgen.formula import (
     square,
     times,
 )
-from reportgen.formula.constructions import cross, meet
+from reportgen.formula.constructions import cross, dot, meet
 from reportgen.formula.evaluation import evaluate
 
 Pair = tuple[Expression, Expression]
@@ -206,3 +210,95 @@ def _size(board: Board, parts: Pair) -> Expression:
     if len(kept) == 1:
         return signed(_value(board, kept[0]), kept[0])
     return sqrt(plus(*(square(part) for part in kept)))
+
+
+# --- all bodies together ----------------------------------------------------------------------------
+
+
+def coordinates(layout: Layout) -> int:
+    """How many coordinates the bodies have whose motion is determined: the motions that their joints leave open."""
+    motion = layout.motion
+    unknowns = unknowns_of(motion.system)
+    sized = {
+        name_of(index, "given", *one.called)
+        for index, one in enumerate(layout.given.given)
+        if not isinstance(one, file.VelocityOf) or one.size is not None
+    }
+    held = [one for one in motion.system.conditions if one.velocity is not None and one.name not in sized]
+    matrix = np.array([unknowns.row(one) for one in held]).reshape(len(held), unknowns.count)
+    _, sizes, motions = np.linalg.svd(matrix)
+    rank = int((sizes > NEGLIGIBLE * max(sizes, default=0.0)).sum())
+    known = [body for body in unknowns.bodies if motion.knows_omega(body) and motion.knows_centre(body)]
+    known = known or [*unknowns.bodies]
+    columns = [3 * unknowns.bodies.index(body) + part for body in known for part in range(3)]
+    free = motions[rank:, columns]
+    return int(np.linalg.matrix_rank(free, NEGLIGIBLE)) if free.size else 0
+
+
+def by_loops(board: Board) -> bool:
+    """All rates of a system with one coordinate from its loops; whether it was not tried before."""
+    if board.closed:
+        return False
+    board.closed = True
+    linked = Linked(board)
+    equations = EquationsOfMotion(board, linked)
+    given = board.layout.given.given
+    _solve(equations, [one for one in given if isinstance(one, file.VelocityOf | file.FromRest)])
+    accelerations = [one for one in given if isinstance(one, file.AccelerationOf | file.FromRest)]
+    turns = [one for one in given if isinstance(one, file.EpsilonOf)]
+    for one in turns:
+        board.given(ids.angular_acceleration(one.body), one.value.si)
+    if turns or accelerations:
+        equations.order = ACCELERATION
+        _solve(equations, accelerations)
+    return True
+
+
+def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> None:
+    """The velocities, or the accelerations, of everything from what is given of them."""
+    board, linked, order = equations.board, equations.linked, equations.order
+    for body in linked.turning:
+        rate = CoordinateRate(Turn(linked.turning[body]), order)
+        knows = board.knows_omega if order == VELOCITY else board.knows_epsilon
+        if body in board.layout.members and knows(body):
+            equations.known.add(rate)
+    sums = []
+    for closure in linked.closures:
+        legs = [*legs_of(closure)]
+        spokes = tuple(one for leg in legs for one in derivative(leg, leg.direction.body, order))
+        sums.append(VectorSum(closure.point, spokes, closure))
+    sums += [one for rate in given if (one := _of_point(equations, rate)) is not None]
+    equations.solve([one for one in sums if one.spokes])
+    equations.points()
+
+
+def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum | None:
+    """What a given rate of a point says; None where it is that of its way along a line of the ground."""
+    board, order = equations.board, equations.order
+    assert isinstance(rate, file.VelocityOf | file.AccelerationOf | file.FromRest)
+    if isinstance(rate, file.FromRest):
+        size: float | None = rate.acceleration.si
+    else:
+        size = None if rate.size is None else rate.size.si
+    id = ids.POINT_RATE[RATES[order]](rate.point)
+    if size is not None and order == ACCELERATION:
+        board.given(id, size)
+    for number, line in enumerate(equations.linked.lines):
+        along = line.on == GROUND and line.point == rate.point and parallel(line.along, unit(rate.direction.si))
+        if along and size is not None:
+            equations.known.add(CoordinateRate(WayAlong(number), order))
+            return None
+    place = equations.linked.places.get(rate.point)
+    if place is None:
+        return None
+    moving = [one for leg in place.legs for one in derivative(leg, leg.direction.body, order)]
+    own = CoordinateRate(rate.point, order)
+    if size is not None:
+        equations.known.add(own)
+    of = equations.board.motion.v if order == VELOCITY else equations.board.motion.a
+    sense = dot(unit(rate.direction.si), of(rate.point))
+    direction = given_direction(rate.direction.si, sense if size is None else size)
+    if size == 0:
+        return VectorSum(rate.point, tuple(moving), kind="given")
+    whole = (*moving, Spoke(minus(ONE), -1.0, direction, rates=(own,)))
+    return VectorSum(rate.point, whole, kind="given")

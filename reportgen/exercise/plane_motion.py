@@ -18,7 +18,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.equations import coordinates
+from reportgen.exercise.functions_of_angle import coordinates
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Negative, Ref

@@ -129,6 +129,8 @@ def test_every_example_by_every_method_that_applies(path: Path, method: Any) -> 
     st.integers(-40, 40).filter(bool),
 )
 def test_all_methods_that_apply_agree(tmp_path: Path, form: str, a: int, b: int, x: int, rate: int) -> None:
+    # Above the wheel's centre or below it C tells along which line A moves, but no projection tells how fast.
+    assume(form is not WHEEL_WITH_ROD or abs(a) != 90)
     path = tmp_path / "file.yaml"
     path.write_text(form.format(a=a, b=b, x=x / 10, rate=rate / 10), encoding="utf-8")
     try:

@@ -1,0 +1,135 @@
+"""Coordinates of a loop in closed form: two unknown ones as functions of the others.
+
+==================== ============================================================ ==========================
+unknown              loop, with k the known legs                                  found by
+==================== ============================================================ ==========================
+two angles           k + l₁ e₁ + l₂ e₂ = 0                                        the cosine rule
+an angle and a way   k + l e + s e_α = 0 along a line of known direction α        the distance from the line
+both of one body     k + s e + h n = 0 along a line that turns with the body      the way's length
+==================== ============================================================ ==========================
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from itertools import permutations
+
+from reportgen.exercise.centres import SAME_PLACE
+from reportgen.exercise.closures import Closure, Coordinate, Direction, Leg, Turn, WayAlong, legs_of
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.derivatives import RateFormulas, Spoke
+from reportgen.formula import (
+    NOTHING,
+    ONE,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    acos,
+    asin,
+    atan2,
+    ids,
+    is_zero,
+    minus,
+    over,
+    plus,
+    signed,
+    sqrt,
+    square,
+)
+from reportgen.formula.constructions import cross
+
+STRAIGHT = Number(180.0, unit="°")
+X_AXIS = Direction(GROUND, 0.0)
+
+
+def closed_form(k: RateFormulas, loop: Closure, legs: Sequence[Leg], unknown: Sequence[Coordinate]) -> tuple[str, ...]:
+    """Enters the unknown coordinates of a loop; the ids of the lines, none where there is no such form."""
+    known = [leg for leg in legs_of(loop) if leg not in legs]
+    spokes = [*map(_spoke, known)]
+    for axis in range(2):
+        fixed = plus(loop.one.fixed[axis], minus(loop.other.fixed[axis]))
+        if fixed != NOTHING:
+            spokes.append(Spoke(fixed, 0.0, X_AXIS, axis))
+    for one, other in permutations(unknown):
+        own = [leg for leg in legs if isinstance(one, Turn) and leg.direction.body == one.body]
+        rest = [leg for leg in legs if leg not in own]
+        if not isinstance(one, Turn):
+            continue
+        if isinstance(other, Turn) and len(own) == len(rest) == 1 and all(leg.way is None for leg in legs):
+            return _two_angles(k, loop.point, spokes, own[0], rest[0])
+        if isinstance(other, WayAlong) and len(own) == len(rest) == 1 and own[0].way is None:
+            return _angle_and_way(k, spokes, own[0], rest[0], other)
+        ways = [leg for leg in own if leg.way == other]
+        if isinstance(other, WayAlong) and not rest and len(ways) == 1 and len(own) <= 2:
+            return _line_that_turns(k, spokes, ways[0], [leg for leg in own if leg not in ways], other)
+    return ()
+
+
+def _two_angles(k: RateFormulas, point: str, spokes: list[Spoke], one: Leg, other: Leg) -> tuple[str, ...]:
+    """e₁ lies at the cosine rule's corner from d = −k, of the sense of l₁; e₂ leads from its tip back."""
+    first, second = (leg.value * cmath.exp(1j * k.linked.heading(leg.direction)) for leg in (one, other))
+    if abs(first + second) < SAME_PLACE:
+        return ()
+    towards = [_turned(spoke, -one.value) for spoke in spokes]
+    x, y = (k.component(towards, axis) for axis in "xy")
+    l_1, l_2 = (signed(leg.value, leg.length) for leg in (one, other))
+    number = ids.loop_distance(f"0,{one.direction.body},{other.direction.body}")
+    d = k.board.q.define(number, sqrt(plus(square(x), square(y))), Symbol("d", point))
+    corner = acos((l_1**2 + d**2 - l_2**2) / (2 * l_1 * d))
+    angle = _angle(k, one, atan2(y, x) + signed(cross(first + second, first) or 1.0, corner))
+    back = [_turned(spoke, -other.value) for spoke in (*spokes, _spoke(one))]
+    return d.id, angle, _angle(k, other, atan2(k.component(back, "y"), k.component(back, "x")))
+
+
+def _angle_and_way(k: RateFormulas, spokes: list[Spoke], rod: Leg, way: Leg, of: WayAlong) -> tuple[str, ...]:
+    """sin(φ − α) = the distance of the known legs from the line over l."""
+    along, across = ([Spoke(ONE, 1.0, way.direction, quarters)] for quarters in range(2))
+    legs = [_turned(spoke, -rod.value) for spoke in spokes]
+    dip = asin(over(k.dot(legs, across), signed(rod.value, rod.length)))
+    now = math.remainder(k.linked.heading(rod.direction) - k.linked.heading(way.direction), 2 * math.pi)
+    from_line = dip if math.cos(now) > 0 else STRAIGHT - dip
+    α = k.linked.angle(way.direction)
+    angle = _angle(k, rod, from_line if is_zero(α) else plus(α, from_line))
+    tip = [_turned(spoke, 1.0 if _is_reversed(way) else -1.0) for spoke in (*spokes, _spoke(rod))]
+    s = k.board.q.define(k.linked.way_id(of), k.dot(tip, along), k.linked.read_off[k.linked.way_id(of)][1])
+    return angle, s.id
+
+
+def _line_that_turns(k: RateFormulas, spokes: list[Spoke], way: Leg, off: list[Leg], of: WayAlong) -> tuple[str, ...]:
+    """|d|² = s² + h², and the line lies at the angle of d less that of s and h."""
+    sense = 1.0 if _is_reversed(way) else -1.0
+    towards = [_turned(spoke, sense) for spoke in spokes]
+    x, y = (k.component(towards, axis) for axis in "xy")
+    h = minus(signed(sense, off[0].length)) if off else NOTHING
+    value, symbol = k.linked.read_off[k.linked.way_id(of)]
+    size = sqrt(plus(square(x), square(y), minus(square(h))))
+    s = k.board.q.define(k.linked.way_id(of), signed(value, size), symbol)
+    whole = atan2(y, x)
+    if off:
+        return s.id, _angle(k, way, whole - atan2(h, s))
+    return s.id, _angle(k, way, whole if value > 0 else whole + STRAIGHT)
+
+
+def _angle(k: RateFormulas, leg: Leg, heading: Expression) -> str:
+    """Enters φ of a body from the heading of a direction that turns with it."""
+    body, offset = leg.direction.body, k.linked.angle(Direction(GROUND, leg.direction.offset))
+    formula = heading if not leg.direction.offset else plus(heading, minus(offset))
+    return k.board.q.define(ids.formula_angle(body), formula, Symbol("φ", k.linked.letter(body))).id
+
+
+def _spoke(leg: Leg) -> Spoke:
+    return Spoke(leg.length, leg.value, leg.direction, leg.quarters)
+
+
+def _is_reversed(way: Leg) -> bool:
+    return not isinstance(way.length, Ref)
+
+
+def _turned(spoke: Spoke, sense: float) -> Spoke:
+    """The spoke as it is, or the opposite one where `sense` is negative."""
+    if sense > 0:
+        return spoke
+    return Spoke(minus(spoke.factor), -spoke.size, spoke.direction, spoke.quarters)
