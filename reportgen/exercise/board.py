@@ -81,6 +81,8 @@ class Step:
     """What they come to, with signs."""
     other: str = ""
     """A second base point."""
+    read: tuple[str, ...] = ()
+    """What is read off the figure for its lines, and told before them unless an earlier step has told it."""
 
     @property
     def of_accelerations(self) -> bool:

@@ -48,11 +48,12 @@ X_AXIS = Direction(GROUND, 0.0)
 def closed_form(k: RateFormulas, loop: Closure, legs: Sequence[Leg], unknown: Sequence[Coordinate]) -> tuple[str, ...]:
     """Enters the unknown coordinates of a loop; the ids of the lines, none where there is no such form."""
     known = [leg for leg in legs_of(loop) if leg not in legs]
-    spokes = [*map(_spoke, known)]
+    spokes = []
     for axis in range(2):
         fixed = plus(loop.one.fixed[axis], minus(loop.other.fixed[axis]))
         if fixed != NOTHING:
             spokes.append(Spoke(fixed, 0.0, X_AXIS, axis))
+    spokes += map(_spoke, known)
     for one, other in permutations(unknown):
         own = [leg for leg in legs if isinstance(one, Turn) and leg.direction.body == one.body]
         rest = [leg for leg in legs if leg not in own]
@@ -94,7 +95,9 @@ def _angle_and_way(k: RateFormulas, spokes: list[Spoke], rod: Leg, way: Leg, of:
     α = k.linked.angle(way.direction)
     angle = _angle(k, rod, from_line if is_zero(α) else plus(α, from_line))
     tip = [_turned(spoke, 1.0 if _is_reversed(way) else -1.0) for spoke in (*spokes, _spoke(rod))]
-    s = k.board.q.define(k.linked.way_id(of), k.dot(tip, along), k.linked.read_off[k.linked.way_id(of)][1])
+    s = k.board.q.define(
+        k.linked.way_id(of), k.dot(tip, along), k.linked.read_off[k.linked.way_id(of)][1], scale=k.board.motion.size
+    )
     return angle, s.id
 
 

@@ -218,7 +218,8 @@ class Linked:
         """The angle from one direction to another."""
         if one.body == other.body:
             return self._from(NOTHING, math.remainder(other.offset - one.offset, 2 * math.pi))
-        return between(self.angle(other), self.angle(one))
+        start, end = self.angle(one), self.angle(other)
+        return minus(start) if is_zero(end) else between(end, start)
 
     # --- lengths
 
@@ -302,14 +303,14 @@ class Linked:
         base = "" if on_ground else self._base(line)
         there = points[line.point] - (points[base] if base else 0j)
         direction, sense = self.direction(line.on, line.along)
-        way = WayAlong(number)
+        way, relative = WayAlong(number), "" if on_ground else "r"
         gone = sense * dot(line.along, there)
         id = self.way_id(way)
-        self.read_off[id] = (gone, Symbol("s", line.point))
+        self.read_off[id] = (gone, Symbol("s", line.point, relative))
         legs = [Leg(Ref(id), gone, direction, way=way)]
         if abs(off := sense * cross(line.along, there)) > SAME_PLACE:
             id = ids.loop_distance(f"{line.body},{number}")
-            h = q.give(id, abs(off), Symbol("h", line.point), exact=is_short(abs(off)))
+            h = q.give(id, abs(off), Symbol("h", line.point, relative), exact=is_short(abs(off)))
             legs.append(Leg(signed(off, h), off, direction, 1))
         if sense < 0:
             self.lines[number] = replace(line, along=-line.along)

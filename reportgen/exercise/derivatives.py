@@ -21,6 +21,7 @@ from reportgen.formula import (
     ONE,
     Chain,
     Expression,
+    Negative,
     Number,
     Ref,
     Symbol,
@@ -175,6 +176,9 @@ class RateFormulas:
     @staticmethod
     def _trigonometric(angle: Expression, quarters: int) -> Expression:
         """sin(angle + quarters · 90°)."""
+        if isinstance(angle, Negative):
+            # sin(−φ) = −sin φ, cos(−φ) = cos φ
+            angle, quarters = angle.of, quarters + (0 if quarters % 2 else 2)
         value = (sine, cosine)[quarters % 2](angle)
         return value if quarters % 4 < 2 else minus(value)
 

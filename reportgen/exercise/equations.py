@@ -67,8 +67,6 @@ class EquationsOfMotion(RateFormulas):
 
     order: int = VELOCITY
     known: set[CoordinateRate] = field(default_factory=set)
-    read: set[str] = field(default_factory=set)
-    """The angles and lengths that are told already."""
 
     # --- what is to be solved
 
@@ -142,8 +140,8 @@ class EquationsOfMotion(RateFormulas):
                 waiting.remove(one)
                 if found:
                     system = (*self._loop(one), *self.rows(spokes))
-                    lines = (*self._read(one.spokes), *placed, *self._define(found))
-                    self._step(one.kind, lines, system, point=one.point)
+                    read = self._read(one.spokes, one.loop)
+                    self._step(one.kind, (*placed, *self._define(found)), system, read=read, point=one.point)
                 return True
         return False
 
@@ -154,7 +152,6 @@ class EquationsOfMotion(RateFormulas):
         if one.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
             legs = [leg for leg in legs_of(one.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
             lines = closed_form(self, one.loop, legs, of)
-        self.read |= {*lines}
         return lines
 
     def _is_open(self, of: Coordinate) -> bool:
@@ -220,8 +217,8 @@ class EquationsOfMotion(RateFormulas):
                 results = tuple(self._result(rate) for rate in unknown)
                 for one in some:
                     waiting.remove(one)
-                read = tuple(id for one in some for id in self._read(one.spokes))
-                self._step("system", (*read, *self._define(found)), system, results)
+                read = tuple(id for one in some for id in self._read(one.spokes, one.loop))
+                self._step("system", self._define(found), system, results, read)
                 return True
         return False
 
@@ -267,15 +264,14 @@ class EquationsOfMotion(RateFormulas):
                 return call("re", minus(inner))
         return minus(formula)
 
-    def _read(self, spokes: Iterable[Spoke]) -> tuple[str, ...]:
-        """The angles and lengths of a sum that are read off the figure, each told once."""
+    def _read(self, spokes: Iterable[Spoke], loop: Closure | None = None) -> tuple[str, ...]:
+        """The angles and lengths of a sum that are read off the figure."""
         told: dict[str, None] = {}
-        for one in spokes:
-            for formula in (one.factor, self.linked.angle(one.direction)):
+        legs = [] if loop is None else [leg for place in (loop.one, loop.other) for leg in place.legs]
+        for one in (*spokes, *(Spoke(leg.length, leg.value, leg.direction) for leg in legs)):
+            for formula in (self.linked.way(one.factor), self.linked.angle(one.direction)):
                 told |= dict.fromkeys(id for id in refs(formula) if any(id in family for family in READ))
-        new = tuple(id for id in told if id not in self.read)
-        self.read |= {*new}
-        return new
+        return tuple(told)
 
     def rows(self, spokes: Sequence[Spoke]) -> tuple[Chain, ...]:
         """A sum along x and y, the unknown rates to the left."""
@@ -297,12 +293,14 @@ class EquationsOfMotion(RateFormulas):
         lines: tuple[str, ...],
         system: tuple[Chain, ...] = (),
         results: tuple[Chain, ...] = (),
+        read: tuple[str, ...] = (),
         body: int = 0,
         point: str = "",
     ) -> None:
         if lines:
             start = "equations" if self.order == VELOCITY else "acceleration-equations"
-            self.board.steps.append(Step(f"{start}-{kind}", lines, body, point, system=system, results=results))
+            step = Step(f"{start}-{kind}", lines, body, point, system=system, results=results, read=read)
+            self.board.steps.append(step)
 
     # --- points
 
@@ -319,14 +317,14 @@ class EquationsOfMotion(RateFormulas):
         spokes = [one for leg in place.legs for one in derivative(leg, leg.direction.body, self.order)]
         if self.unknown(spokes) or self.board.knows(ids.POINT_RATE[what](name)):
             return
-        lines = list(self._read(spokes))
+        lines = list[str]()
         if self.order == VELOCITY:
             chain = [Spoke(leg.length, leg.value, leg.direction, leg.quarters) for leg in place.legs]
             for axis, fixed in zip("xy", place.fixed, strict=True):
                 at = plus(fixed, self.component(chain, axis))
                 id = ids.formula_coordinate(axis, name)
                 if at != NOTHING and id not in q:
-                    lines.append(q.define(id, at).id)
+                    lines.append(q.define(id, at, scale=self.board.motion.size).id)
         sides = []
         for axis in "xy":
             id, rate = ids.COMPONENT[what](name, axis), self.component(spokes, axis)
@@ -335,4 +333,4 @@ class EquationsOfMotion(RateFormulas):
         size = ids.POINT_RATE[what](name)
         whole = q.define(size, size_of(q, sides)) if sides else q.give(size, 0.0)
         lines += [*(one.id for one in sides), whole.id]
-        self._step("point", tuple(lines), body=body, point=name)
+        self._step("point", tuple(lines), read=self._read(spokes), body=body, point=name)

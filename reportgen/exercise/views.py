@@ -66,6 +66,8 @@ class StepView:
     """The rotations that are worked out, each with its sense."""
     has_ways: bool
     """Whether ways along straight lines are told."""
+    has_distance: bool
+    """Whether the distance of the outer ends of two bodies is told."""
 
 
 @dataclass(frozen=True)
@@ -127,7 +129,7 @@ class Solution:
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.printed, worked.layout
-        shown = [id for id in step.ids if id in ledger and not self._is_declared_length(id)]
+        shown = [id for id in (*step.read, *step.ids) if id in ledger and not self._is_declared_length(id)]
         # What a system comes to is told by its results.
         lines = [id for id in shown if not (step.results and ledger[id].constructed)]
         centre = layout.centres.get(step.body)
@@ -162,6 +164,7 @@ class Solution:
             contact=NamedPoint(centre.name) if rolling and centre is not None else "",
             turns=self._turns(shown),
             has_ways=any(id in ids.slide_way for id in shown),
+            has_distance=any(id in ids.loop_distance and ledger.symbol(id).base == "d" for id in shown),
         )
 
     def _turns(self, shown: Sequence[str]) -> Inlines:

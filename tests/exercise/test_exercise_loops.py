@@ -18,6 +18,8 @@ from tests.exercise.displaced import Displaced
 from tests.exercise.test_exercise_equations import FILES, OF_SEVERAL, by_equations
 from tests.exercise.test_exercise_steps import DRIVEN_SLOT, OFFSET_SLOT
 from tests.lanes import matrix
+from tests.report import trees
+from tests.report.calculator import misses
 
 EXACT = 1e-9
 STEP = 1e-4
@@ -75,6 +77,28 @@ def test_places_hold_at_any_time_and_differ_by_their_rates(tmp_path: Path, file:
             assert float(ledger[rate].values[0]) == pytest.approx(difference, abs=close), rate
             checked += 1
     assert checked or not any(step.kind == "equations-point" for step in worked.steps)
+
+
+@pytest.mark.parametrize("file", [one for one in FILES if one.stem not in OF_SEVERAL], ids=lambda file: file.stem)
+def test_a_calculator_comes_to_every_line(tmp_path: Path, file: Path) -> None:
+    """Formula, numbers and result of every line, as the page has them, with the numbers of the lines before."""
+    case = opened(api.load(by_equations(file, tmp_path), "en"))
+    shown = [id for step in case.worked.steps for id in (*step.read, *step.ids)]
+    ledger = case.worked.printed
+    lines = trees.lines((ledger.chain(id, 1) for id in shown if not ledger[id].constructed), "en")
+    assert misses(lines) == []
+    # Whatever a line is worked out from was given, told before it, or is a length in the list of distances.
+    told = {id for id, family in ledger.families.items() if family.definition is None and not _is_read(id)}
+    for step in case.worked.steps:
+        for id in (*step.read, *step.ids):
+            definition = ledger[id].definition
+            if definition is not None and step.kind.removeprefix("acceleration-").startswith("equations-"):
+                assert {*refs(definition)} <= told | {*step.read, *step.ids}, (step.kind, id)
+            told.add(id)
+
+
+def _is_read(id: str) -> bool:
+    return id in ids.formula_angle or id in ids.slide_way or id in ids.loop_distance
 
 
 # --- at random ------------------------------------------------------------------------------------
