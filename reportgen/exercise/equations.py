@@ -217,7 +217,7 @@ class EquationsOfMotion(RateFormulas):
                 results = tuple(self._result(rate) for rate in unknown)
                 for one in some:
                     waiting.remove(one)
-                read = tuple(id for one in some for id in self._read(one.spokes, one.loop))
+                read = tuple(dict.fromkeys(id for one in some for id in self._read(one.spokes, one.loop)))
                 self._step("system", self._define(found), system, results, read)
                 return True
         return False

@@ -64,8 +64,10 @@ class StepView:
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
     turns: Inlines
     """The rotations that are worked out, each with its sense."""
+    has_angles: bool
+    """Whether angles of bodies are told, for the first time."""
     has_ways: bool
-    """Whether ways along straight lines are told."""
+    """Whether ways along straight lines are told, for the first time."""
     has_distance: bool
     """Whether the distance of the outer ends of two bodies is told."""
 
@@ -163,9 +165,15 @@ class Solution:
             on_coordinates=any(axis.letter in COORDINATES for axis in step.axes),
             contact=NamedPoint(centre.name) if rolling and centre is not None else "",
             turns=self._turns(shown),
-            has_ways=any(id in ids.slide_way for id in shown),
+            has_angles=self._is_first(step, ids.formula_angle),
+            has_ways=self._is_first(step, ids.slide_way),
             has_distance=any(id in ids.loop_distance and ledger.symbol(id).base == "d" for id in shown),
         )
+
+    def _is_first(self, step: Step, family: ids.Name) -> bool:
+        """Whether a step is the first that tells a quantity of a family."""
+        telling = (one for one in self.worked.steps if any(id in family for id in (*one.read, *one.ids)))
+        return next(telling, None) is step
 
     def _turns(self, shown: Sequence[str]) -> Inlines:
         """The rotations of bodies among some ids, each with its sense: ω₂ anticlockwise, ω₃ clockwise."""
