@@ -26,6 +26,7 @@ from reportgen.formula import (
     Expression,
     Number,
     Ref,
+    Sum,
     Symbol,
     acos,
     asin,
@@ -65,7 +66,7 @@ def closed_form(k: RateFormulas, loop: Closure, legs: Sequence[Leg], unknown: Se
             return _angle_and_way(k, spokes, own[0], rest[0], other)
         ways = [leg for leg in own if leg.way == other]
         if isinstance(other, WayAlong) and not rest and len(ways) == 1 and len(own) <= 2:
-            return _line_that_turns(k, spokes, ways[0], [leg for leg in own if leg not in ways], other)
+            return _line_that_turns(k, loop.point, spokes, ways[0], [leg for leg in own if leg not in ways], other)
     return ()
 
 
@@ -74,15 +75,35 @@ def _two_angles(k: RateFormulas, point: str, spokes: list[Spoke], one: Leg, othe
     first, second = (leg.value * cmath.exp(1j * k.linked.heading(leg.direction)) for leg in (one, other))
     if abs(first + second) < SAME_PLACE:
         return ()
-    towards = [_turned(spoke, -one.value) for spoke in spokes]
-    x, y = (k.component(towards, axis) for axis in "xy")
+    lines, x, y = _lead(k, point, [_turned(spoke, -one.value) for spoke in spokes], (one, other))
     l_1, l_2 = (signed(leg.value, leg.length) for leg in (one, other))
-    number = ids.loop_distance(f"0,{one.direction.body},{other.direction.body}")
-    d = k.board.q.define(number, sqrt(plus(square(x), square(y))), Symbol("d", point))
+    d = k.board.q.define(_number(one, other), sqrt(plus(square(x), square(y))), Symbol("d", point))
     corner = acos((l_1**2 + d**2 - l_2**2) / (2 * l_1 * d))
     angle = _angle(k, one, atan2(y, x) + signed(cross(first + second, first) or 1.0, corner))
-    back = [_turned(spoke, -other.value) for spoke in (*spokes, _spoke(one))]
-    return d.id, angle, _angle(k, other, atan2(k.component(back, "y"), k.component(back, "x")))
+    tip = [Spoke(minus(l_1), 0.0, one.direction)]
+    rest = (plus(part, k.component(tip, axis)) for axis, part in (("x", x), ("y", y)))
+    x, y = (part if one.value * other.value > 0 else minus(part) for part in rest)
+    return *lines, d.id, angle, _angle(k, other, atan2(y, x))
+
+
+def _number(one: Leg, other: Leg, *axis: int) -> str:
+    """The id of the distance of the outer ends of two legs, or of its component along an axis."""
+    return ids.loop_distance(",".join(map(str, (0, one.direction.body, other.direction.body, *axis))))
+
+
+def _lead(
+    k: RateFormulas, point: str, spokes: list[Spoke], legs: tuple[Leg, Leg]
+) -> tuple[tuple[str, ...], Expression, Expression]:
+    """The components of the known legs together: as a line each where they are several."""
+    lines, parts = list[str](), list[Expression]()
+    for number, axis in enumerate("xy"):
+        part = k.component(spokes, axis)
+        if isinstance(part, Sum):
+            symbol = Symbol("d", f"{point}{axis}")
+            part = k.board.q.define(_number(*legs, number), part, symbol, scale=k.board.motion.size)
+            lines.append(part.id)
+        parts.append(part)
+    return tuple(lines), parts[0], parts[1]
 
 
 def _angle_and_way(k: RateFormulas, spokes: list[Spoke], rod: Leg, way: Leg, of: WayAlong) -> tuple[str, ...]:
@@ -101,19 +122,20 @@ def _angle_and_way(k: RateFormulas, spokes: list[Spoke], rod: Leg, way: Leg, of:
     return angle, s.id
 
 
-def _line_that_turns(k: RateFormulas, spokes: list[Spoke], way: Leg, off: list[Leg], of: WayAlong) -> tuple[str, ...]:
+def _line_that_turns(
+    k: RateFormulas, point: str, spokes: list[Spoke], way: Leg, off: list[Leg], of: WayAlong
+) -> tuple[str, ...]:
     """|d|² = s² + h², and the line lies at the angle of d less that of s and h."""
     sense = 1.0 if _is_reversed(way) else -1.0
-    towards = [_turned(spoke, sense) for spoke in spokes]
-    x, y = (k.component(towards, axis) for axis in "xy")
+    lines, x, y = _lead(k, point, [_turned(spoke, sense) for spoke in spokes], (way, way))
     h = minus(signed(sense, off[0].length)) if off else NOTHING
     value, symbol = k.linked.read_off[k.linked.way_id(of)]
     size = sqrt(plus(square(x), square(y), minus(square(h))))
     s = k.board.q.define(k.linked.way_id(of), signed(value, size), symbol)
     whole = atan2(y, x)
     if off:
-        return s.id, _angle(k, way, whole - atan2(h, s))
-    return s.id, _angle(k, way, whole if value > 0 else whole + STRAIGHT)
+        return *lines, s.id, _angle(k, way, whole - atan2(h, s))
+    return *lines, s.id, _angle(k, way, whole if value > 0 else whole + STRAIGHT)
 
 
 def _angle(k: RateFormulas, leg: Leg, heading: Expression) -> str:

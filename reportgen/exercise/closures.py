@@ -143,7 +143,11 @@ class Linked:
                 if joint.at not in self.members[body]:
                     self.members[body].append(joint.at)
         waiting, joints = dict(self.members), [*enumerate(given.joints)]
-        while self._next_body(waiting) or self._next_joint(waiting, joints):
+        while (
+            self._next_body(waiting, driven=True)
+            or self._next_joint(waiting, joints)
+            or self._next_body(waiting, driven=False)
+        ):
             pass
         for joint in given.joints:
             if isinstance(joint, file.Gears | file.RollingOnCircle | file.Belt):
@@ -244,12 +248,19 @@ class Linked:
 
     # --- chains
 
-    def _next_body(self, waiting: dict[int, list[str]]) -> bool:
-        """Leads on from a body that is reached, one with a given rotation first, to all of its points."""
+    def _next_body(self, waiting: dict[int, list[str]], driven: bool) -> bool:
+        """Leads on from a body that is reached to all of its points: first the driving ones, then what they drive."""
+
+        def is_driven(body: int) -> bool:
+            return self.board.knows_omega(body) or any(
+                name in self.places and self.places[name].legs for name in waiting[body]
+            )
+
         reached = [body for body, names in waiting.items() if any(name in self.places for name in names)]
-        if not reached:
+        chosen = [body for body in reached if is_driven(body)] if driven else reached
+        if not chosen:
             return False
-        body = min(reached, key=lambda one: not self.board.knows_omega(one))
+        body = min(chosen, key=lambda one: not self.board.knows_omega(one))
         names = waiting.pop(body)
         base = min((name for name in names if name in self.places), key=lambda name: len(self.places[name].legs))
         for name in names:

@@ -368,4 +368,10 @@ def test_loops_come_to_what_the_whole_system_does(
 
 @pytest.mark.parametrize("form", FORMS)
 def test_every_form_is_solved_by_its_loops(tmp_path: Path, form: str) -> None:
-    agrees(drawn(tmp_path, form, 70, 40, 1.5, 2.0))
+    """As the one method of its file, too, with a page whose lines hold."""
+    asked = form.rstrip() + "\n  methods: [equations]\n"
+    case = drawn(tmp_path, asked, 70, 40, 1.5, 2.0)
+    agrees(case)
+    assert not case.worked.missing
+    assert misses(trees.lines(trees.every_chain(case.worked.printed), "en")) == []
+    assert case.document().blocks
