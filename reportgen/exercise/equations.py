@@ -15,7 +15,7 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.exercise.board import Step, size_of
-from reportgen.exercise.closed_form import closed_form
+from reportgen.exercise.closed_form import X_AXIS, closed_form
 from reportgen.exercise.closures import Closure, Coordinate, Place, Turn, WayAlong, legs_of
 from reportgen.exercise.derivatives import RATES, VELOCITY, CoordinateRate, RateFormulas, Spoke, derivative
 from reportgen.exercise.solving import NEGLIGIBLE
@@ -47,6 +47,8 @@ Formulas = Mapping[CoordinateRate, Expression]
 """Unknown rates by what is known."""
 Row = dict[tuple[CoordinateRate, ...], float]
 """The factors of products of rates."""
+MOST_TERMS = 4
+"""Of a numerator; the right sides of equations with more of them are worked out first."""
 FIGURES = 4
 """Significant figures of the numbers in a system."""
 
@@ -128,22 +130,42 @@ class EquationsOfMotion(RateFormulas):
         for one in waiting:
             spokes = self.resolved(one.spokes)
             unknown = self.unknown(spokes)
-            placed = self._place(one, unknown)
-            found: Formulas | None = None
-            if not unknown:
-                found = {}
-            elif len(unknown) == 1:
+            if len(unknown) > 2:
+                continue
+            placed, rows = self._place(one, unknown), self.rows(spokes)
+            found: Formulas | None = {}
+            if len(unknown) == 1:
                 found = self._single(spokes, unknown[0])
-            elif len(unknown) == 2:
+            elif unknown:
+                spokes = self._gathered(one.point, spokes, unknown)
                 found = self._cramer(spokes, *unknown)
             if found is not None:
                 waiting.remove(one)
                 if found:
-                    system = (*self._loop(one), *self.rows(spokes))
+                    system = (*self._loop(one), *rows)
                     read = self._read(one.spokes, one.loop)
-                    self._step(one.kind, (*placed, *self._define(found)), system, read=read, point=one.point)
+                    right = tuple(id for part in spokes for id in refs(part.factor) if id in ids.right_side)
+                    lines = (*placed, *dict.fromkeys(right), *self._define(found))
+                    self._step(one.kind, lines, system, read=read, point=one.point)
                 return True
         return False
+
+    def _gathered(self, point: str, spokes: list[Spoke], unknown: Sequence[CoordinateRate]) -> list[Spoke]:
+        """Many known vectors by the components b of their opposite, the right sides of the equations."""
+        rest = self._rest(spokes, unknown)
+        if len(rest) * max(len(self.part(spokes, rate)) for rate in unknown) <= MOST_TERMS:
+            return spokes
+        named = {axis: ids.right_side(RATES[self.order], f"{point}{axis}") for axis in "xy"}
+        if any(id in self.board.q for id in named.values()):
+            return spokes
+        found = [one for one in spokes if one not in rest]
+        for number, (axis, id) in enumerate(named.items()):
+            right = minus(self.component(rest, axis))
+            if right != NOTHING:
+                kind = vocabulary.row(ids.POINT_RATE[RATES[self.order]](point)).kind
+                b = self.board.q.define(id, right, Symbol("b", f"{point}{axis}"), kind)
+                found.append(Spoke(minus(b), 0.0, X_AXIS, number))
+        return found
 
     def _place(self, one: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
         """The coordinates of a loop by the others, where that is a closed form; the rest of them is read off."""

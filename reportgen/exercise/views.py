@@ -68,6 +68,8 @@ class StepView:
     """Whether angles of bodies are told, for the first time."""
     has_ways: bool
     """Whether ways along straight lines are told, for the first time."""
+    has_right_sides: bool
+    """Whether the right sides of equations are worked out first."""
     has_distance: bool
     """Whether the distance of the outer ends of two bodies is told."""
 
@@ -167,6 +169,7 @@ class Solution:
             turns=self._turns(shown),
             has_angles=self._is_first(step, ids.formula_angle),
             has_ways=self._is_first(step, ids.slide_way),
+            has_right_sides=any(id in ids.right_side for id in shown),
             has_distance=any(id in ids.loop_distance and ledger.symbol(id).base == "d" for id in shown),
         )
 
