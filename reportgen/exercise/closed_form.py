@@ -16,7 +16,6 @@ import math
 from collections.abc import Sequence
 from itertools import permutations
 
-from reportgen.exercise.centres import SAME_PLACE
 from reportgen.exercise.closures import Closure, Coordinate, Direction, Leg, Turn, WayAlong, legs_of
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.derivatives import RateFormulas, Spoke
@@ -43,6 +42,8 @@ from reportgen.formula import (
 from reportgen.formula.constructions import cross
 
 STRAIGHT = Number(180.0, unit="°")
+FLAT = 0.02
+"""A triangle with a smaller sine, near a dead centre, has no figures left in its angles: they are read off."""
 X_AXIS = Direction(GROUND, 0.0)
 
 
@@ -73,7 +74,7 @@ def closed_form(k: RateFormulas, loop: Closure, legs: Sequence[Leg], unknown: Se
 def _two_angles(k: RateFormulas, point: str, spokes: list[Spoke], one: Leg, other: Leg) -> tuple[str, ...]:
     """e₁ lies at the cosine rule's corner from d = −k, of the sense of l₁; e₂ leads from its tip back."""
     first, second = (leg.value * cmath.exp(1j * k.linked.heading(leg.direction)) for leg in (one, other))
-    if abs(first + second) < SAME_PLACE:
+    if abs(cross(first, second)) < FLAT * abs(first) * abs(second):
         return ()
     lines, x, y = _lead(k, point, [_turned(spoke, -one.value) for spoke in spokes], (one, other))
     l_1, l_2 = (signed(leg.value, leg.length) for leg in (one, other))
@@ -109,9 +110,11 @@ def _lead(
 def _angle_and_way(k: RateFormulas, spokes: list[Spoke], rod: Leg, way: Leg, of: WayAlong) -> tuple[str, ...]:
     """sin(φ − α) = the distance of the known legs from the line over l."""
     along, across = ([Spoke(ONE, 1.0, way.direction, quarters)] for quarters in range(2))
+    now = math.remainder(k.linked.heading(rod.direction) - k.linked.heading(way.direction), 2 * math.pi)
+    if abs(math.cos(now)) < FLAT:
+        return ()
     legs = [_turned(spoke, -rod.value) for spoke in spokes]
     dip = asin(over(k.dot(legs, across), signed(rod.value, rod.length)))
-    now = math.remainder(k.linked.heading(rod.direction) - k.linked.heading(way.direction), 2 * math.pi)
     from_line = dip if math.cos(now) > 0 else STRAIGHT - dip
     α = k.linked.angle(way.direction)
     angle = _angle(k, rod, from_line if is_zero(α) else plus(α, from_line))
@@ -126,6 +129,8 @@ def _line_that_turns(
     k: RateFormulas, point: str, spokes: list[Spoke], way: Leg, off: list[Leg], of: WayAlong
 ) -> tuple[str, ...]:
     """|d|² = s² + h², and the line lies at the angle of d less that of s and h."""
+    if abs(way.value) < FLAT * math.hypot(way.value, *(leg.value for leg in off)):
+        return ()
     sense = 1.0 if _is_reversed(way) else -1.0
     lines, x, y = _lead(k, point, [_turned(spoke, sense) for spoke in spokes], (way, way))
     h = minus(signed(sense, off[0].length)) if off else NOTHING

@@ -10,8 +10,6 @@ import cmath
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from reportgen.exercise.board import Board
 from reportgen.exercise.closures import Closure, Coordinate, Direction, Leg, Linked, Turn, WayAlong
 from reportgen.exercise.conditions import GROUND
@@ -143,9 +141,6 @@ class RateFormulas:
         if len(rates) == 2 and rates[0] == rates[1]:
             return square(self.symbol(rates[0]) if by_symbol else self.expression(rates[0]))
         return times(*(self.symbol(one) if by_symbol else self.expression(one) for one in rates)) if rates else ONE
-
-    def amount(self, spoke: Spoke) -> float:
-        return float(np.prod([spoke.size, *(self.value(one) for one in spoke.rates)]))
 
     def vector(self, spoke: Spoke) -> complex:
         """A spoke without its rates."""
