@@ -81,6 +81,8 @@ class Step:
     """What they come to, with signs."""
     other: str = ""
     """A second base point."""
+    read: tuple[str, ...] = ()
+    """What is read off the figure for its lines, and told before them unless an earlier step has told it."""
 
     @property
     def of_accelerations(self) -> bool:
@@ -118,6 +120,8 @@ class Board:
     q: Sheet
     layout: Layout
     steps: list[Step] = field(default_factory=list)
+    closed: bool = False
+    """Whether the loops of the system are solved already."""
 
     @property
     def motion(self) -> InstantMotion:

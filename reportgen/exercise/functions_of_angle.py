@@ -1,25 +1,29 @@
 """The equations of motion of a body whose place is a function of its angle alone, and their derivatives.
 
 Such a body rolls on a fixed line, or has two points on fixed lines that meet; each of its points then has
-P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.  The angle of a rod between a crank and a fixed line is a
-function of the crank's.
+P(φ) = fixed + way·φ + forward e^{iφ} + backward e^{−iφ}.  All others follow from the loops of the system.
 """
 
 from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations, permutations
+from itertools import combinations
 
 import numpy as np
 
 from reportgen.exercise import file
 from reportgen.exercise.board import Board, Step, size_of
 from reportgen.exercise.centres import SAME_PLACE, Layout
-from reportgen.exercise.places import parallel
+from reportgen.exercise.closures import Linked, Turn, WayAlong, given_direction, legs_of
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.derivatives import ACCELERATION, RATES, VELOCITY, CoordinateRate, Spoke, derivative
+from reportgen.exercise.equations import EquationsOfMotion, VectorSum
+from reportgen.exercise.places import name_of, parallel, unit
+from reportgen.exercise.solving import NEGLIGIBLE, unknowns_of
 from reportgen.formula import (
     NOTHING,
     ONE,
@@ -27,12 +31,9 @@ from reportgen.formula import (
     Number,
     Ref,
     Symbol,
-    asin,
-    between,
     cos,
     cosine,
     ids,
-    is_zero,
     minus,
     over,
     plus,
@@ -43,7 +44,7 @@ from reportgen.formula import (
     square,
     times,
 )
-from reportgen.formula.constructions import cross, meet
+from reportgen.formula.constructions import cross, dot, meet
 from reportgen.formula.evaluation import evaluate
 
 Pair = tuple[Expression, Expression]
@@ -96,91 +97,15 @@ def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]]
 
 
 def by_equations(board: Board) -> bool:
-    """The rates of one more body from the equations of motion of its points."""
+    """The rates of one more body from the equations of motion of its points, at last all of them from the loops."""
+    if coordinates(board.layout) != 1:
+        return False
     for body in board.layout.members:
         if not board.knows(ids.formula_angle(body)):
-            found, rod = motion_laws(board.layout, body), rod_on_crank(board.layout, body)
-            if found is not None and _enter(board, body, *found):
+            found = motion_laws(board.layout, body)
+            if found is not None and not board.closed and _enter(board, body, *found):
                 return True
-            if rod is not None and _enter_rod(board, body, rod):
-                return True
-    return False
-
-
-# --- a rod that hangs on a crank ------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class RodOnCrank:
-    """A rod AB: A on a body that turns about a fixed centre, B on a fixed line in the direction `along`."""
-
-    crank: int
-    centre: str
-    pin: str
-    end: str
-    along: complex
-
-
-def rod_on_crank(layout: Layout, body: int) -> RodOnCrank | None:
-    """How a body hangs on a crank whose rotation is given, if it does."""
-    told = {one.body for one in layout.given.given if isinstance(one, file.OmegaOf)}
-    named = [one.point for one in layout.given.given if isinstance(one, file.VelocityOf) and one.size is not None]
-    cranks = {crank: one for crank, one in layout.centres.items() if crank != body and one.rule == "pivot"}
-    for pin, end in permutations(layout.own(body), 2):
-        for crank, centre in cranks.items():
-            turns = crank in told or any(name in layout.members[crank] for name in named)
-            if turns and end in layout.slots and pin in layout.members[crank] and not layout.is_centre(centre, pin):
-                return RodOnCrank(crank, centre.name, pin, end, layout.slots[end])
-    return None
-
-
-def _enter_rod(board: Board, body: int, rod: RodOnCrank) -> bool:
-    """φ of the rod as a function of the crank's: r sin(φ₁ − β) + l sin(φ₂ − β) = h, and what its derivative says.
-
-    h is the line's distance from the crank's centre, β its angle; whether the crank's rotation is known.
-    """
-    q, layout, points = board.q, board.layout, board.layout.points
-    if not board.knows_omega(rod.crank) or board.knows_omega(body):
-        return False
-    lines: list[str] = []
-
-    def line(id: str, formula: Expression, symbol: Symbol | str = "") -> Ref:
-        lines.append(id)
-        return q.define(id, formula, symbol)
-
-    arm, reach = points[rod.pin] - points[rod.centre], points[rod.end] - points[rod.pin]
-    r, l = board.length(rod.centre, rod.pin), board.length(rod.pin, rod.end)  # noqa: E741
-    offset = cross(rod.along, points[rod.end] - points[rod.centre])
-    h = as_number(offset)
-    β = Number(float(f"{math.degrees(cmath.phase(rod.along)):.10g}"), unit="°")
-    φ1 = q.find(ids.formula_angle(rod.crank)) or q.give(
-        ids.formula_angle(rod.crank), cmath.phase(arm), Symbol("φ", str(rod.crank)), exact=False
-    )
-    turned = between(φ1, β)
-    dip = asin(over(plus(h, minus(times(r, sine(turned)))), l))
-    ahead = (reach * rod.along.conjugate()).real > 0
-    angle = dip if ahead else STRAIGHT - dip
-    φ = line(ids.formula_angle(body), angle if is_zero(β) else plus(β, angle), Symbol("φ", str(body)))
-    lean = between(φ, β)
-    ω1 = signed(board.motion.omega(rod.crank) or 1.0, q[ids.angular_velocity(rod.crank)])
-    sense = board.motion.omega(body)
-    rate = over(minus(times(ω1, r, cosine(turned))), times(l, cosine(lean)))
-    ω = signed(sense or 1.0, line(ids.angular_velocity(body), signed(sense or 1.0, rate)))
-    for name in layout.own(body):
-        u = (points[name] - points[rod.pin]) / reach * abs(reach)
-        along, across = (_constant(board, part) for part in (u.real, u.imag))
-        e, n = (cosine(φ), sine(φ)), (minus(sine(φ)), cosine(φ))
-        pin = cosine(φ1), sine(φ1)
-        start = points[rod.centre]
-        for index, axis in enumerate("xy"):
-            fixed = as_number((start.real, start.imag)[index])
-            place = plus(fixed, times(r, pin[index]), times(along, e[index]), times(across, n[index]))
-            line(ids.formula_coordinate(axis, name), place)
-        v_x = plus(minus(times(ω1, r, pin[1])), minus(times(ω, plus(times(along, e[1]), times(across, n[1])))))
-        v_y = plus(times(ω1, r, pin[0]), times(ω, plus(times(along, e[0]), times(across, n[0]))))
-        _vector(board, line, "v", name, (v_x, v_y))
-    board.steps.append(Step("equations-rod", (φ1.id, *lines), body, rod.end, rod.pin))
-    return True
+    return by_loops(board)
 
 
 def as_number(value: float) -> Expression:
@@ -266,7 +191,8 @@ def _acceleration(
             ):
                 values = [abs(_value(board, part)) for part in rates[point]]
                 index = int(values[1] > values[0])
-                degrees = Number(float(f"{math.degrees(direction.si):.10g}"), unit="°")
+                heading = math.degrees(direction.si) + (180.0 if size.si < 0 else 0.0)
+                degrees = Number(float(f"{heading:.10g}"), unit="°")
                 given = times(board.given(ids.acceleration(point), size.si), (cosine, sine)[index](degrees))
                 top = plus(given, minus(times(square(ω), second[point][index])))
                 return signed(sense or 1.0, line(id, signed(sense or 1.0, over(top, rates[point][index]))))
@@ -284,3 +210,95 @@ def _size(board: Board, parts: Pair) -> Expression:
     if len(kept) == 1:
         return signed(_value(board, kept[0]), kept[0])
     return sqrt(plus(*(square(part) for part in kept)))
+
+
+# --- all bodies together ----------------------------------------------------------------------------
+
+
+def coordinates(layout: Layout) -> int:
+    """How many coordinates the bodies have whose motion is determined: the motions that their joints leave open."""
+    motion = layout.motion
+    unknowns = unknowns_of(motion.system)
+    sized = {
+        name_of(index, "given", *one.called)
+        for index, one in enumerate(layout.given.given)
+        if not isinstance(one, file.VelocityOf) or one.size is not None
+    }
+    held = [one for one in motion.system.conditions if one.velocity is not None and one.name not in sized]
+    matrix = np.array([unknowns.row(one) for one in held]).reshape(len(held), unknowns.count)
+    _, sizes, motions = np.linalg.svd(matrix)
+    rank = int((sizes > NEGLIGIBLE * max(sizes, default=0.0)).sum())
+    known = [body for body in unknowns.bodies if motion.knows_omega(body) and motion.knows_centre(body)]
+    known = known or [*unknowns.bodies]
+    columns = [3 * unknowns.bodies.index(body) + part for body in known for part in range(3)]
+    free = motions[rank:, columns]
+    return int(np.linalg.matrix_rank(free, NEGLIGIBLE)) if free.size else 0
+
+
+def by_loops(board: Board) -> bool:
+    """All rates of a system with one coordinate from its loops; whether it was not tried before."""
+    if board.closed:
+        return False
+    board.closed = True
+    linked = Linked(board)
+    equations = EquationsOfMotion(board, linked)
+    given = board.layout.given.given
+    _solve(equations, [one for one in given if isinstance(one, file.VelocityOf | file.FromRest)])
+    accelerations = [one for one in given if isinstance(one, file.AccelerationOf | file.FromRest)]
+    turns = [one for one in given if isinstance(one, file.EpsilonOf)]
+    for one in turns:
+        board.given(ids.angular_acceleration(one.body), one.value.si)
+    if turns or accelerations:
+        equations.order = ACCELERATION
+        _solve(equations, accelerations)
+    return True
+
+
+def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> None:
+    """The velocities, or the accelerations, of everything from what is given of them."""
+    board, linked, order = equations.board, equations.linked, equations.order
+    for body in linked.turning:
+        rate = CoordinateRate(Turn(linked.turning[body]), order)
+        knows = board.knows_omega if order == VELOCITY else board.knows_epsilon
+        if body in board.layout.members and knows(body):
+            equations.known.add(rate)
+    sums = []
+    for closure in linked.closures:
+        legs = [*legs_of(closure)]
+        spokes = tuple(one for leg in legs for one in derivative(leg, leg.direction.body, order))
+        sums.append(VectorSum(closure.point, spokes, closure))
+    sums += [one for rate in given if (one := _of_point(equations, rate)) is not None]
+    equations.solve([one for one in sums if one.spokes])
+    equations.points()
+
+
+def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum | None:
+    """What a given rate of a point says; None where it is that of its way along a line of the ground."""
+    board, order = equations.board, equations.order
+    assert isinstance(rate, file.VelocityOf | file.AccelerationOf | file.FromRest)
+    if isinstance(rate, file.FromRest):
+        size: float | None = rate.acceleration.si
+    else:
+        size = None if rate.size is None else rate.size.si
+    id = ids.POINT_RATE[RATES[order]](rate.point)
+    if size is not None and order == ACCELERATION:
+        board.given(id, size)
+    for number, line in enumerate(equations.linked.lines):
+        along = line.on == GROUND and line.point == rate.point and parallel(line.along, unit(rate.direction.si))
+        if along and size is not None:
+            equations.known.add(CoordinateRate(WayAlong(number), order))
+            return None
+    place = equations.linked.places.get(rate.point)
+    if place is None:
+        return None
+    moving = [one for leg in place.legs for one in derivative(leg, leg.direction.body, order)]
+    own = CoordinateRate(rate.point, order)
+    if size is not None:
+        equations.known.add(own)
+    of = equations.board.motion.v if order == VELOCITY else equations.board.motion.a
+    sense = dot(unit(rate.direction.si), of(rate.point))
+    direction = given_direction(rate.direction.si, sense if size is None else size)
+    if size == 0:
+        return VectorSum(rate.point, tuple(moving), kind="given")
+    whole = (*moving, Spoke(minus(ONE), -1.0, direction, rates=(own,)))
+    return VectorSum(rate.point, whole, kind="given")

@@ -18,7 +18,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.exercise import file, symbols
 from reportgen.exercise.centres import SAME_PLACE, Layout, lay_out
 from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.functions_of_angle import motion_laws, rod_on_crank
+from reportgen.exercise.functions_of_angle import coordinates
 from reportgen.exercise.places import TOP, MisplacedError, direction_of, named, perpendicular, system
 from reportgen.exercise.solving import InstantMotion
 from reportgen.formula import Negative, Ref
@@ -254,7 +254,7 @@ def _methods(given: file.Parameters, layout: Layout) -> Iterator[Finding]:
         if method in given.methods[:index]:
             yield Finding("method-repeated", where, {"text": method})
         elif code := why_not(method, layout):
-            yield Finding(code, where, {"text": method})
+            yield Finding(code, where, {"text": method, "count": str(coordinates(layout))})
 
 
 def _is_acceleration_on(rate: file.GivenRate, body: int, given: file.Parameters) -> bool:
@@ -285,10 +285,7 @@ def why_not(method: file.Method, layout: Layout) -> str:
         case "moving frame":
             return "" if layout.given.slots else "no-moving-frame"
         case "equations":
-            find = layout.given.find
-            moving = {body for one in find for body in ([one.body] if one.of_body else _bodies_of(layout, one.of))}
-            laws = [motion_laws(layout, body) or rod_on_crank(layout, body) for body in moving if body]
-            return "" if any(laws) else "no-equations"
+            return "" if coordinates(layout) == 1 else "no-equations"
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":
@@ -301,10 +298,6 @@ def why_not(method: file.Method, layout: Layout) -> str:
             # It tells no angular velocity.
             asked = any(one.what in ("v", "a") for one in layout.given.find)
             return "" if asked and any(_projects(layout, body) for body in plane) else "no-projection"
-
-
-def _bodies_of(layout: Layout, point: str) -> list[int]:
-    return [body for body, names in layout.members.items() if point in names]
 
 
 def _in_plane_motion(layout: Layout) -> Iterator[int]:

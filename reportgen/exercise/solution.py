@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
@@ -101,8 +101,8 @@ def work_out(
     needed = _with_ancestors(board, wanted)
     steps = tuple(step for step in board.steps if _leads_on(step, needed))
     # A step that is taken is written out whole.
-    needed |= _with_ancestors(board, [id for step in steps for id in step.ids])
-    steps = tuple(step for step in board.steps if _leads_on(step, needed))
+    needed |= _with_ancestors(board, [id for step in steps for id in (*step.ids, *step.read)])
+    steps = _told_once(step for step in board.steps if _leads_on(step, needed))
     q = Sheet(POSITIONS)
     for id, family in board.q.families.items():
         if id in needed:
@@ -162,6 +162,15 @@ def _with_ancestors(board: Board, some: Sequence[str]) -> set[str]:
             definition = families[id].definition
             waiting += () if definition is None else refs(definition)
     return found
+
+
+def _told_once(steps: Iterable[Step]) -> tuple[Step, ...]:
+    """Steps without what is read off the figure and an earlier one tells."""
+    told, found = set[str](), list[Step]()
+    for step in steps:
+        found.append(replace(step, read=tuple(id for id in step.read if id not in {*told, *step.ids})))
+        told |= {*step.ids, *step.read}
+    return tuple(found)
 
 
 def _leads_on(step: Step, needed: set[str]) -> bool:
@@ -229,7 +238,8 @@ def find_velocities(board: Board, method: Method | None, alone: bool = False) ->
     """
     finders = CHOSEN
     if method is not None:
-        own = (about_joints, *OWN[method], by_moving_frame if method == "instant centre" else by_guided_frame)
+        joints = (by_equations, about_joints) if method == "equations" else (about_joints, *OWN[method])
+        own = (*joints, by_moving_frame if method == "instant centre" else by_guided_frame)
         finders = own if alone and method != "moving frame" else (*own, *CHOSEN)
     while any(find(board) for find in finders):
         pass

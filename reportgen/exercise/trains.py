@@ -218,8 +218,11 @@ def _acceleration_of(parts: Parts, body: int, u: complex, one: Node, other: Node
     if q.si(eps):
         turning = board.motion.epsilon(body) * _turn(parts, u, one, other)
         terms.append(signed(sense * turning, q[eps] * arm))
-    a = q.define(id, _sum(terms)) if terms else q.give(id, 0.0)
     parts.of[other.shares] = (Vector(id, sense * u),) if other.value else ()
+    if id in q:
+        # By the equations of motion.
+        return
+    a = q.define(id, _sum(terms)) if terms else q.give(id, 0.0)
     board.steps.append(Step("acceleration-rack-point", (arm.id, a.id), body, other.shares, one.name))
 
 

@@ -21,7 +21,7 @@ from reportgen.exercise.solution import Worked
 from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import symbol
 from reportgen.formula import Chain, Expression, Number, Symbol, Term, VectorEquation, ids, refs, substitute, vocabulary
-from reportgen.report import Equation, InlineMath, Inlines, Text, Value, listed
+from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.prose import NamedPoint
 
 AT = 1
@@ -62,6 +62,16 @@ class StepView:
     """Whether it projects on x or y."""
     contact: NamedPoint | str
     """The point that the body rolls on the ground with, if it is one of the two that the step is about."""
+    turns: Inlines
+    """The rotations that are worked out, each with its sense."""
+    has_angles: bool
+    """Whether angles of bodies are told, for the first time."""
+    has_ways: bool
+    """Whether ways along straight lines are told, for the first time."""
+    has_right_sides: bool
+    """Whether the right sides of equations are worked out first."""
+    has_distance: bool
+    """Whether the distance of the outer ends of two bodies is told."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +133,9 @@ class Solution:
     def _step(self, step: Step) -> StepView:
         worked, motion = self.worked, self.case.exercise.motion
         ledger, layout = worked.printed, worked.layout
-        shown = [id for id in step.ids if id in ledger and not self._is_declared_length(id)]
+        shown = [id for id in (*step.read, *step.ids) if id in ledger and not self._is_declared_length(id)]
+        # What a system comes to is told by its results.
+        lines = [id for id in shown if not (step.results and ledger[id].constructed)]
         centre = layout.centres.get(step.body)
         rate = motion.omega(step.body) if step.body else 0.0
         if any(id in ids.angular_acceleration for id in shown):
@@ -140,7 +152,7 @@ class Solution:
             centre=NamedPoint(centre.name if centre is not None else ""),
             one=NamedPoint(others[0]),
             other=NamedPoint(step.other or others[1]),
-            lines=(Equation(tuple(map(self._chain, shown))),) if shown else (),
+            lines=(Equation(tuple(map(self._chain, lines))),) if lines else (),
             equation=(self._equation(step),) if step.equation is not None and step.equation.left else (),
             angles=tuple((InlineMath(Chain((ledger.symbol(id), ledger.number(id)))),) for id in angles),
             sense=self._sense(rate) if rate else str(self.case.words["instant"]["no_sense"]),
@@ -154,7 +166,28 @@ class Solution:
             on_line=any(axis.letter == "ξ" for axis in step.axes),
             on_coordinates=any(axis.letter in COORDINATES for axis in step.axes),
             contact=NamedPoint(centre.name) if rolling and centre is not None else "",
+            turns=self._turns(shown),
+            has_angles=self._is_first(step, ids.formula_angle),
+            has_ways=self._is_first(step, ids.slide_way),
+            has_right_sides=any(id in ids.right_side for id in shown),
+            has_distance=any(id in ids.loop_distance and ledger.symbol(id).base == "d" for id in shown),
         )
+
+    def _is_first(self, step: Step, family: ids.Name) -> bool:
+        """Whether a step is the first that tells a quantity of a family."""
+        telling = (one for one in self.worked.steps if any(id in family for id in (*one.read, *one.ids)))
+        return next(telling, None) is step
+
+    def _turns(self, shown: Sequence[str]) -> Inlines:
+        """The rotations of bodies among some ids, each with its sense: ω₂ anticlockwise, ω₃ clockwise."""
+        motion, told = self.case.exercise.motion, list[Inline]()
+        for rate, family in ids.LINK_RATE.items():
+            for id in shown:
+                found = family.read(id)
+                if found is not None and (body := int(found["link"])) in motion.system.bodies:
+                    sense = Text(f" {self._sense(motion.turn(rate, body))}")
+                    told += [*([Text(", ")] if told else []), InlineMath(self.worked.printed.symbol(id)), sense]
+        return tuple(told)
 
     def _angles_of(self, id: str) -> list[str]:
         definition = self.worked.printed[id].definition

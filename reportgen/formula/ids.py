@@ -213,6 +213,7 @@ slide_way = Name("f.s.{joint}")  # of the second link over the first
 slide_velocity = Name("f.v.{joint}")
 slide_acceleration = Name("f.a.{joint}")
 matrix_entry = Name("{matrix}.{number}")
+right_side = Name("f.b.{what}.{line}")  # of the equations of a loop
 numerator = Name("q.{link}")
 
 # --- loads

@@ -274,6 +274,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.slide_way, "s", "length", name="slide way"),
     VocabularyRow(ids.slide_velocity, "v", "velocity", name="slide velocity"),
     VocabularyRow(ids.slide_acceleration, "a", "acceleration", name="slide acceleration"),
+    VocabularyRow(ids.right_side.only(what="v"), "b", "velocity", name="right side"),
+    VocabularyRow(ids.right_side.only(what="a"), "b", "acceleration", name="right side"),
     VocabularyRow(ids.formula_velocity, "v", "velocity", name="formula velocity"),
     VocabularyRow(ids.formula_acceleration, "a", "acceleration", name="formula acceleration"),
     VocabularyRow(ids.formula_sliding.only(what="v"), "v", "velocity"),

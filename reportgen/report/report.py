@@ -41,7 +41,7 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
     "short": frozenset(
         (
             # sections of the outline
-            *("overview", "foreword", "symbols", "summary", "centres", "diagrams", "course", "functions", "checks"),
+            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "functions", "checks"),
             # extreme positions that nothing else stands on
             *("rocker-extremes", "slider-extremes"),
             # what the plans stand on

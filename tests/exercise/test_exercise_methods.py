@@ -22,10 +22,9 @@ from reportgen.report import text_of
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 FILES = sorted(FOLDER.glob("*.yaml"))
-NOWHERE = {("12", "base point"), ("08", "base point"), ("08", "projection"), ("07", "equations")}
-"""Where a method has what it needs and still leads to nothing asked: the lever of 12 has no end to begin at, only
-instant centres tell how D of 8 moves, by which its crank is joined to the rest, and what is given in 7 is a rate of
-the rod, while the equations are those of the cylinder."""
+NOWHERE = {("12", "base point"), ("08", "base point"), ("08", "projection")}
+"""Where a method has what it needs and still leads to nothing asked: the lever of 12 has no end to begin at, and only
+instant centres tell how D of 8 moves, by which its crank is joined to the rest."""
 METHODS: tuple[Any, ...] = get_args(Method)
 
 FOUR_BAR = """\
@@ -130,6 +129,8 @@ def test_every_example_by_every_method_that_applies(path: Path, method: Any) -> 
     st.integers(-40, 40).filter(bool),
 )
 def test_all_methods_that_apply_agree(tmp_path: Path, form: str, a: int, b: int, x: int, rate: int) -> None:
+    # Above the wheel's centre or below it C tells along which line A moves, but no projection tells how fast.
+    assume(form is not WHEEL_WITH_ROD or abs(a) != 90)
     path = tmp_path / "file.yaml"
     path.write_text(form.format(a=a, b=b, x=x / 10, rate=rate / 10), encoding="utf-8")
     try:
@@ -144,14 +145,9 @@ def test_all_methods_that_apply_agree(tmp_path: Path, form: str, a: int, b: int,
     assert applying
     for method in applying:
         assert agrees(case, by(case, method)) > 0
-        # A point off the line of the others follows from projections, a rotation never does; the equations of a
-        # rolling wheel say nothing of a rod that hangs on it.
+        # A point off the line of the others follows from projections, a rotation never does.
         left = set(by(case, method).missing)
-        assert (
-            not left
-            or method == "equations"
-            or (method == "projection" and left <= {"v.M", *(f"omega.{body}" for body in (1, 2, 3))})
-        ), left
+        assert not left or (method == "projection" and left <= {"v.M", *(f"omega.{body}" for body in (1, 2, 3))}), left
 
 
 def test_a_file_may_ask_for_several(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from reportgen import api
 from reportgen.base.units import Language
 from reportgen.report import Document, outline
 from reportgen.writers import latex, typst
+from tests.exercise.test_exercise_equations import OF_SEVERAL, by_equations
 from tests.lanes import matrix
 from tests.plans.random_variants import cases
 from tests.report import built, trees
@@ -82,6 +83,17 @@ def test_tables_agree_with_one_another(path: Path) -> None:
 )
 def test_exercises(path: Path, language: Language) -> None:
     assert_lines_hold(api.document(api.load(path, language)))
+
+
+@pytest.mark.parametrize(
+    ("path", "language"),
+    by_language(
+        [path for path in EXERCISES if path.stem not in OF_SEVERAL],
+        [(path, "en") for path in EXERCISES if path.stem in ("08", "20")],
+    ),
+)
+def test_exercises_by_their_equations(path: Path, language: Language, tmp_path: Path) -> None:
+    assert_lines_hold(api.document(api.load(by_equations(path, tmp_path), language)))
 
 
 def test_one_corrupted_digit_is_caught(tmp_path: Path) -> None:

@@ -1,0 +1,428 @@
+"""Places of points by the coordinates of the bodies: chains of vectors from the ground, and the loops that they close.
+
+Each body has an angle φ, each point on a straight line its way s along it.  A point reached in two ways closes a loop,
+Σ legs = Σ legs; a disc that rolls or meshes relates angles and ways by constant factors, Σ factor · coordinate = const.
+Both hold at any time, so that their derivatives hold, too.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+from reportgen.exercise import file
+from reportgen.exercise.board import Board, angle
+from reportgen.exercise.centres import SAME_PLACE
+from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.places import unit
+from reportgen.formula import (
+    MINUS_ONE,
+    NOTHING,
+    ONE,
+    Expression,
+    Ref,
+    Symbol,
+    between,
+    ids,
+    is_zero,
+    minus,
+    plus,
+    refs,
+    signed,
+)
+from reportgen.formula.constructions import cross, dot
+from reportgen.formula.sheet import is_short
+
+HALF_TURN = math.pi
+SAME_ANGLE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """The angle of a body; of a rod that only keeps two points apart, the number is none of the file's."""
+
+    body: int
+
+
+@dataclass(frozen=True, slots=True)
+class WayAlong:
+    """The way of a point along a straight line, by its number among all of them."""
+
+    number: int
+
+
+Coordinate = Turn | WayAlong
+
+
+@dataclass(frozen=True, slots=True)
+class Direction:
+    """A direction that turns with a body: at `offset` (rad) from its φ; of the ground, from the x-axis."""
+
+    body: int
+    offset: float
+
+
+@dataclass(frozen=True, slots=True)
+class Leg:
+    """A vector of a chain: its length, which a `way` is the coordinate of, along a direction turned by right angles."""
+
+    length: Expression
+    value: float
+    direction: Direction
+    quarters: int = 0
+    way: WayAlong | None = None
+
+    def reversed(self) -> Leg:
+        return replace(self, length=minus(self.length), value=-self.value)
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a point is: coordinates of a fixed point and a chain of legs from there."""
+
+    fixed: tuple[Expression, Expression] = (NOTHING, NOTHING)
+    legs: tuple[Leg, ...] = ()
+
+    def by(self, *legs: Leg) -> Place:
+        return replace(self, legs=(*self.legs, *(leg for leg in legs if abs(leg.value) > SAME_PLACE or leg.way)))
+
+
+@dataclass(frozen=True, slots=True)
+class Closure:
+    """A point that is reached in two ways."""
+
+    point: str
+    one: Place
+    other: Place
+
+
+@dataclass(frozen=True, slots=True)
+class StraightWay:
+    """What slides along a straight line: the point, its body, the body of the line and the direction of it."""
+
+    point: str
+    body: int
+    on: int
+    along: complex
+
+
+Relation = dict[Coordinate, tuple[Expression, float]]
+"""Σ factor · rate = 0, each factor with its value."""
+
+
+@dataclass
+class Linked:
+    """The places of all points of a system, its loops and relations, as functions of its coordinates."""
+
+    board: Board
+    places: dict[str, Place] = field(default_factory=dict)
+    closures: list[Closure] = field(default_factory=list)
+    relations: list[Relation] = field(default_factory=list)
+    lines: list[StraightWay] = field(default_factory=list)
+    rods: dict[int, tuple[str, str]] = field(default_factory=dict)
+    """The ends of rods that are no bodies of the file, by their numbers."""
+    reference: dict[int, float] = field(default_factory=dict)
+    """The φ of each body at the instant (rad)."""
+    turning: dict[int, int] = field(default_factory=dict)
+    """The body that each one turns with."""
+    read_off: dict[str, tuple[float, Symbol]] = field(default_factory=dict)
+    """The ways along lines, read off the figure unless a formula gives them before they are needed."""
+
+    def __post_init__(self) -> None:
+        given, layout = self.board.layout.given, self.board.layout
+        self.members = {body: layout.own(body) for body in layout.members}
+        self._join_turns()
+        moving = {name for names in self.members.values() for name in names}
+        self.places = {name: Place(self._coordinates(name)) for name in given.points if name not in moving}
+        for joint in given.joints:
+            if isinstance(joint, file.Pin) and GROUND in joint.bodies:
+                self.places[joint.at] = Place(self._coordinates(joint.at))
+                body = max(joint.bodies)
+                if joint.at not in self.members[body]:
+                    self.members[body].append(joint.at)
+        waiting, joints = dict(self.members), [*enumerate(given.joints)]
+        while (
+            self._next_body(waiting, driven=True)
+            or self._next_joint(waiting, joints)
+            or self._next_body(waiting, driven=False)
+        ):
+            pass
+        for joint in given.joints:
+            if isinstance(joint, file.Gears | file.RollingOnCircle | file.Belt):
+                self._relate_discs(joint)
+
+    # --- angles
+
+    def _join_turns(self) -> None:
+        """Bodies that slide along a guide without turning against it turn as its body does."""
+        self.turning = {GROUND: GROUND, **{body: body for body in self.members}}
+        for joint in self.board.layout.given.joints:
+            match joint:
+                case file.Slider(body=body, on=on):
+                    self._turn_alike(body, on)
+                case file.Translation(body=body):
+                    self._turn_alike(body, GROUND)
+
+    def _turn_alike(self, one: int, other: int) -> None:
+        least, most = sorted((self.turning[one], self.turning[other]))
+        self.turning |= {body: least for body, leader in self.turning.items() if leader == most}
+
+    def direction(self, body: int, of: complex) -> tuple[Direction, int]:
+        """A direction as it turns with a body, the sense first taken along φ itself: +1, or −1 against it."""
+        leader, now = self.turning.get(body, body), cmath.phase(of)
+        if leader == GROUND:
+            return Direction(GROUND, now), 1
+        if leader not in self.reference:
+            known = self.board.q.find(ids.formula_angle(leader))
+            self.reference[leader] = now if known is None else self.board.q.si(known)
+        offset = math.remainder(now - self.reference[leader], 2 * math.pi)
+        if abs(abs(offset) - HALF_TURN) < SAME_ANGLE:
+            return Direction(leader, 0.0), -1
+        return Direction(leader, 0.0 if abs(offset) < SAME_ANGLE else offset), 1
+
+    def heading(self, direction: Direction) -> float:
+        """A direction at the instant, rad from +x."""
+        return self.reference.get(direction.body, 0.0) + direction.offset
+
+    def angle(self, direction: Direction) -> Expression:
+        """A direction as it stands in formulas: φ₂, φ₂ + 30°, 60°."""
+        return self._from(self.phi(direction.body) if direction.body else NOTHING, direction.offset)
+
+    def phi(self, body: int) -> Expression:
+        """The angle of a body, as it is read off the figure."""
+        q, id = self.board.q, ids.formula_angle(body)
+        return q.find(id) or q.give(id, self.reference[body], Symbol("φ", self.letter(body)), exact=False)
+
+    def way_id(self, way: WayAlong) -> str:
+        return ids.slide_way(f"{self.lines[way.number].body},{way.number}")
+
+    def way(self, of: Expression) -> Expression:
+        """A length with the ways in it put on the board."""
+        for id in refs(of):
+            if id not in self.board.q:
+                value, symbol = self.read_off[id]
+                self.board.q.give(id, value, symbol, exact=False)
+        return of
+
+    def letter(self, body: int) -> str:
+        """What stands below the letters of a body: its number, of a rod its ends."""
+        return "".join(self.rods[body]) if body in self.rods else str(body)
+
+    def _from(self, start: Expression, offset: float) -> Expression:
+        if abs(offset) < SAME_ANGLE and start != NOTHING:
+            return start
+        size = angle(self.board.q, abs(offset))
+        if start == NOTHING:
+            return size if offset >= 0 or is_zero(size) else minus(size)
+        return plus(start, size if offset > 0 else minus(size))
+
+    def between(self, one: Direction, other: Direction) -> Expression:
+        """The angle from one direction to another."""
+        if one.body == other.body:
+            return self._from(NOTHING, math.remainder(other.offset - one.offset, 2 * math.pi))
+        start, end = self.angle(one), self.angle(other)
+        return minus(start) if is_zero(end) else between(end, start)
+
+    # --- lengths
+
+    def _coordinates(self, point: str) -> tuple[Expression, Expression]:
+        at = self.board.layout.points[point]
+        x, y = (self._coordinate(axis, point, part) for axis, part in zip("xy", (at.real, at.imag), strict=True))
+        return x, y
+
+    def _coordinate(self, axis: str, point: str, value: float) -> Expression:
+        if abs(value) < SAME_PLACE:
+            return NOTHING
+        q, id = self.board.q, ids.formula_coordinate(axis, point)
+        return q.find(id) or q.give(id, value, exact=is_short(value))
+
+    def arm(self, body: int, base: str, point: str) -> tuple[Leg, ...]:
+        """From one point of a body to another; none where both are one."""
+        reach = self.board.layout.points[point] - self.board.layout.points[base]
+        if abs(reach) < SAME_PLACE:
+            return ()
+        direction, sense = self.direction(body, reach)
+        return (Leg(signed(sense, self.board.length(base, point)), sense * abs(reach), direction),)
+
+    # --- chains
+
+    def _next_body(self, waiting: dict[int, list[str]], driven: bool) -> bool:
+        """Leads on from a body that is reached to all of its points: first the driving ones, then what they drive."""
+
+        def is_driven(body: int) -> bool:
+            return self.board.knows_omega(body) or any(
+                name in self.places and self.places[name].legs for name in waiting[body]
+            )
+
+        reached = [body for body, names in waiting.items() if any(name in self.places for name in names)]
+        chosen = [body for body in reached if is_driven(body)] if driven else reached
+        if not chosen:
+            return False
+        body = min(chosen, key=lambda one: not self.board.knows_omega(one))
+        names = waiting.pop(body)
+        base = min((name for name in names if name in self.places), key=lambda name: len(self.places[name].legs))
+        for name in names:
+            if name != base:
+                self._reach(name, self.places[base].by(*self.arm(body, base, name)))
+        return True
+
+    def _reach(self, point: str, place: Place) -> None:
+        known = self.places.get(point)
+        if known is None:
+            self.places[point] = place
+            return
+        self.closures.append(Closure(point, known, place))
+        if len(place.legs) < len(known.legs):
+            self.places[point] = place
+
+    def _next_joint(self, waiting: dict[int, list[str]], joints: list[tuple[int, file.Joint]]) -> bool:
+        """Leads on over a joint by which points move along lines or keep their distance."""
+        for number, (_, joint) in enumerate(joints):
+            if isinstance(joint, file.SlotJoint | file.Slider | file.RollingOnLine):
+                line = self._line(joint)
+                if line.on != GROUND and line.on in waiting and line.point not in self.places:
+                    continue
+                del joints[number]
+                self._slide(joint, line)
+                return True
+            if isinstance(joint, file.Cord | file.RollingOnCircle):
+                ends = self._ends(joint)
+                if not any(end in self.places for end in ends):
+                    continue
+                del joints[number]
+                if not isinstance(joint, file.RollingOnCircle) or self._arm_of(*ends) is None:
+                    self._apart(*ends)
+                return True
+        return False
+
+    def _line(self, joint: file.SlotJoint | file.Slider | file.RollingOnLine) -> StraightWay:
+        along = self.board.layout.geometry.direction(joint)
+        match joint:
+            case file.SlotJoint(point=point, body=body):
+                return StraightWay(point, body, joint.on, along)
+            case file.Slider(body=body):
+                return StraightWay(self.board.layout.given.bodies[body].carried[0], body, joint.on, along)
+        return StraightWay(self.board.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
+
+    def _slide(self, joint: file.Joint, line: StraightWay) -> None:
+        """P = T + s e + h n: along the line and across it from a point of its body, on the ground from the origin."""
+        q, points, number = self.board.q, self.board.layout.points, len(self.lines)
+        self.lines.append(line)
+        on_ground = self.turning.get(line.on, line.on) == GROUND and line.on == GROUND
+        base = "" if on_ground else self._base(line)
+        there = points[line.point] - (points[base] if base else 0j)
+        direction, sense = self.direction(line.on, line.along)
+        way, relative = WayAlong(number), "" if on_ground else "r"
+        gone = sense * dot(line.along, there)
+        id = self.way_id(way)
+        self.read_off[id] = (gone, Symbol("s", line.point, relative))
+        legs = [Leg(Ref(id), gone, direction, way=way)]
+        if abs(off := sense * cross(line.along, there)) > SAME_PLACE:
+            id = ids.loop_distance(f"{line.body},{number}")
+            h = q.give(id, abs(off), Symbol("h", line.point, relative), exact=is_short(abs(off)))
+            legs.append(Leg(signed(off, h), off, direction, 1))
+        if sense < 0:
+            self.lines[number] = replace(line, along=-line.along)
+        if base and base not in self.places:
+            self._reach(base, self.places[line.point].by(*(leg.reversed() for leg in legs)))
+        else:
+            self._reach(line.point, (self.places[base] if base else Place()).by(*legs))
+        if isinstance(joint, file.RollingOnLine):
+            self._roll(joint, way, self.lines[number])
+
+    def _base(self, line: StraightWay) -> str:
+        """The point of a line's body that ways along it count from: one that is reached, and on the line at best."""
+        points, names = self.board.layout.points, self.members[line.on]
+        known = [name for name in names if name in self.places] or names
+
+        def rank(name: str) -> tuple[bool, int]:
+            off = abs(cross(line.along, points[name] - points[line.point])) > SAME_PLACE
+            return off, len(self.places[name].legs) if name in self.places else 0
+
+        return min(known, key=rank)
+
+    def _roll(self, joint: file.RollingOnLine, way: WayAlong, line: StraightWay) -> None:
+        """ṡ = R (ω of the line − ω of the disc), of a disc to the left of the line."""
+        layout = self.board.layout
+        touch = layout.geometry.contact_on_line(joint)
+        side = math.copysign(1.0, cross(line.along, layout.points[line.point] - touch))
+        radius = self._radius(joint.disc, layout.contacts[layout.given.joints.index(joint)])
+        value = side * self.board.q.si(radius)
+        relation: Relation = {way: (ONE, 1.0), Turn(self.turning[joint.disc]): (signed(side, radius), value)}
+        if leader := self.turning[joint.on]:
+            relation[Turn(leader)] = minus(signed(side, radius)), -value
+        self.relations.append(relation)
+
+    def _radius(self, disc: int, touch: str) -> Ref:
+        return self.board.length(self.board.layout.geometry.disc(disc).centre, touch)
+
+    # --- points at constant distances
+
+    def _ends(self, joint: file.Cord | file.RollingOnCircle | file.Gears | file.Belt) -> tuple[str, str]:
+        if isinstance(joint, file.Cord):
+            one, other = joint.points
+            return one, other
+        first, second = self.board.layout.geometry.discs(joint)
+        return first.centre, second.centre
+
+    def _apart(self, one: str, other: str) -> int:
+        """A rod between two points, one of which is reached; its number."""
+        if other in self.places and one not in self.places:
+            one, other = other, one
+        number = 1 + max((*self.turning, *self.rods))
+        self.rods[number] = one, other
+        self.turning[number] = number
+        self._reach(other, self.places[one].by(*self.arm(number, one, other)))
+        return number
+
+    def _arm_of(self, *ends: str) -> int | None:
+        """The body that carries both points; None if none does, the ground if both are fixed."""
+        fixed = [end for end in ends if end in self.places and not self.places[end].legs]
+        if len(fixed) == len(ends):
+            return GROUND
+        carrying = [body for body, names in self.members.items() if {*ends} <= {*names}]
+        rods = [number for number, names in self.rods.items() if {*ends} == {*names}]
+        return next(iter((*carrying, *rods)), None)
+
+    def _relate_discs(self, joint: file.Gears | file.RollingOnCircle | file.Belt) -> None:
+        """(ω₁ − ω_c) r₁ ± (ω₂ − ω_c) r₂ = 0 about the line of the centres, + for discs that turn in opposite senses."""
+        layout, index = self.board.layout, self.board.layout.given.joints.index(joint)
+        ends = self._ends(joint)
+        if not all(end in self.places for end in ends):
+            return
+        arm = self._arm_of(*ends)
+        if arm is None:
+            arm = self._apart(*ends)
+        if isinstance(joint, file.Belt):
+            touching, alike = layout.belts[index], not joint.crossed
+        else:
+            touching = (layout.contacts[index],) * 2
+            first, second = (layout.points[touching[0]] - layout.points[end] for end in ends)
+            alike = dot(first, second) > 0
+        relation: Relation = {}
+        for disc, touch, factor in zip(joint.discs, touching, (ONE, MINUS_ONE if alike else ONE), strict=True):
+            radius, sense = self._radius(disc, touch), -1.0 if factor == MINUS_ONE else 1.0
+            size = self.board.q.si(radius)
+            for body, sign in ((disc, sense), (arm, -sense)):
+                if leader := self.turning[body]:
+                    before, value = relation.get(Turn(leader), (NOTHING, 0.0))
+                    relation[Turn(leader)] = plus(before, signed(sign, radius)), value + sign * size
+        self.relations.append({one: told for one, told in relation.items() if abs(told[1]) > SAME_PLACE})
+
+
+def legs_of(closure: Closure) -> Iterator[Leg]:
+    """The legs of a loop, one way and back, without those that both ways have."""
+    one, other = list(closure.one.legs), list(closure.other.legs)
+    for leg in closure.one.legs:
+        if leg in other:
+            one.remove(leg)
+            other.remove(leg)
+    yield from one
+    yield from (leg.reversed() for leg in other)
+
+
+def given_direction(degrees: float, size: float) -> Direction:
+    """The direction of a given vector, whose size may be negative."""
+    return Direction(GROUND, cmath.phase(unit(degrees) * (1 if size >= 0 else -1)))
