@@ -1,16 +1,17 @@
-"""The symbols that occur in a text, for the list of those that it uses."""
+"""The symbols that occur in a report, for the list of those that it uses."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
+from reportgen.drawing import Label, Scene
 from reportgen.formula import Expression, Number, Symbol, VectorEquation, children
 from reportgen.report import Block, Emph, Equation, Figure, Inline, InlineMath, List, Paragraph, Plate, Strong, Table
 
 
 def occurring(blocks: Iterable[Block]) -> frozenset[Symbol]:
-    """The symbols of paragraphs, equations, tables and captions, a vector as the symbol of its magnitude."""
+    """The symbols of texts, equations, tables and figures, a vector as the symbol of its magnitude."""
     rest = list(_expressions(blocks))
     # Most symbols are met many times as one object: these are told apart without a look inside.
     found: dict[int, Symbol] = {}
@@ -33,8 +34,12 @@ def _expressions(blocks: Iterable[Block]) -> Iterator[Expression]:
                 yield from rows
             case Paragraph(inlines=inlines):
                 yield from _of(inlines)
-            case Figure(caption=inlines) | Plate(caption=inlines):
+            case Figure(scenes, inlines):
                 yield from _of(inlines)
+                yield from (one for scene in scenes for one in _labels(scene))
+            case Plate(scene, caption=inlines):
+                yield from _of(inlines)
+                yield from _labels(scene)
             case Table():
                 yield from _of(block.caption)
                 for row in (*block.head, *block.rows):
@@ -43,6 +48,10 @@ def _expressions(blocks: Iterable[Block]) -> Iterator[Expression]:
             case List(items=items):
                 for item in items:
                     yield from _expressions(item)
+
+
+def _labels(scene: Scene) -> Iterator[Expression]:
+    return (one.content for one in scene.items if isinstance(one, Label) and not isinstance(one.content, str))
 
 
 def _of(inlines: Iterable[Inline]) -> Iterator[Expression]:

@@ -6,6 +6,8 @@ import re
 from collections.abc import Iterator
 from itertools import takewhile
 
+from reportgen.base.units import Language
+from reportgen.drawing import Label, Scene
 from reportgen.formula.plain import formula
 from reportgen.report import Block, Equation, InlineMath, Paragraph, Plate, Section, Table, plain
 from reportgen.report import Figure as Drawn
@@ -23,8 +25,8 @@ def parts(written: Written) -> tuple[list[Block], list[Block]]:
     return section, [*blocks[:start], *blocks[start + len(section) :]]
 
 
-def printed(blocks: list[Block], language: str) -> Iterator[str]:
-    """What is read, block for block, drawings apart."""
+def printed(blocks: list[Block], language: Language) -> Iterator[str]:
+    """What is read, block for block."""
     for block in walk(tuple(blocks)):
         match block:
             case Paragraph(inlines):
@@ -34,8 +36,19 @@ def printed(blocks: list[Block], language: str) -> Iterator[str]:
             case Table():
                 yield plain(block.caption, language)
                 yield from (plain(cell.inlines, language) for row in (*block.head, *block.rows) for cell in row)
-            case Drawn(caption=caption) | Plate(caption=caption):
+            case Drawn(scenes, caption):
                 yield plain(caption, language)
+                yield from (label for scene in scenes for label in labels(scene, language))
+            case Plate(scene, caption=caption):
+                yield plain(caption, language)
+                yield from labels(scene, language)
+
+
+def labels(scene: Scene, language: Language) -> Iterator[str]:
+    """The formulas that stand in a drawing."""
+    for item in scene.items:
+        if isinstance(item, Label) and not isinstance(item.content, str):
+            yield formula(item.content, language)
 
 
 def occurs(symbol: str, text: str) -> bool:
