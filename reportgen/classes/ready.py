@@ -11,6 +11,7 @@ import os
 import re
 from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from reportgen.base.units import Language
 from reportgen.base.words import DEFAULT_LANGUAGE, sample
@@ -43,15 +44,15 @@ def prepare(kind: str, language: Language) -> None:
 
     Raises `KeyError` for no kind of this program.
     """
-    from reportgen import api, catalogue
-    from reportgen.base.source import read_own
+    from reportgen import api
     from reportgen.writers import latex, typst
 
-    assignment, _ = catalogue.assess(read_own(sample(kind, language)), Path(f"{kind}.yaml"))
-    if assignment is not None:
-        document = api.document(assignment)
-        typst.write(document)
-        latex.write(document)
+    with TemporaryDirectory(prefix="reportgen-") as folder:
+        file = Path(folder) / "sample.yaml"
+        file.write_text(sample(kind, language), encoding="utf-8")
+        document = api.document(api.load(file))
+    typst.write(document)
+    latex.write(document)
 
 
 def _prepare_named() -> None:
