@@ -40,19 +40,16 @@ def kinds(given: Path, language: Language | None) -> frozenset[str]:
 
 
 def prepare(kind: str, language: Language) -> None:
-    """Work the sample of a kind out, up to what a typesetter is given, and forget it.
+    """Work the sample of a kind out, up to its pages, and forget it.
 
     Raises `KeyError` for no kind of this program.
     """
     from reportgen import api
-    from reportgen.writers import latex, typst
 
     with TemporaryDirectory(prefix="reportgen-") as folder:
         file = Path(folder) / "sample.yaml"
         file.write_text(sample(kind, language), encoding="utf-8")
-        document = api.document(api.load(file))
-    typst.write(document)
-    latex.write(document)
+        api.document(api.load(file))
 
 
 def _prepare_named() -> None:
