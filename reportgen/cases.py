@@ -123,10 +123,10 @@ class MachineCase(Calculation):
 
         return machine_results(self)
 
-    def film(self) -> Film:
+    def films(self) -> tuple[Film, ...]:
         from reportgen.page.sampling import film
 
-        return film(self)
+        return (film(self),)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

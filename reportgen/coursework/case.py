@@ -12,7 +12,6 @@ import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework.booklet import PartReport, booklet, task_of
-from reportgen.coursework.film import joined
 from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
@@ -40,8 +39,8 @@ class PartCase:
         return self.case.document()
 
     @cached_property
-    def film(self) -> Film | None:
-        return self.case.film()
+    def films(self) -> tuple[Film, ...]:
+        return self.case.films()
 
     @property
     def assigned(self) -> Assignment:
@@ -255,17 +254,14 @@ class Coursework:
         """Those of the machine, with those of each part by its name."""
         return {**self.machine.results(), "parts": {member.name: member.case.results() for member in self.members}}
 
-    def film(self) -> Film | None:
-        """That of the machine with a drawing of each part, which goes on with it as their speeds say."""
-        film = self.first.film
-        if film is None:
-            return None
-        for member in self.members:
-            own, speed = member.film, member.case.speed
-            if own is not None:
-                ratio = abs(speed / self.machine.speed) if speed and self.machine.speed and not film.span else 1.0
-                film = joined(film, relettered(own, self.letters[member.name]), ratio, member.name, member.title)
-        return film
+    def films(self) -> tuple[Film, ...]:
+        """Those of the machine, then those of the parts by their names and titles."""
+        parts = (
+            replace(relettered(film, self.letters[member.name]), name=member.name, title=member.title)
+            for member in self.members
+            for film in member.films
+        )
+        return (*self.first.films, *parts)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

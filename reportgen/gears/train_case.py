@@ -335,8 +335,8 @@ class TrainCase(SolvedTrain):
             sets=sets,
         )
 
-    def film(self) -> Film:
-        return train_drawings.film(self)
+    def films(self) -> tuple[Film, ...]:
+        return (train_drawings.film(self),)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

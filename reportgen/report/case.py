@@ -125,8 +125,8 @@ class Case(Protocol):
     def results(self) -> dict[str, Any]:
         """The contract's JSON object: an entry a position, null where it cannot be reached."""
 
-    def film(self) -> Film | None:
-        """What moves on its page, if anything does."""
+    def films(self) -> tuple[Film, ...]:
+        """What moves on its page, a film a part; none where nothing does."""
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

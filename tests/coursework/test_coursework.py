@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections import Counter
@@ -11,7 +12,6 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 
-import numpy as np
 import pytest
 from openpyxl import load_workbook
 
@@ -19,13 +19,13 @@ from reportgen import check, load, solve
 from reportgen.base.errors import Mark
 from reportgen.cases import open_case, opened, opener
 from reportgen.coursework.case import Coursework
-from reportgen.coursework.film import joined
 from reportgen.coursework.letters import nodes
 from reportgen.formula import Symbol
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, Policy, Submission, Verdict, marking_scheme
 from reportgen.marking.results import result_file
+from reportgen.page import panels
 from reportgen.report import Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced
 
@@ -221,17 +221,17 @@ def test_results_have_those_of_each_part(three: Coursework) -> None:
 # --- motion, sheets, watching -----------------------------------------------------------------------
 
 
-def test_the_cam_turns_on_the_page_as_its_shaft_does() -> None:
-    """After a turn and a half of the crank the camshaft has turned by 270°."""
+def test_each_part_moves_in_a_panel_of_its_own() -> None:
+    """The machine's is the one it has alone; a part's says the same as alone, in the coursework's letters."""
     case = coursework(TWIN)
-    machine, part = case.first.film, case.members[0].film
-    assert machine is not None
-    assert part is not None
-    film = joined(machine, part, 0.5, "cam", "")
-    (turning, *_) = [one.angle.values for one in film.stages[-1].items if getattr(one, "angle", None) is not None]
-    whole = np.concatenate([film.knots, film.knots[1:] + 360])
-    assert len(turning) == len(whole)
-    assert np.degrees(turning) == pytest.approx(whole / 2, abs=1e-6)
+    machine, cam = panels(case)
+    assert (machine,) == panels(case.machine)
+    (alone,) = panels(case.members[0].case)
+    assert (machine.own, cam.own, cam.title) == ("", "cam-", "Thiết kế cơ cấu cam xupap nạp")
+    assert not set(nodes(case.films()[1], Symbol)) & set(case.letters["cam"])
+    samples, own = json.loads(cam.data), json.loads(alone.data)
+    for key in ("knots", "positions", "lengths", "tracks"):
+        assert samples[key] == own[key]
 
 
 def test_sheets_are_numbered_on() -> None:
