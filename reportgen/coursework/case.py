@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -54,6 +55,11 @@ class PartCase:
     @property
     def title(self) -> str:
         return self.part.title or self.case.title
+
+    @property
+    def index(self) -> str:
+        """What its symbols have as an index where others have them too: the word of its kind, numbered as its name."""
+        return f"{self.case.words['index']}{self.name.removeprefix(self.part.head)}"
 
     def id(self, own: str) -> str:
         """The id in the coursework of a quantity of the part: cam.s, or cam2.s of the second cam."""
@@ -166,7 +172,7 @@ class Coursework:
         for member in self.members:
             same = {self._taken_symbols(member, datum)[0] for datum in member.part.taken if datum.times == "1"}
             quantities = {one.symbol for one in member.case.printed.families.values() if not one.hidden} - same
-            letters = letters_of(sorted(quantities, key=str), used, member.name)
+            letters = letters_of(sorted(quantities, key=str), used, member.index)
             found[member.name] = letters
             used |= {letters.get(one, one) for one in nodes(self.documents[member.name].blocks, Symbol)}
         return found
@@ -185,7 +191,7 @@ class Coursework:
         letters = self.letters[member.name]
         document = relettered(self.documents[member.name], letters)
         rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
-        lettered = tuple(self._said(letters, member.name))
+        lettered = tuple(self._said(letters, member.index))
         return PartReport(member.name, member.title, document, tuple(self._taken(member)), lettered, rows)
 
     def _said(self, letters: Letters, index: str) -> Iterator[Paragraph]:
@@ -200,8 +206,8 @@ class Coursework:
         chains = []
         for datum in member.part.taken:
             own, of = self._taken_symbols(member, datum)
-            id = f"{member.part.head}.{datum.key}"
-            value = (member.case.printed.number(id),) if id in member.case.printed else ()
+            id = _datum(member.case, datum.key, member.part.head)
+            value = (member.case.printed.number(id),) if id else ()
             shown = self.letters[member.name].get(own, own)
             times: tuple[Expression, ...] = () if shown == of else (_times(datum.times, of),)
             chains.append(Chain((shown, *times, *value)))
@@ -211,11 +217,10 @@ class Coursework:
 
     def _taken_symbols(self, member: PartCase, datum: TakenDatum) -> tuple[Symbol, Symbol]:
         """The symbol that a part has for a datum, and that of the machine."""
-        own, of = f"{member.part.head}.{datum.key}", datum.of
-        ledger, machine = member.case.printed, self.machine.printed
+        own, of = _datum(member.case, datum.key, member.part.head), _datum(self.machine, datum.of)
         return (
-            ledger.symbol(own) if own in ledger else Symbol(datum.key),
-            machine.symbol(of) if of in machine else Symbol(of.rpartition(".")[2]),
+            member.case.printed.symbol(own) if own else Symbol(datum.key),
+            self.machine.printed.symbol(of) if of else Symbol(datum.of.rpartition(".")[2]),
         )
 
     def _symbols(self, member: PartCase) -> Iterator[tuple[Any, Any, Any]]:
@@ -275,6 +280,36 @@ class Coursework:
             found += relettered(member.case.sheets(size, (), block, every), self.letters[member.name])
         own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
         return numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+
+
+def _datum(case: Case, key: str, head: str = "") -> str:
+    """The id of what a key of the parameters gives, "" if no quantity of the ledger is it.
+
+    Most ids are the key with points between its pieces: z1 is gears.z.1, n_in is train.n.in.  Of a datum that is
+    called otherwise, as a length by its points, the value tells which it is, if it is that of one datum alone.
+    """
+    given = {id: one for id, one in case.printed.families.items() if one.definition is None and len(one.values) == 1}
+    wanted = f"{head}.{key}" if head else key
+    if wanted in given:
+        return wanted
+    alike = [id for id in given if _letters(id) == _letters(wanted)]
+    if not alike and (value := _typed(case.assignment, key)) is not None:
+        shown = [id for id, one in given.items() if not one.hidden and not one.is_plane]
+        alike = [id for id in shown if math.isclose(float(case.ledger[id].values[0]), value, rel_tol=1e-9)]
+    return alike[0] if len(alike) == 1 else ""
+
+
+def _letters(name: str) -> str:
+    return name.replace(".", "").replace("_", "")
+
+
+def _typed(assignment: Assignment, key: str) -> float | None:
+    """The value of a parameter in SI units."""
+    found: Any = assignment.parameters
+    for step in key.split("."):
+        found = getattr(found, step, None)
+    value = getattr(found, "si", found)
+    return float(value) if isinstance(value, (int, float)) else None
 
 
 def _times(ratio: str, of: Symbol) -> Expression:

@@ -82,7 +82,11 @@ def task(case: SolvedTrain, key: Key, by_section: bool = False) -> Document:
     """The student's handout: the given data and the empty answer sheet."""
     from reportgen.marking.paper import empty_sheet, task_paper
 
-    names = {**TrainPage(case).names(), "answer_tables": empty_sheet(key, by_section)}
+    names = {
+        **TrainPage(case).names(),
+        "answer_tables": empty_sheet(key, by_section),
+        "is_part": case.assignment.is_part,
+    }
     title = (Section(1, (Text(case.words["train"]["task"].format(title=case.title)),), numbered=False),)
     return task_paper(case, key, title, Prose(case.places).render("train-task", names))
 
