@@ -6,6 +6,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any, Self
 
@@ -42,6 +43,12 @@ class PartCase:
     @cached_property
     def films(self) -> tuple[Film, ...]:
         return self.case.films()
+
+    @cached_property
+    def used(self) -> frozenset[Symbol]:
+        """The symbols that its report uses."""
+        known = self.case.used
+        return frozenset(nodes(self.document.blocks, Symbol) if known is None else known)
 
     @property
     def assigned(self) -> Assignment:
@@ -144,6 +151,11 @@ class Coursework:
         return {id: family for families in (self.machine.families, *parts) for id, family in families.items()}
 
     @property
+    def used(self) -> None:
+        """It is no part of anything."""
+        return None
+
+    @property
     def positions_of_a_turn(self) -> int:
         return self.machine.positions_of_a_turn
 
@@ -166,16 +178,28 @@ class Coursework:
 
     @cached_property
     def letters(self) -> Mapping[str, Letters]:
-        """Of each part the symbols that are other ones in the coursework."""
-        used = set(nodes(self.documents[MACHINE].blocks, Symbol))
+        """Of each part the symbols of quantities that are other ones in the coursework.
+
+        Keys and answer sheets need them too, and do without the machine's report.
+        """
+        used: set[Symbol] = set()
         found: dict[str, Letters] = {}
-        for member in self.members:
+        for before, member in pairwise((self.first, *self.members)):
+            letters = found.get(before.name, {})
+            used.update(letters.get(symbol, symbol) for symbol in before.used)
             same = {self._taken_symbols(member, datum)[0] for datum in member.part.taken if datum.times == "1"}
             quantities = {one.symbol for one in member.case.printed.families.values() if not one.hidden} - same
             letters = letters_of(sorted(quantities, key=str), used, member.index)
             found[member.name] = letters
-            used |= {letters.get(one, one) for one in nodes(self.documents[member.name].blocks, Symbol)}
         return found
+
+    def _points(self, member: PartCase) -> list[Symbol]:
+        """Those among the points of a part whose names an earlier part has for something else."""
+        earlier = takewhile(lambda one: one is not member, (self.first, *self.members))
+        taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
+        own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
+        found = set(nodes(member.document.blocks, Symbol)) - own
+        return sorted((one for one in found & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
 
     @cached_property
     def documents(self) -> Mapping[str, Document]:
@@ -191,15 +215,16 @@ class Coursework:
         letters = self.letters[member.name]
         document = relettered(self.documents[member.name], letters)
         rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
-        lettered = tuple(self._said(letters, member.index))
+        lettered = tuple(self._said(letters, member))
         return PartReport(member.name, member.title, document, tuple(self._taken(member)), lettered, rows)
 
-    def _said(self, letters: Letters, index: str) -> Iterator[Paragraph]:
-        """Which symbols of a part have its index."""
-        if letters:
-            shown = listed(InlineMath(one) for one in letters.values())
-            lead = str(self.words["coursework"]["letters"]).format(index=index)
-            yield Paragraph((Text(lead), *shown, Text(".")))
+    def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
+        """Which symbols of a part have its index, and which points are others than those of the same name before."""
+        words = self.words["coursework"]
+        for key, symbols in (("letters", list(letters.values())), ("points", self._points(member))):
+            if symbols:
+                lead = str(words[key]).format(index=member.index)
+                yield Paragraph((Text(lead), *listed(map(InlineMath, symbols)), Text(".")))
 
     def _taken(self, member: PartCase) -> Iterator[Paragraph | Equation]:
         """What a part has from the machine: n_cam = 1/2 · n = 45 rpm."""
@@ -280,6 +305,13 @@ class Coursework:
             found += relettered(member.case.sheets(size, (), block, every), self.letters[member.name])
         own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
         return numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+
+
+def _names_a_point(symbol: Symbol) -> bool:
+    """Whether a symbol is a capital, perhaps with a number: so points are called."""
+    return symbol in (Symbol(symbol.base), Symbol(symbol.base, symbol.sub)) and (
+        len(symbol.base) == 1 and "A" <= symbol.base <= "Z" and (symbol.sub or "0").isdecimal()
+    )
 
 
 def _datum(case: Case, key: str, head: str = "") -> str:

@@ -88,6 +88,10 @@ class Case(Protocol):
         """What is worked out at its positions."""
 
     @property
+    def used(self) -> Collection[Symbol] | None:
+        """The symbols that its report uses, of quantities, points and general formulas; None where it alone tells."""
+
+    @property
     def positions_of_a_turn(self) -> int:
         """After so many positions motion repeats."""
 
@@ -233,6 +237,11 @@ class Opened:
     def parts(self) -> Mapping[str, Case]:
         """It is a work of one part."""
         return {}
+
+    @property
+    def used(self) -> Collection[Symbol] | None:
+        """Nobody knows before its report is composed."""
+        return None
 
     @property
     def variant_line(self) -> str:
