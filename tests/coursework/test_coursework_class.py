@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
@@ -21,6 +22,7 @@ from reportgen.classes.run import Order, Result, run_batch
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask
+from reportgen.marking.marking import compare
 from reportgen.marking.marks import Policy, read_policy
 from reportgen.marking.sheet import answer_book
 from reportgen.report.case import Key
@@ -32,10 +34,12 @@ STUDENTS = [f"K2255201030{number:02d}" for number in range(1, 13)]
 ANGLES = ("12 deg", "15 deg", "18 deg")
 
 
-def drawn(folder: Path, count: int = 12) -> Variants:
-    """The files of a class in `out`, from a spec of the shaper with a spec of its cam."""
-    spec = (FOLDER / "shaper.yaml").read_text(encoding="utf-8").replace("variant: 4", "salt: s")
-    spec = spec.replace("H: 300 mm", "H: {from: 280 mm, to: 340 mm, step: 10 mm}").replace("feed-cam", "cams")
+def drawn(folder: Path, count: int = 12, sample: str = "shaper") -> Variants:
+    """The files of a class in `out`, from a spec of a shaper with a spec of its cam."""
+    spec = re.sub(r"variant: \d", "salt: s", (FOLDER / f"{sample}.yaml").read_text(encoding="utf-8"))
+    spec = re.sub(r"H: 3.0 mm", "H: {from: 280 mm, to: 340 mm, step: 10 mm}", spec).replace("feed-cam", "cams")
+    for name in ("motor-train.yaml", "drive-pair.yaml"):
+        (folder / name).write_bytes((FOLDER / name).read_bytes())
     cams = (FOLDER / "feed-cam.yaml").read_text(encoding="utf-8")
     (folder / "spec.yaml").write_text(spec, encoding="utf-8")
     (folder / "cams.yaml").write_text(
@@ -243,18 +247,29 @@ def test_shares_name_every_part(tmp_path: Path) -> None:
 
 @proof
 def test_a_class_of_twelve(tmp_path: Path) -> None:
-    """Some went wrong in the machine or in the cam, one has copied another's cam: each is told, nobody else."""
-    files = drawn(tmp_path).files
+    """Some went wrong in the machine or in one of three parts, one has copied a cam: each is told, nobody else."""
+    files = drawn(tmp_path, sample="shaper-whole").files
+    assert all(len(one.parts) == 3 and all(part.is_file() for part in one.parts) for one in files)
     keys = [Ask().of(open_case(one.path).key()) for one in files]
     handed = tmp_path / "handed"
     handed.mkdir()
-    wrong = {1: {"cam.psi": -1.0}, 2: {"v.B": 2.0}, 3: {"cam.pitch.x": -1.0}}
+    wrong = {
+        1: {"cam.psi": -1.0},
+        2: {"v.B": 2.0},
+        3: {"cam.pitch.x": -1.0},
+        5: {"train.omega.H": -1.0},
+        6: {"gears.d.1": 2.0},
+        7: {"v.B": 2.0, "gears.d.1": 2.0, "cam.psi": -1.0},
+    }
     for number, key in enumerate(keys):
         cam = keys[0] if number == 4 else None
         (handed / f"{key.id}.xlsx").write_bytes(filled(key, wrong.get(number, {}), cam))
     graded = grade([handed], tmp_path / "out", Policy())
+    assert not graded.problems
+    assert not graded.missing
     firsts = {number: {cell.id for cell in one.first_errors} for number, one in enumerate(graded.markings)}
     copied = firsts.pop(4)
+    assert copied
     assert all(id.startswith("cam.") for id in copied)
     assert {number: ids for number, ids in firsts.items() if ids} == {n: set(ids) for n, ids in wrong.items()}
     flags = {number: marking.flags for number, marking in enumerate(graded.markings) if marking.flags}
@@ -262,8 +277,15 @@ def test_a_class_of_twelve(tmp_path: Path) -> None:
     assert 4 in flags
     assert {id.partition(".")[0] for flag in flags[4] for id, _ in flag.places} == {"cam"}
     assert {flag.other for flag in flags[4]} == {keys[0].id}
-    result = run_batch(
-        Order(tmp_path / "roster.csv", assignments=tmp_path / "out", out=tmp_path / "made", products=("task",), jobs=1),
-        (tmp_path / "log").open("w"),
-    )
-    assert (result.made, result.failures) == (12, [])
+    for number, agrees in ((0, True), (5, False), (6, False)):
+        told, found = compare(open_case(files[number].path), handed / f"{keys[number].id}.xlsx", hint=True)
+        assert found == agrees
+        assert agrees or any(symbol in " ".join(told) for symbol in ("ω_H", "d_1"))
+    with (tmp_path / "log").open("w") as log:
+        order = Order(tmp_path / "roster.csv", assignments=tmp_path / "out", out=tmp_path / "made", products=("task",))
+        result = run_batch(order, log)
+        assert (result.made, result.failures, result.notes) == (12, [], [])
+        # One part edited: its student's alone are made again.
+        edited(cam_of(files[3].path), "132 mm", "133 mm")
+        again = run_batch(order, log)
+        assert (again.made, again.kept) == (1, 11)
