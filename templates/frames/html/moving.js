@@ -278,7 +278,8 @@ const panelOf = (root, panels) => {
     state.last = time;
     const whole = 360 * film.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
     state.angle = next >= whole ? next % whole : next;
-    draw();
+    // A panel that is not on the screen goes on unseen.
+    if (visible(root)) draw();
     requestAnimationFrame(frame);
   };
 
@@ -433,7 +434,7 @@ const panelOf = (root, panels) => {
     });
     hold(root.classList.contains("held"));
     watcher.disconnect();
-    for (const element of [drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
+    for (const element of [root, drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
     mark();
   };
 
@@ -461,11 +462,15 @@ const panelOf = (root, panels) => {
 
   let shown = { samples: document.getElementById(`${own}samples`).textContent };
   mount(JSON.parse(shown.samples));
-  seek(film.positions[film.shown][1]);
-  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
-  return { root, own, hold, seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
+  const start = () => {
+    seek(film.positions[film.shown][1]);
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+  };
+  return { root, own, start, hold, seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
 };
 const panels = [];
 for (const root of document.querySelectorAll(".moving")) panels.push(panelOf(root, panels));
+// All are measured before the first is drawn: what is drawn would have the page laid out anew for the next.
+for (const panel of panels) panel.start();
 // That of the machine.
 const [moving] = panels;
