@@ -73,13 +73,18 @@ DEGREES_OF_A_TURN = 360
 def result_files(
     path: Path | str, formats: Sequence[str], positions: int | None = None, language: Language | None = None
 ) -> Mapping[str, bytes]:
-    """The results of a full turn, by degrees unless `positions` says otherwise, in some of `RESULT_FORMATS`."""
+    """The results of a full turn, by degrees unless `positions` says otherwise, in some of `RESULT_FORMATS`.
+
+    CSV, which has one table a file, has a further file for each part of a coursework, results-cam.csv.
+    """
     from reportgen.marking.results import result_file
 
     assignment = load(path, language)
     wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).counts_positions else None)
     found = solve(assignment, wanted)
-    return {f"results.{name}": result_file(found, name) for name in formats}
+    files = {f"results.{name}": result_file(found, name) for name in formats}
+    parts = found.get("parts", {}) if "csv" in formats else {}
+    return files | {f"results-{part}.csv": result_file(one, "csv") for part, one in parts.items()}
 
 
 def document(assignment: Assignment) -> Document:

@@ -17,7 +17,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.units import Language
-from reportgen.formula import ids
+from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
@@ -27,6 +27,10 @@ from reportgen.report.case import Calculation, Case, Key, Pitfalls
 if TYPE_CHECKING:
     from reportgen.drawing.film import Film
     from reportgen.drawing.sheet import DrawingSheet
+
+
+GENERAL, HEIGHT = "vasntωεφα", "y"
+"""Letters without an index that stand for any point, link or angle, or count links and joints; that of a diagram."""
 
 
 def opened(assignment: Assignment) -> Case:
@@ -72,6 +76,27 @@ class MachineCase(Calculation):
         from reportgen.plans import enter_plans
 
         return enter_plans(self.analysis, (), self.analysis.machine.formulas)[0].families
+
+    @property
+    def used(self) -> frozenset[Symbol]:
+        """Those of its numbers, of its points and their images and coordinates, of the corners of its plans."""
+        from reportgen.plans.motion import POLES
+
+        names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
+        images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}
+        corners = {corner for polygon in self.polygons for edge in polygon.edges for corner in (edge.start, edge.end)}
+        return frozenset(
+            {family.symbol for family in self.printed.families.values()}
+            | {vocabulary.point(name) for name in names}
+            | {Symbol(name, label) for name in names for label in self.assignment.labels}
+            | {Symbol("K", str(one.link)) for one in bodies if ids.percussion(one.centre, one.link) in self.ledger}
+            | images
+            | {Symbol(axis, name) for axis in "xy" for name in names}
+            | {
+                Symbol(letter)
+                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""))
+            }
+        )
 
     @property
     def positions_of_a_turn(self) -> int:
@@ -123,10 +148,10 @@ class MachineCase(Calculation):
 
         return machine_results(self)
 
-    def film(self) -> Film:
+    def films(self) -> tuple[Film, ...]:
         from reportgen.page.sampling import film
 
-        return film(self)
+        return (film(self),)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

@@ -193,6 +193,8 @@ class Assignment:
     turns: int = 1
     names: Labels | None = None
     parts: tuple[AssignedPart, ...] = ()
+    is_part: bool = False
+    """Whether it is itself a part of a coursework, which says once what holds for all of it."""
 
     @property
     def language(self) -> Language:
@@ -281,7 +283,7 @@ class AssignedPart:
         """The part as the coursework of `whole` has it: with its cover, its language and its extent."""
         told = {key: getattr(whole.report, key) for key in whole.report.model_fields_set - {"worked_positions"}}
         report = ReportSection.model_construct(**told)
-        return replace(self.alone, report=report, variant=whole.variant, id=whole.id)
+        return replace(self.alone, report=report, variant=whole.variant, id=whole.id, is_part=True)
 
 
 class _Taken(Part):

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,6 +22,8 @@ from reportgen.base.words import kinds
 
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
+UNUSED = ("report",)
+"""The section of a part that the coursework's own stands for."""
 _TYPED = re.compile(rf"\s*({NUMBER})(.*)")
 
 Assess = Callable[[Source, Path], tuple[Assignment | None, list[Fault]]]
@@ -75,6 +77,51 @@ def files(source: Source, path: Path) -> list[Path]:
     named = (at(item, ("file",)) for item in items)
     paths = (path.parent / one.text for one in named if isinstance(one, Scalar) and not one.null)
     return [file for file in paths if not leads_out(file, path.parent)]
+
+
+def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
+    """A coursework's table with its parts in place of their files; these files by the part's number; what is wrong."""
+    whole: Node = top
+    listed = at(top, (PARTS,))
+    found: dict[int, Source] = {}
+    faults: list[Fault] = []
+    for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
+        if not isinstance(item, MappingNode):
+            continue
+        source, unread = source_of(top, path, index)
+        faults += unread or source.faults
+        if not unread and isinstance(source.top, MappingNode):
+            about = tuple(entry for entry in item.entries if entry[0].text in ABOUT and entry[0].text != "file")
+            own = without(source.top, (*UNUSED, *ABOUT))
+            whole = put(whole, (PARTS, index), MappingNode((*about, *own.entries), item.mark))
+            if item.find("file"):
+                found[index] = source
+    assert isinstance(whole, MappingNode), "parts are put into a table"
+    return whole, found, faults
+
+
+def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
+    """The names of parts that stand in place, by number: each that of its kind, numbered on."""
+    listed, met = at(top, (PARTS,)), Counter[str]()
+    found: dict[int, str] = {}
+    for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
+        name = at(item, ("kind",))
+        if isinstance(name, Scalar) and name.text in kinds():
+            head = find(name.text).part
+            met[head] += 1
+            found[index] = numbered(head, met[head])
+    return found
+
+
+def frozen(stem: str, name: str) -> str:
+    """The file of a student's part, beside the machine's: K1.cam.yaml beside K1.yaml."""
+    return f"{stem}.{name}.yaml"
+
+
+def is_frozen(path: Path, heads: Collection[str]) -> bool:
+    """Whether a file is by its name that of a student's part, if the names of parts begin with these heads."""
+    _, dot, name = path.stem.rpartition(".")
+    return bool(dot) and name.rstrip("0123456789") in heads
 
 
 def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fault]]:

@@ -24,7 +24,7 @@ SETS = {
     "report": r"report\.(pdf|html|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
-    "results": r"results\.(csv|xlsx|json)",
+    "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
     "feedback": r"feedback\.(pdf|xlsx)",
     "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }

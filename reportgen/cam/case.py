@@ -94,8 +94,8 @@ class CamCase(SolvedCam):
         least = None if found.least is None else {"r0": found.least.r0, "e": found.least.e, "a": found.least.a}
         return results(self, positions, cam=sizes, least=least, undercut=list(cam.undercut))
 
-    def film(self) -> Film:
-        return film.film(self)
+    def films(self) -> tuple[Film, ...]:
+        return (film.film(self),)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

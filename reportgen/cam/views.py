@@ -96,6 +96,7 @@ def task(case: SolvedCam, key: Key, by_section: bool = False) -> Document:
     names = {
         **page.names(),
         "answer_tables": empty_sheet(key, by_section),
+        "is_part": case.assignment.is_part,
         "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
     }
     title = (Section(1, (Text(case.words["cam"]["task"].format(title=case.title)),), numbered=False),)

@@ -21,13 +21,14 @@ from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
+from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import contents
-from reportgen.base.source import Scalar, read_source
+from reportgen.base.source import Scalar, at, read_source
 from reportgen.base.units import NUMBER, UNIT, Language
-from reportgen.base.words import as_error, as_problem, close_or_known, messages
+from reportgen.base.words import as_error, as_problem, close_or_known, kinds, messages
 from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20
@@ -310,10 +311,10 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
         raise as_error([Fault("no-folder", Mark(str(folder)))], language)
     files: dict[str, Path] = {}
     faults: list[Fault] = []
-    found = sorted(path for path in folder.rglob("*") if _is_assignment(path, folder))
+    found = [path for path in sorted(folder.rglob("*")) if _is_assignment(path, folder) and not _is_frozen(path)]
     of_others = {part.resolve() for path in found for part in beside(path)}
     for path in found:
-        if path.resolve() in of_others:
+        if path.resolve() in of_others and _may_be_part(path):
             continue
         first = files.setdefault(comparable(path.stem), path)
         if first is not path:
@@ -325,8 +326,29 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
 
 def beside(path: Path) -> list[Path]:
     """The files that the parts of a coursework stand in; none of another assignment."""
-    # Most files have no parts, and are not read for it.
-    return parts.files(read_source(path), path) if b"parts:" in contents(path) else []
+    try:
+        # Most files have no parts, and are not read for it.
+        return parts.files(read_source(path), path) if b"parts:" in contents(path) else []
+    except OSError:
+        # Whoever needs the file itself tells of it.
+        return []
+
+
+def _is_frozen(path: Path) -> bool:
+    """Whether a file is a student's part by its name, whatever stands in it and in the student's own."""
+    return "." in path.stem and parts.is_frozen(path, _heads())
+
+
+@cache
+def _heads() -> frozenset[str]:
+    """What the names of parts begin with."""
+    return frozenset(filter(None, (catalogue.kind(name).part for name in kinds())))
+
+
+def _may_be_part(path: Path) -> bool:
+    """Whether a file that another one names can be a part of it; a machine stays a student's own."""
+    name = at(read_source(path).top, ("kind",))
+    return not isinstance(name, Scalar) or name.text not in kinds() or bool(catalogue.kind(name.text).part)
 
 
 def match_files(

@@ -7,7 +7,8 @@ Beside the keys of an assignment file it may have
 - `variants: table.csv` (or .xlsx, beside the spec, below it or below a folder that is shared): one row a
   variant, columns named like the parameters (`H`, or `H (mm)` for bare numbers; `positions.start` for other
   sections), and if wished a column `variant` with its name;
-- `parts`, each a spec of its own, beside this one or below it; all that a student draws is frozen in one file;
+- `parts`, each a spec of its own, beside this one or below it; what a student draws of it is frozen in a file of its
+  own, beside that of the machine;
 - `salt: text`, which changes all draws; without it they depend on the key `variant` of the spec.
 
 Choices may stand at any depth of `parameters`, `positions`, `drawing` and `indicator`.  What the kind's own
@@ -19,9 +20,8 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from decimal import Decimal
 from pathlib import Path
 
@@ -94,8 +94,8 @@ class Spec:
     salt: str
     digest: str
     language: Language
-    parts: tuple[Path, ...] = ()
-    """The files of the specs of the parts."""
+    parts: Mapping[int, Source] = field(default_factory=dict)
+    """The specs of the parts that have files of their own, by number."""
 
     @property
     def name(self) -> str:
@@ -105,8 +105,14 @@ class Spec:
     def files(self) -> tuple[Path, ...]:
         """What it was read from: its own file, those of the parts and the table of variants."""
         table = at(self.whole, ("variants",))
-        own = (self.path, *self.parts)
+        own = (self.path, *(Path(part.file) for part in self.parts.values()))
         return (*own, self.path.parent / table.text) if isinstance(table, Scalar) else own
+
+    @property
+    def frozen(self) -> Mapping[int, str]:
+        """The names of the parts that have files of their own, by number."""
+        names = parts.named(self.top, catalogue.kind)
+        return {index: names[index] for index in self.parts}
 
     @property
     def mark(self) -> Mark:
@@ -178,13 +184,14 @@ def read_spec(path: Path, language: Language | None = None, shared: Sequence[Pat
     faults: list[Fault] = []
     base = without(top, OWN_KEYS)
     axes = list(_axes(base, (), kind, faults))
-    base, of_parts = _with_parts(base, path, faults)
+    base, of_parts, unread = parts.in_place(base, path)
+    faults += unread
     axes += _axes_of_parts(base, faults)
     table = _own_text(top, "variants", faults)
     salt = _own_text(top, "salt", faults) or _own_text(top, "variant", [])
     digest = hashlib.sha256(source.text.encode())
-    for part in of_parts:
-        digest.update(contents(part))
+    for part in of_parts.values():
+        digest.update(part.text.encode())
     if table is not None:
         file = path.parent / table.text
         if leads_out(file, path.parent, *shared):
@@ -207,7 +214,7 @@ def read_spec(path: Path, language: Language | None = None, shared: Sequence[Pat
         salt=salted,
         digest=digest.hexdigest(),
         language=language,
-        parts=tuple(of_parts),
+        parts=of_parts,
     )
     faults += _unreadable(spec)
     if faults:
@@ -246,36 +253,13 @@ def _own_text(top: MappingNode, key: str, faults: list[Fault]) -> Scalar | None:
 # --- parts ------------------------------------------------------------------------------------------
 
 
-def _with_parts(base: MappingNode, path: Path, faults: list[Fault]) -> tuple[MappingNode, list[Path]]:
-    """The spec with the specs of its parts in place of the names of their files, and these files."""
-    top: Node = base
-    listed = at(base, (PARTS,))
-    found: list[Path] = []
-    for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
-        if not isinstance(item, MappingNode):
-            continue
-        source, unread = parts.source_of(base, path, index)
-        faults += unread or source.faults
-        if not unread and isinstance(source.top, MappingNode):
-            about = tuple(entry for entry in item.entries if entry[0].text in ("title", "from"))
-            own = without(source.top, ("report", *parts.ABOUT))
-            top = put(top, (PARTS, index), MappingNode((*about, *own.entries), item.mark))
-            found += [Path(source.file)] if item.find("file") else []
-    assert isinstance(top, MappingNode), "parts are put into a table"
-    return top, found
-
-
 def _axes_of_parts(base: MappingNode, faults: list[Fault]) -> Iterator[DrawnParameter]:
     """What is drawn for the parts, by the name of the part and its path there."""
-    listed, met = at(base, (PARTS,)), Counter[str]()
-    for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
-        name = at(item, ("kind",))
-        if not isinstance(name, Scalar) or name.text not in kinds() or not isinstance(item, MappingNode):
-            continue
-        kind = catalogue.kind(name.text)
-        met[kind.part] += 1
-        called = parts.numbered(kind.part, met[kind.part])
-        for axis in _axes(without(item, parts.ABOUT), (), kind, faults):
+    for index, called in parts.named(base, catalogue.kind).items():
+        item, name = at(base, (PARTS, index)), at(base, (PARTS, index, "kind"))
+        assert isinstance(item, MappingNode), "a part is a table"
+        assert isinstance(name, Scalar), "a part that has a name has a kind"
+        for axis in _axes(without(item, parts.ABOUT), (), catalogue.kind(name.text), faults):
             choices = (
                 Choice(one.text, {(PARTS, index, *where): value for where, value in one.settings.items()})
                 for one in axis.choices

@@ -1,8 +1,9 @@
 """Spec and roster → an assignment file for each student, and a table of how equal the variants are.
 
 A student's file stays as it is once somebody has edited it.  Its head names the version, the spec with its
-SHA-256, the salt and the student; the head's last line is the SHA-256 of all that follows.  A file whose text still
-has that hash has not been edited since it was made.
+SHA-256, the salt and the student; the head's last line is the SHA-256 of all that follows, and of the files of the
+student's parts behind it.  Files whose text still has that hash have not been edited since they were made; those of a
+student are made and kept together.
 """
 
 from __future__ import annotations
@@ -10,8 +11,10 @@ from __future__ import annotations
 import hashlib
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 from statistics import median
 from typing import Any, Literal, NamedTuple
@@ -19,12 +22,25 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from reportgen import catalogue
-from reportgen.assignment import Assignment
+from reportgen.assignment import Assignment, parts
+from reportgen.assignment.common import PARTS
 from reportgen.assignment.reading import words_beside
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, overwritten, put_file, put_set, version
 from reportgen.base.limits import Limits
-from reportgen.base.source import MappingNode, Node, Scalar, Source, at, path_text, put, quoted, read_source, text_of
+from reportgen.base.source import (
+    MappingNode,
+    Node,
+    Scalar,
+    Source,
+    at,
+    path_text,
+    put,
+    quoted,
+    read_source,
+    text_of,
+    without,
+)
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
 from reportgen.cases import opened
@@ -60,18 +76,33 @@ State = Literal["new", "changed", "same", "kept"]
 
 @dataclass(frozen=True)
 class StudentFile:
-    """A student's assignment file: whose it is, where it belongs, what is to be done with it, what it says as drawn."""
+    """A student's assignment file: whose it is, where it belongs, what is to be done with it, what it says as drawn.
+
+    `top` has the parts in place; `parts` are the files that those are frozen in.
+    """
 
     drawn: DrawnVariant
     path: Path
     state: State
     text: str
     top: MappingNode
+    parts: Mapping[Path, str]
 
     @cached_property
     def source(self) -> Source:
-        """The file as it stands once it is made."""
+        """The file as it stands once it is made, but for parts that are not made yet: these stand in place."""
         return read_source(self.path) if self.state == "kept" else Source(str(self.path), self.text, self.top)
+
+    @property
+    def whole(self) -> Node | None:
+        """All that it says, with the parts in place."""
+        top = self.source.top
+        return parts.in_place(top, self.path)[0] if isinstance(top, MappingNode) else top
+
+    @property
+    def files(self) -> Mapping[Path, bytes]:
+        """What is to be written."""
+        return {path: text.encode() for path, text in {self.path: self.text, **self.parts}.items()}
 
 
 class Effort(NamedTuple):
@@ -129,8 +160,13 @@ def make_variants(
     spec = read_spec(spec_path, language, shared)
     roster = read_roster(roster_path, spec.language)
     _refuse(spec.column_faults(roster.columns), spec)
-    drawn = (out / f"{student.folder}.yaml" for student in roster.students)
-    _refuse(list(overwritten((*drawn, out / TABLE), (*spec.files, roster_path))), spec)
+    stems = [student.folder for student in roster.students]
+    names = (
+        (f"{stem}.yaml" for stem in stems),
+        (parts.frozen(stem, name) for stem in stems for name in spec.frozen.values()),
+    )
+    outputs = (out / name for name in (*chain(*names), TABLE))
+    _refuse(list(overwritten(outputs, (*spec.files, roster_path))), spec)
     # What is drawn is judged where it will lie, with the words beside it.
     for name, content in words_beside(spec_path).items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
@@ -147,8 +183,8 @@ def make_variants(
     efforts = tuple(shown(_efforts(each(), count), count))
     _refuse(draw.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
-    made = {file.path: file.text.encode() for file in files if file.state in ("new", "changed")}
-    put_set({**made, out / TABLE: _csv(files, efforts)})
+    made = [file.files for file in files if file.state in ("new", "changed")]
+    put_set({**{path: content for one in made for path, content in one.items()}, out / TABLE: _csv(files, efforts)})
     remarks = (*_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
     known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
     return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
@@ -165,35 +201,72 @@ def _refuse(faults: Sequence[Fault], spec: Spec) -> None:
 def _student_file(spec: Spec, drawn: DrawnVariant, folder: Path, force: bool) -> StudentFile:
     """The assignment file of a student in `folder`; one there that was edited is kept unless `force`."""
     top = _table(spec, drawn)
-    body = text_of(top, spec.text, spec.whole)
-    path = folder / f"{drawn.student.folder}.yaml"
-    return StudentFile(drawn, path, _state(path, body, force), _head(spec, drawn, body) + body, top)
+    stem = drawn.student.folder
+    named: Node = top
+    frozen: dict[Path, str] = {}
+    for index, name in spec.frozen.items():
+        file = parts.frozen(stem, name)
+        named = put(named, (PARTS, index), _named_part(top, index, file))
+        frozen[folder / file] = _part_text(spec, drawn, top, index)
+    assert isinstance(named, MappingNode), "parts are put into a table"
+    body = text_of(named, spec.text, spec.whole)
+    path = folder / f"{stem}.yaml"
+    text = _head(spec, drawn, (body, *frozen.values())) + body
+    return StudentFile(drawn, path, _state(path, body, frozen, force), text, top, frozen)
 
 
-def _state(path: Path, body: str, force: bool) -> State:
+def _named_part(top: MappingNode, index: int, file: str) -> MappingNode:
+    """A part by its file, with what is said about it."""
+    item = at(top, (PARTS, index))
+    assert isinstance(item, MappingNode), "a part is a table"
+    about = (entry for entry in item.entries if entry[0].text in parts.ABOUT)
+    return MappingNode(((_scalar("file"), _scalar(file)), *about), item.mark)
+
+
+def _part_text(spec: Spec, drawn: DrawnVariant, top: MappingNode, index: int) -> str:
+    """The file of a part, headed by whose it is."""
+    item, source = at(top, (PARTS, index)), spec.parts[index]
+    assert isinstance(item, MappingNode), "a part is a table"
+    assert isinstance(source.top, MappingNode), "the spec of a part is a table"
+    whose = word("variants_part", spec.language, id=quoted(drawn.student.id), file=f"{drawn.student.folder}.yaml")
+    return f"# {whose}\n{text_of(without(item, parts.ABOUT), source.text, source.top)}"
+
+
+def _state(path: Path, body: str, frozen: Mapping[Path, str], force: bool) -> State:
     try:
-        old = contents(path).decode("utf-8", "replace").replace("\r\n", "\n")
+        *head, present = _present(path).split("\n", HEAD_LINES)
     except FileNotFoundError:
         return "new"
-    *head, present = old.split("\n", HEAD_LINES)
+    standing: dict[Path, str] = {}
+    for part in frozen:
+        with suppress(FileNotFoundError):
+            standing[part] = _present(part)
     stated = _HASH.fullmatch(head[-1]) if len(head) == HEAD_LINES else None
-    untouched = stated is not None and stated[1] == _digest(present)
-    if untouched and present == body:
+    # A part that is gone is made again; as nobody can have edited it, it counts as it is to be made.  Before parts had
+    # files of their own they stood in the student's.
+    hashes = {_digest(present, *{**frozen, **standing}.values()), _digest(present)}
+    untouched = stated is not None and stated[1] in hashes
+    if untouched and (present, standing) == (body, frozen):
         return "same"
     return "changed" if untouched or force else "kept"
 
 
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
+def _present(path: Path) -> str:
+    return contents(path).decode("utf-8", "replace").replace("\r\n", "\n")
 
 
-def _head(spec: Spec, drawn: DrawnVariant, body: str) -> str:
+def _digest(*texts: str) -> str:
+    """The SHA-256 of texts one behind the other."""
+    return hashlib.sha256("".join(texts).encode()).hexdigest()
+
+
+def _head(spec: Spec, drawn: DrawnVariant, texts: Sequence[str]) -> str:
     """Comments; what a user wrote is quoted, so that no line can end in it."""
     origin = {"version": version(), "spec": quoted(spec.path.name), "digest": spec.digest, "salt": quoted(spec.salt)}
     lines = (
         word("variants_for", spec.language, id=quoted(drawn.student.id)),
         word("variants_made", spec.language, **origin),
-        word("variants_body", spec.language, digest=_digest(body)),
+        word("variants_body" if len(texts) == 1 else "variants_bodies", spec.language, digest=_digest(*texts)),
     )
     return "".join(f"# {line}\n" for line in lines)
 
@@ -332,7 +405,7 @@ def _csv(files: Sequence[StudentFile], efforts: Sequence[Effort | None]) -> byte
     places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
     rows: list[list[str | float | None]] = [["id", "name", "file", "variant", *map(path_text, places), *Effort._fields]]
     for file, one in zip(files, efforts, strict=True):
-        top = file.source.top
+        top = file.whole
         found = (at(top, where) for where in (("variant",), *places))
         values = [node.text if isinstance(node, Scalar) else None for node in found]
         tail = one or (None,) * len(Effort._fields)

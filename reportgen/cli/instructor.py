@@ -58,7 +58,11 @@ def variants(
 
     with ending(lang):
         made = make_variants(spec, roster, out, force, lang, _bar, shared=shared or ())
-        print(*(file.path for file in made.files), *(("", *made.summary) if made.summary else ()), sep="\n")
+        print(
+            *(path for file in made.files for path in (file.path, *file.parts)),
+            *(("", *made.summary) if made.summary else ()),
+            sep="\n",
+        )
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import pairwise, takewhile
 from pathlib import Path
 from typing import Any, Self
 
@@ -12,7 +14,6 @@ import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework.booklet import PartReport, booklet, task_of
-from reportgen.coursework.film import joined
 from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
@@ -40,8 +41,14 @@ class PartCase:
         return self.case.document()
 
     @cached_property
-    def film(self) -> Film | None:
-        return self.case.film()
+    def films(self) -> tuple[Film, ...]:
+        return self.case.films()
+
+    @cached_property
+    def used(self) -> frozenset[Symbol]:
+        """The symbols that its report uses."""
+        known = self.case.used
+        return frozenset(nodes(self.document.blocks, Symbol) if known is None else known)
 
     @property
     def assigned(self) -> Assignment:
@@ -55,6 +62,11 @@ class PartCase:
     @property
     def title(self) -> str:
         return self.part.title or self.case.title
+
+    @property
+    def index(self) -> str:
+        """What its symbols have as an index where others have them too: the word of its kind, numbered as its name."""
+        return f"{self.case.words['index']}{self.name.removeprefix(self.part.head)}"
 
     def id(self, own: str) -> str:
         """The id in the coursework of a quantity of the part: cam.s, or cam2.s of the second cam."""
@@ -139,6 +151,11 @@ class Coursework:
         return {id: family for families in (self.machine.families, *parts) for id, family in families.items()}
 
     @property
+    def used(self) -> None:
+        """It is no part of anything."""
+        return None
+
+    @property
     def positions_of_a_turn(self) -> int:
         return self.machine.positions_of_a_turn
 
@@ -161,16 +178,28 @@ class Coursework:
 
     @cached_property
     def letters(self) -> Mapping[str, Letters]:
-        """Of each part the symbols that are other ones in the coursework."""
-        used = set(nodes(self.documents[MACHINE].blocks, Symbol))
+        """Of each part the symbols of quantities that are other ones in the coursework.
+
+        Keys and answer sheets need them too, and do without the machine's report.
+        """
+        used: set[Symbol] = set()
         found: dict[str, Letters] = {}
-        for member in self.members:
+        for before, member in pairwise((self.first, *self.members)):
+            letters = found.get(before.name, {})
+            used.update(letters.get(symbol, symbol) for symbol in before.used)
             same = {self._taken_symbols(member, datum)[0] for datum in member.part.taken if datum.times == "1"}
             quantities = {one.symbol for one in member.case.printed.families.values() if not one.hidden} - same
-            letters = letters_of(sorted(quantities, key=str), used, member.name)
+            letters = letters_of(sorted(quantities, key=str), used, member.index)
             found[member.name] = letters
-            used |= {letters.get(one, one) for one in nodes(self.documents[member.name].blocks, Symbol)}
         return found
+
+    def _points(self, member: PartCase) -> list[Symbol]:
+        """Those among the points of a part whose names an earlier part has for something else."""
+        earlier = takewhile(lambda one: one is not member, (self.first, *self.members))
+        taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
+        own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
+        found = set(nodes(member.document.blocks, Symbol)) - own
+        return sorted((one for one in found & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
 
     @cached_property
     def documents(self) -> Mapping[str, Document]:
@@ -186,23 +215,24 @@ class Coursework:
         letters = self.letters[member.name]
         document = relettered(self.documents[member.name], letters)
         rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
-        lettered = tuple(self._said(letters, member.name))
+        lettered = tuple(self._said(letters, member))
         return PartReport(member.name, member.title, document, tuple(self._taken(member)), lettered, rows)
 
-    def _said(self, letters: Letters, index: str) -> Iterator[Paragraph]:
-        """Which symbols of a part have its index."""
-        if letters:
-            shown = listed(InlineMath(one) for one in letters.values())
-            lead = str(self.words["coursework"]["letters"]).format(index=index)
-            yield Paragraph((Text(lead), *shown, Text(".")))
+    def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
+        """Which symbols of a part have its index, and which points are others than those of the same name before."""
+        words = self.words["coursework"]
+        for key, symbols in (("letters", list(letters.values())), ("points", self._points(member))):
+            if symbols:
+                lead = str(words[key]).format(index=member.index)
+                yield Paragraph((Text(lead), *listed(map(InlineMath, symbols)), Text(".")))
 
     def _taken(self, member: PartCase) -> Iterator[Paragraph | Equation]:
         """What a part has from the machine: n_cam = 1/2 · n = 45 rpm."""
         chains = []
         for datum in member.part.taken:
             own, of = self._taken_symbols(member, datum)
-            id = f"{member.part.head}.{datum.key}"
-            value = (member.case.printed.number(id),) if id in member.case.printed else ()
+            id = _datum(member.case, datum.key, member.part.head)
+            value = (member.case.printed.number(id),) if id else ()
             shown = self.letters[member.name].get(own, own)
             times: tuple[Expression, ...] = () if shown == of else (_times(datum.times, of),)
             chains.append(Chain((shown, *times, *value)))
@@ -212,11 +242,10 @@ class Coursework:
 
     def _taken_symbols(self, member: PartCase, datum: TakenDatum) -> tuple[Symbol, Symbol]:
         """The symbol that a part has for a datum, and that of the machine."""
-        own, of = f"{member.part.head}.{datum.key}", datum.of
-        ledger, machine = member.case.printed, self.machine.printed
+        own, of = _datum(member.case, datum.key, member.part.head), _datum(self.machine, datum.of)
         return (
-            ledger.symbol(own) if own in ledger else Symbol(datum.key),
-            machine.symbol(of) if of in machine else Symbol(of.rpartition(".")[2]),
+            member.case.printed.symbol(own) if own else Symbol(datum.key),
+            self.machine.printed.symbol(of) if of else Symbol(datum.of.rpartition(".")[2]),
         )
 
     def _symbols(self, member: PartCase) -> Iterator[tuple[Any, Any, Any]]:
@@ -255,17 +284,14 @@ class Coursework:
         """Those of the machine, with those of each part by its name."""
         return {**self.machine.results(), "parts": {member.name: member.case.results() for member in self.members}}
 
-    def film(self) -> Film | None:
-        """That of the machine with a drawing of each part, which goes on with it as their speeds say."""
-        film = self.first.film
-        if film is None:
-            return None
-        for member in self.members:
-            own, speed = member.film, member.case.speed
-            if own is not None:
-                ratio = abs(speed / self.machine.speed) if speed and self.machine.speed and not film.span else 1.0
-                film = joined(film, relettered(own, self.letters[member.name]), ratio, member.name, member.title)
-        return film
+    def films(self) -> tuple[Film, ...]:
+        """Those of the machine, then those of the parts by their names and titles."""
+        parts = (
+            replace(relettered(film, self.letters[member.name]), name=member.name, title=member.title)
+            for member in self.members
+            for film in member.films
+        )
+        return (*self.first.films, *parts)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
@@ -279,6 +305,43 @@ class Coursework:
             found += relettered(member.case.sheets(size, (), block, every), self.letters[member.name])
         own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
         return numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+
+
+def _names_a_point(symbol: Symbol) -> bool:
+    """Whether a symbol is a capital, perhaps with a number: so points are called."""
+    return symbol in (Symbol(symbol.base), Symbol(symbol.base, symbol.sub)) and (
+        len(symbol.base) == 1 and "A" <= symbol.base <= "Z" and (symbol.sub or "0").isdecimal()
+    )
+
+
+def _datum(case: Case, key: str, head: str = "") -> str:
+    """The id of what a key of the parameters gives, "" if no quantity of the ledger is it.
+
+    Most ids are the key with points between its pieces: z1 is gears.z.1, n_in is train.n.in.  Of a datum that is
+    called otherwise, as a length by its points, the value tells which it is, if it is that of one datum alone.
+    """
+    given = {id: one for id, one in case.printed.families.items() if one.definition is None and len(one.values) == 1}
+    wanted = f"{head}.{key}" if head else key
+    if wanted in given:
+        return wanted
+    alike = [id for id in given if _letters(id) == _letters(wanted)]
+    if not alike and (value := _typed(case.assignment, key)) is not None:
+        shown = [id for id, one in given.items() if not one.hidden and not one.is_plane]
+        alike = [id for id in shown if math.isclose(float(case.ledger[id].values[0]), value, rel_tol=1e-9)]
+    return alike[0] if len(alike) == 1 else ""
+
+
+def _letters(name: str) -> str:
+    return name.replace(".", "").replace("_", "")
+
+
+def _typed(assignment: Assignment, key: str) -> float | None:
+    """The value of a parameter in SI units."""
+    found: Any = assignment.parameters
+    for step in key.split("."):
+        found = getattr(found, step, None)
+    value = getattr(found, "si", found)
+    return float(value) if isinstance(value, (int, float)) else None
 
 
 def _times(ratio: str, of: Symbol) -> Expression:

@@ -193,9 +193,10 @@ class Errors:
 
 @dataclass(frozen=True, slots=True)
 class Film:
-    """All that moves on a page.
+    """All that moves in a panel of a page.
 
     `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle go on through all `turns`.
+    That of a coursework's part has the part's `name` and `title`.
     """
 
     knots: np.ndarray
@@ -212,6 +213,8 @@ class Film:
     errors: Errors
     layers: tuple[str, ...] = field(default=())
     """What can be switched on, of `LAYERS`, in their order."""
+    name: str = ""
+    title: str = ""
 
 
 LAYERS = ("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions")

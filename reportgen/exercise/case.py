@@ -38,6 +38,7 @@ from reportgen.report.numbering import number
 from reportgen.report.prose import NamedPoint, Prose
 
 if TYPE_CHECKING:
+    from reportgen.drawing.film import Film
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
 
@@ -114,8 +115,9 @@ class ExerciseCase(SolvedExercise):
         }
         return results(self, [{"number": 1, "points": points, "links": links}])
 
-    def film(self) -> None:
+    def films(self) -> tuple[Film, ...]:
         """Nothing moves at one instant."""
+        return ()
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

@@ -101,8 +101,8 @@ class PairCase(SolvedPair):
         broken = [{"check": name, "wheel": wheel} for name, wheel, _, _ in self.chosen.broken()]
         return results(self, positions, pair=pair, wheels=wheels, broken=broken)
 
-    def film(self) -> Film:
-        return _film(self)
+    def films(self) -> tuple[Film, ...]:
+        return (_film(self),)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

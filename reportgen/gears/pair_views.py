@@ -83,7 +83,11 @@ def task(case: SolvedPair, key: Key, by_section: bool = False) -> Document:
     """The student's handout: the given data and the empty answer sheet."""
     from reportgen.marking.paper import empty_sheet, task_paper
 
-    names = {**PairPage(case).names(), "answer_tables": empty_sheet(key, by_section)}
+    names = {
+        **PairPage(case).names(),
+        "answer_tables": empty_sheet(key, by_section),
+        "is_part": case.assignment.is_part,
+    }
     title = (Section(1, (Text(case.words["pair"]["task"].format(title=case.title)),), numbered=False),)
     return task_paper(case, key, title, Prose(case.places).render("pair-task", names))
 

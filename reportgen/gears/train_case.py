@@ -82,7 +82,11 @@ def task(case: SolvedTrain, key: Key, by_section: bool = False) -> Document:
     """The student's handout: the given data and the empty answer sheet."""
     from reportgen.marking.paper import empty_sheet, task_paper
 
-    names = {**TrainPage(case).names(), "answer_tables": empty_sheet(key, by_section)}
+    names = {
+        **TrainPage(case).names(),
+        "answer_tables": empty_sheet(key, by_section),
+        "is_part": case.assignment.is_part,
+    }
     title = (Section(1, (Text(case.words["train"]["task"].format(title=case.title)),), numbered=False),)
     return task_paper(case, key, title, Prose(case.places).render("train-task", names))
 
@@ -335,8 +339,8 @@ class TrainCase(SolvedTrain):
             sets=sets,
         )
 
-    def film(self) -> Film:
-        return train_drawings.film(self)
+    def films(self) -> tuple[Film, ...]:
+        return (train_drawings.film(self),)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

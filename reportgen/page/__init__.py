@@ -8,16 +8,16 @@ from reportgen.report import Document
 from reportgen.report.case import Case
 
 
-def moving_part(case: Case) -> Panel | None:
-    """What moves on the page of a case, if anything does."""
-    film = case.film()
-    if film is None:
-        return None
-    from reportgen.page.panel import panel as panel_of
+def panels(case: Case) -> tuple[Panel, ...]:
+    """What moves on the page of a case: a panel for the machine, one for each part that follows it."""
+    films = case.films()
+    if not films:
+        return ()
+    from reportgen.page.panel import panel
 
-    return panel_of(film, case.assignment.language, case.words["page"])
+    return tuple(panel(film, case.assignment.language, case.words["page"]) for film in films)
 
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:
     """The whole page of a case, of its `document` if that is composed already."""
-    return html.write(document or case.document(), case.words["page"], moving_part(case), live)
+    return html.write(document or case.document(), case.words["page"], panels(case), live)

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 STYLES, SCRIPTS = ("page.css",), ("page.js",)
 """Files of the frame that every page has."""
+MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
+"""Those that serve panels."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +44,16 @@ class WrittenReport:
 
 @dataclass(frozen=True)
 class Panel:
-    """What moves on a page: its elements, their rules, the samples as JSON; the frame's files that serve it."""
+    """What moves on a page by itself: its title, its elements, their rules, the samples as JSON.
 
+    Its ids begin with its `own` name, "" for the machine's.
+    """
+
+    own: str
+    title: str
     body: str
     rules: str
     data: str
-    styles: Sequence[str] = ("moving.css",)
-    scripts: Sequence[str] = ("moving.js",)
 
 
 @dataclass(frozen=True)
@@ -95,7 +100,7 @@ def quoted(text: str) -> str:
 def write(
     document: tree.Document,
     words: Mapping[str, Any],
-    panel: Panel | None = None,
+    panels: Sequence[Panel] = (),
     live: Live | None = None,
     written: WrittenReport | None = None,
 ) -> str:
@@ -104,12 +109,12 @@ def write(
     Raises `TypesetterError` if a file of the frame is missing.
     """
     written = written or report(document)
-    parts = [part for part in (panel, live) if part is not None]
-    styles = [read(name) for name in (*STYLES, *(name for part in parts for name in part.styles))]
-    rules = {"moving": panel.rules if panel else "", "report": written.rules}
+    moving_styles, moving_scripts = (MOVING_STYLES, MOVING_SCRIPTS) if panels else ((), ())
+    styles = [read(name) for name in (*STYLES, *moving_styles, *(live.styles if live else ()))]
+    rules = {"moving": rules_of(panels), "report": written.rules}
     # Rules that change while the page is read are the script's to put in.
     styles += [] if live else rules.values()
-    scripts = [read(name) for name in (*SCRIPTS, *(name for part in parts for name in part.scripts))]
+    scripts = [read(name) for name in (*SCRIPTS, *moving_scripts, *(live.scripts if live else ()))]
     style, script = "\n".join(styles), "\n".join(scripts)
     policy = [
         "default-src 'none'",
@@ -128,14 +133,18 @@ def write(
         style=style,
         script=script,
         words=words,
-        panel=panel,
-        samples=panel.data if panel else "",
+        panels=panels,
         live=live,
         editions=data(
             {"moving": live.moving, "report": live.report, "rules": rules, "words": live.words} if live else {}
         ),
         body=written.body,
     )
+
+
+def rules_of(panels: Sequence[Panel]) -> str:
+    """The rules of all panels."""
+    return "\n".join(panel.rules for panel in panels)
 
 
 def template(name: str) -> Template:

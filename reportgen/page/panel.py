@@ -50,7 +50,7 @@ HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "
 
 
 def panel(film: Film, language: Language, words: Mapping[str, Any]) -> Panel:
-    """The panel of a machine; `words` are those of pages (`page` in `words.yaml`)."""
+    """The panel of a machine or a part; `words` are those of pages (`page` in `words.yaml`)."""
     return _Writer(film, language, words).panel()
 
 
@@ -109,7 +109,8 @@ class _Charted:
 class _Writer:
     def __init__(self, film: Film, language: Language, words: Mapping[str, Any]) -> None:
         self.film, self.language, self.words = film, language, words
-        self.pens, self.tracks = Pens("m"), Tracks()
+        self.own = f"{film.name}-" if film.name else ""
+        self.pens, self.tracks = Pens(f"{self.own}m"), Tracks()
         self.painter, self.formulas = Painter(language, self.pens), MathmlFormulas(language)
         self.items: list[dict[str, Any]] = []
         """What each numbered element follows."""
@@ -122,6 +123,7 @@ class _Writer:
         body = template("moving.html.j2").render(
             words=self.words,
             film=film,
+            own=self.own,
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
             machine=self.stage(machine),
@@ -134,7 +136,8 @@ class _Writer:
             charts=list(map(self.chart, film.charts)),
             accuracy=self.accuracy(),
         )
-        return Panel(body, self.pens.rules(), data(self.data()))
+        title = film.title or self.words["moving"]
+        return Panel(self.own, title, body, self.pens.rules(), data(self.data()))
 
     def data(self) -> Mapping[str, Any]:
         """What the script reads; numbers are those of tracks."""

@@ -27,7 +27,7 @@ from reportgen.base.files import reported
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, spoken, templates, unexpected
-from reportgen.page import html, moving_part
+from reportgen.page import html, panels
 from reportgen.page.html import Live, Panel, WrittenReport
 from reportgen.report import Document
 from reportgen.report.case import Case
@@ -49,7 +49,7 @@ class Edition:
 
     language: Language
     words: Mapping[str, Any]
-    panel: Panel | None = None
+    panels: tuple[Panel, ...] = ()
     report: WrittenReport | None = None
     document: tree.Document | None = None
     fault: str = ""
@@ -67,7 +67,7 @@ class Edition:
             "fault": self.fault,
             "busy": self.busy,
             "language": self.language,
-            "moves": self.panel is not None,
+            "moves": [panel.own for panel in self.panels],
         }
 
 
@@ -111,14 +111,14 @@ class Desk:
         number = self._asked
         try:
             case = self.opens()
-            moving = moving_part(case)
+            moving = panels(case)
             language, words = case.assignment.language, case.words
         except Exception as error:
             self._to_write = None
             self._publish(fault=self._in_words(error), busy=False)
             return
         count = self.edition.moving + 1
-        self._publish(language=language, words=words, panel=moving, moving=count, fault="", busy=True)
+        self._publish(language=language, words=words, panels=moving, moving=count, fault="", busy=True)
         with self.changed:
             self._to_write = number, case
             self.changed.notify_all()
@@ -171,12 +171,12 @@ class Desk:
         now = self.edition
         document = now.document or _nothing(now)
         live = Live(now.words["live"], now.moving, now.reports)
-        return html.write(document, now.words["page"], now.panel, live, now.report)
+        return html.write(document, now.words["page"], now.panels, live, now.report)
 
     def moving(self) -> Mapping[str, Any]:
         """The moving part for a page that has an older one."""
-        now = self.edition.panel
-        return {} if now is None else {"body": now.body, "rules": now.rules, "data": now.data}
+        now = self.edition.panels
+        return {"rules": html.rules_of(now), "panels": [{"body": one.body, "data": one.data} for one in now]}
 
     def report(self) -> Mapping[str, Any]:
         """The report for a page that has an older one."""

@@ -88,6 +88,10 @@ class Case(Protocol):
         """What is worked out at its positions."""
 
     @property
+    def used(self) -> Collection[Symbol] | None:
+        """The symbols that its report uses, of quantities, points and general formulas; None where it alone tells."""
+
+    @property
     def positions_of_a_turn(self) -> int:
         """After so many positions motion repeats."""
 
@@ -125,8 +129,8 @@ class Case(Protocol):
     def results(self) -> dict[str, Any]:
         """The contract's JSON object: an entry a position, null where it cannot be reached."""
 
-    def film(self) -> Film | None:
-        """What moves on its page, if anything does."""
+    def films(self) -> tuple[Film, ...]:
+        """What moves on its page, a film a part; none where nothing does."""
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
@@ -233,6 +237,11 @@ class Opened:
     def parts(self) -> Mapping[str, Case]:
         """It is a work of one part."""
         return {}
+
+    @property
+    def used(self) -> Collection[Symbol] | None:
+        """Nobody knows before its report is composed."""
+        return None
 
     @property
     def variant_line(self) -> str:

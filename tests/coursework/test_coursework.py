@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 from collections import Counter
@@ -11,25 +12,28 @@ from functools import cache
 from io import BytesIO
 from pathlib import Path
 
-import numpy as np
 import pytest
 from openpyxl import load_workbook
 
 from reportgen import check, load, solve
+from reportgen.api import result_files
 from reportgen.base.errors import Mark
+from reportgen.base.units import Language
 from reportgen.cases import open_case, opened, opener
-from reportgen.coursework.case import Coursework
-from reportgen.coursework.film import joined
+from reportgen.coursework.case import Coursework, PartCase
 from reportgen.coursework.letters import nodes
 from reportgen.formula import Symbol
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, Policy, Submission, Verdict, marking_scheme
 from reportgen.marking.results import result_file
+from reportgen.page import panels
 from reportgen.report import Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced
+from tests.lanes import proof
 
-FOLDER = Path(__file__).parents[2] / "assignments" / "coursework"
+ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
+FOLDER = ASSIGNMENTS / "coursework"
 SHAPER, TWIN = FOLDER / "shaper.yaml", FOLDER / "engine-twin.yaml"
 SECOND = """
   - title: Cam thứ hai
@@ -130,6 +134,40 @@ def test_each_quantity_has_a_symbol_of_its_own(three: Coursework) -> None:
     assert not cams[0] & cams[1]
 
 
+@proof
+@pytest.mark.parametrize("file", sorted(ASSIGNMENTS.glob("*.yaml")), ids=lambda file: file.stem)
+def test_a_machine_knows_its_symbols_without_its_report(file: Path) -> None:
+    """Whatever its report has of the symbols of any part's quantities: keys are made without the report."""
+    parts = [open_case(one) for folder in ("cam", "gears") for one in (ASSIGNMENTS / folder).glob("*.yaml")]
+    quantities = {one.symbol for part in parts for one in part.printed.families.values() if not one.hidden}
+    case = open_case(file)
+    assert case.used is not None
+    assert set(nodes(case.document().blocks, Symbol)) & quantities <= set(case.used)
+
+
+def test_a_key_and_a_task_are_made_without_any_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    case = open_case(SHAPER)
+    monkeypatch.setattr(PartCase, "document", property(lambda _: pytest.fail("a report was composed")))
+    assert case.task(case.key()).blocks
+
+
+def test_points_that_are_named_anew_are_said(three: Coursework) -> None:
+    """A and O of the shaper's first cam are another axis and another pivot than the machine's."""
+    text = text_of(three.document())
+    (first, second) = (line for line in text.splitlines() if line.startswith("Tên điểm được đặt riêng cho từng phần"))
+    assert first.endswith(": A, O.")
+    assert "O" in second.rpartition(": ")[2]
+
+
+@pytest.mark.parametrize(
+    ("language", "indices"), [("vi", {"ht", "br", "cam"}), ("en", {"train", "gears", "cam"})], ids=["vi", "en"]
+)
+def test_indices_are_words_of_the_language(language: Language, indices: set[str]) -> None:
+    case = open_case(FOLDER / "shaper-whole.yaml", language)
+    assert isinstance(case, Coursework)
+    assert {new.sub.rpartition(",")[2] for letters in case.letters.values() for new in letters.values()} == indices
+
+
 def test_a_derivative_goes_with_what_it_is_of() -> None:
     letters = coursework(TWIN).letters["cam"]
     assert letters[Symbol("s")] == Symbol("s", "cam")
@@ -221,17 +259,17 @@ def test_results_have_those_of_each_part(three: Coursework) -> None:
 # --- motion, sheets, watching -----------------------------------------------------------------------
 
 
-def test_the_cam_turns_on_the_page_as_its_shaft_does() -> None:
-    """After a turn and a half of the crank the camshaft has turned by 270°."""
+def test_each_part_moves_in_a_panel_of_its_own() -> None:
+    """The machine's is the one it has alone; a part's says the same as alone, in the coursework's letters."""
     case = coursework(TWIN)
-    machine, part = case.first.film, case.members[0].film
-    assert machine is not None
-    assert part is not None
-    film = joined(machine, part, 0.5, "cam", "")
-    (turning, *_) = [one.angle.values for one in film.stages[-1].items if getattr(one, "angle", None) is not None]
-    whole = np.concatenate([film.knots, film.knots[1:] + 360])
-    assert len(turning) == len(whole)
-    assert np.degrees(turning) == pytest.approx(whole / 2, abs=1e-6)
+    machine, cam = panels(case)
+    assert (machine,) == panels(case.machine)
+    (alone,) = panels(case.members[0].case)
+    assert (machine.own, cam.own, cam.title) == ("", "cam-", "Thiết kế cơ cấu cam xupap nạp")
+    assert not set(nodes(case.films()[1], Symbol)) & set(case.letters["cam"])
+    samples, own = json.loads(cam.data), json.loads(alone.data)
+    for key in ("knots", "positions", "lengths", "tracks"):
+        assert samples[key] == own[key]
 
 
 def test_sheets_are_numbered_on() -> None:
@@ -291,6 +329,28 @@ FAULTS = {
 }
 
 
+TAKEN = """parts:
+  - from: {m: {of: a, times: 1/54}, z1: {of: positions.count, times: 3/2}}
+    kind: gear-pair
+    parameters: {z2: 36, shifts: find, by: equal-sliding, a_w: find}
+  - from: {n_in: {of: n, times: 12}}
+    kind: planetary-train
+    parameters: {scheme: single, u: 6, k: 3, z: {from: 17, to: 100}, m: 2.5 mm}
+  - file: part.yaml
+    from: {n: {of: n}, arm: {of: l3, times: 0.24}}
+"""
+
+
+def test_where_a_datum_comes_from_is_said_in_symbols_whatever_its_kind_and_key(tmp_path: Path) -> None:
+    """z1 is z_1 and n_in is n_v; the arm of a cam is l, and the machine's l3 is l_3 by its value."""
+    (tmp_path / "part.yaml").write_text(CAM.replace("  arm: 132 mm\n", ""), encoding="utf-8")
+    (tmp_path / "whole.yaml").write_text(MACHINE + TAKEN, encoding="utf-8")
+    lines = text_of(open_case(tmp_path / "whole.yaml").document()).splitlines()
+    starts = [number for number, line in enumerate(lines) if line.startswith("Lấy từ số liệu của máy")]
+    assert [lines[number + 1] for number in starts] == ["m = 1/54·a = 5 mm", "n_v = 12·n = 624 vg/ph", "n = 52 vg/ph"]
+    assert [lines[number + 2] for number in starts[::2]] == ["z_1 = 3/2·count = 18", "l = 0,24·l_3 = 132 mm"]
+
+
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_is_told_where_it_stands(name: str, tmp_path: Path) -> None:
     whole, part, wanted = FAULTS[name]
@@ -301,3 +361,21 @@ def test_a_fault_is_told_where_it_stands(name: str, tmp_path: Path) -> None:
         for one in check(tmp_path / "whole.yaml")
     ]
     assert found == [wanted]
+
+
+def test_the_csv_of_results_has_a_file_for_each_part() -> None:
+    """Its heads and numbers are those of the part alone."""
+    files = result_files(FOLDER / "shaper-whole.yaml", ["csv", "json"], 12)
+    assert list(files) == ["results.csv", "results.json", "results-train.csv", "results-gears.csv", "results-cam.csv"]
+    alone = solve(load(FOLDER / "motor-train.yaml"))
+    assert files["results-train.csv"] == result_file(alone, "csv")
+
+
+def test_notes_on_filling_in_are_said_once() -> None:
+    """A part has only what is its own: that a ratio has a sign, that an involute function needs six digits."""
+    case = coursework(FOLDER / "shaper-whole.yaml")
+    text = text_of(case.task(case.key()))
+    assert text.count("theo đơn vị của dòng") == 1
+    assert text.count("Cách điền phiếu trả lời") == 1
+    assert text.count("Khi điền phần này") == 3
+    assert "hàm thân khai cần sáu" in text

@@ -1,8 +1,10 @@
-"""A class of courseworks: the parts are drawn with the machine, frozen in one file, made, handed in and marked."""
+"""A class of courseworks: the parts are drawn with the machine, frozen beside it, made, handed in and marked."""
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from hashlib import sha256
 from pathlib import Path
 
 import pytest
@@ -16,10 +18,11 @@ from reportgen.classes.assess import grade
 from reportgen.classes.draw import pick
 from reportgen.classes.pool import Job, making, run_job
 from reportgen.classes.roster import assignment_files, beside
-from reportgen.classes.run import Order, run_batch
+from reportgen.classes.run import Order, Result, run_batch
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask
+from reportgen.marking.marking import compare
 from reportgen.marking.marks import Policy, read_policy
 from reportgen.marking.sheet import answer_book
 from reportgen.report.case import Key
@@ -31,10 +34,12 @@ STUDENTS = [f"K2255201030{number:02d}" for number in range(1, 13)]
 ANGLES = ("12 deg", "15 deg", "18 deg")
 
 
-def drawn(folder: Path, count: int = 12) -> Variants:
-    """The files of a class in `out`, from a spec of the shaper with a spec of its cam."""
-    spec = (FOLDER / "shaper.yaml").read_text(encoding="utf-8").replace("variant: 4", "salt: s")
-    spec = spec.replace("H: 300 mm", "H: {from: 280 mm, to: 340 mm, step: 10 mm}").replace("feed-cam", "cams")
+def drawn(folder: Path, count: int = 12, sample: str = "shaper") -> Variants:
+    """The files of a class in `out`, from a spec of a shaper with a spec of its cam."""
+    spec = re.sub(r"variant: \d", "salt: s", (FOLDER / f"{sample}.yaml").read_text(encoding="utf-8"))
+    spec = re.sub(r"H: 3.0 mm", "H: {from: 280 mm, to: 340 mm, step: 10 mm}", spec).replace("feed-cam", "cams")
+    for name in ("motor-train.yaml", "drive-pair.yaml"):
+        (folder / name).write_bytes((FOLDER / name).read_bytes())
     cams = (FOLDER / "feed-cam.yaml").read_text(encoding="utf-8")
     (folder / "spec.yaml").write_text(spec, encoding="utf-8")
     (folder / "cams.yaml").write_text(
@@ -53,15 +58,112 @@ def part_of(file: Path) -> Assignment:
     return part.alone
 
 
-def test_a_part_is_drawn_with_the_machine_and_frozen_in_its_file(tmp_path: Path) -> None:
+def edited(path: Path, old: str, new: str) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+
+
+def cam_of(file: Path) -> Path:
+    return file.with_suffix(".cam.yaml")
+
+
+def test_a_part_is_drawn_with_the_machine_and_frozen_beside_it(tmp_path: Path) -> None:
     """The value of a part is drawn by the rule of all, by the name of the part and the path there."""
     files = drawn(tmp_path).files
-    assert sorted(path.name for path in (tmp_path / "out").glob("*.yaml")) == [f"{id}.yaml" for id in STUDENTS]
+    names = {path.name for path in (tmp_path / "out").glob("*.yaml")}
+    assert names == {f"{id}{end}" for id in STUDENTS for end in (".yaml", ".cam.yaml")}
+    assert {path.stem for path in assignment_files(tmp_path / "out", None).values()} == set(STUDENTS)
     first = files[0].drawn.student.id
     wanted = ANGLES[pick("spec", "s", first, "cam.parameters.psi_max", 0, 3)]
     assert part_of(files[0].path).parameters.psi_max.text == wanted
     assert len({(str(load(one.path).parameters), str(part_of(one.path).parameters)) for one in files}) == len(files)
     assert {one.state for one in drawn(tmp_path).files} == {"same"}
+
+
+def test_the_hash_of_a_student_covers_the_parts(tmp_path: Path) -> None:
+    """It is that of what follows: `{ tail -n +4 K1.yaml; cat K1.cam.yaml; } | sha256sum`."""
+    one, two, three = (file.path for file in drawn(tmp_path, 3).files)
+    *head, body = one.read_text(encoding="utf-8").split("\n", 3)
+    both = body + cam_of(one).read_text(encoding="utf-8")
+    assert head[-1].endswith(sha256(both.encode()).hexdigest())
+    edited(cam_of(one), "132 mm", "133 mm")
+    cam_of(two).unlink()
+    again = drawn(tmp_path, 3)
+    assert [file.state for file in again.files] == ["kept", "changed", "same"]
+    assert str(one) in " ".join(again.remarks)
+    assert "133 mm" in cam_of(one).read_text(encoding="utf-8")
+    assert part_of(two).parameters.psi_max.text in ANGLES
+    table = (tmp_path / "out" / "variants.csv").read_text(encoding="utf-8-sig").splitlines()
+    assert all(
+        part_of(path).parameters.psi_max.text in row for path, row in zip((one, two, three), table[1:], strict=True)
+    )
+
+
+def test_a_file_made_before_parts_had_files_of_their_own_is_made_anew(tmp_path: Path) -> None:
+    (file,) = (one.path for one in drawn(tmp_path, 1).files)
+    *head, body = file.read_text(encoding="utf-8").split("\n", 3)
+    head[-1] = head[-1][:-64] + sha256(body.encode()).hexdigest()
+    file.write_text("\n".join((*head, body)), encoding="utf-8")
+    cam_of(file).unlink()
+    assert [one.state for one in drawn(tmp_path, 1).files] == ["changed"]
+    assert [one.state for one in drawn(tmp_path, 1).files] == ["same"]
+
+
+def test_a_students_files_build_in_any_folder(tmp_path: Path) -> None:
+    (file,) = (one.path for one in drawn(tmp_path, 1).files)
+    (tmp_path / "elsewhere").mkdir()
+    for path in (file, cam_of(file)):
+        path.rename(tmp_path / "elsewhere" / path.name)
+    assert load(tmp_path / "elsewhere" / file.name).parts
+
+
+def test_a_parts_file_is_never_a_students(tmp_path: Path) -> None:
+    """Neither if its machine's file is gone or torn, nor if it is torn itself; a machine that another names stays."""
+    one, two, three = (file.path for file in drawn(tmp_path, 3).files)
+    one.unlink()
+    two.write_text("kind: [", encoding="utf-8")
+    cam_of(three).write_text("kind: [", encoding="utf-8")
+    assert list(assignment_files(tmp_path / "out", None).values()) == [two, three]
+    two.write_text(f"kind: shaper\nparts:\n  - file: {three.name}\n", encoding="utf-8")
+    assert list(assignment_files(tmp_path / "out", None).values()) == [two, three]
+
+
+def key_only(path: Path, *_: object) -> dict[str, bytes]:
+    return {"n": str(open_case(path).key().row("cam.swing").values[0]).encode()}
+
+
+@proof
+def test_a_missing_or_wrong_part_is_told_where_it_stands_and_harms_nobody_else(tmp_path: Path) -> None:
+    """A batch makes what can be made; a part that has been edited renews its student alone."""
+    files = [file.path for file in drawn(tmp_path, 4).files]
+    roster = tmp_path / "roster.csv"
+    order = Order(roster, assignments=tmp_path / "out", out=tmp_path / "made", products=("key",), jobs=1)
+
+    def made() -> Result:
+        with (tmp_path / "log").open("w") as log:
+            return run_batch(order, log, {"key": key_only})
+
+    assert (made().made, made().kept) == (4, 4)
+    cam_of(files[1]).unlink()
+    edited(cam_of(files[2]), "132 mm", "132")
+    edited(cam_of(files[3]), "132 mm", "133 mm")
+    result = made()
+    assert (result.made, result.kept) == (1, 1)
+    told = {
+        failure.student: [(Path(one.mark.file).name, one.mark.line, one.code) for one in failure.problems]  # type: ignore[union-attr]
+        for failure in result.failures
+    }
+    line = 1 + next(n for n, text in enumerate(files[1].read_text(encoding="utf-8").splitlines()) if "- file:" in text)
+    assert told == {
+        STUDENTS[1]: [(files[1].name, line, "unreadable")],
+        STUDENTS[2]: [(cam_of(files[2]).name, 7, "missing-unit")],
+    }
+    key = Ask().of(open_case(files[0]).key())
+    (tmp_path / "sheet.xlsx").write_bytes(filled(key, {}))
+    graded = grade([tmp_path / "sheet.xlsx"], tmp_path / "out", Policy(guard=False))
+    assert [marking.key.id for marking in graded.markings] == [STUDENTS[0]]
+    assert [key.id for key in graded.missing] == [STUDENTS[3]]
 
 
 def test_a_fault_of_a_parts_spec_stands_in_its_file(tmp_path: Path) -> None:
@@ -145,18 +247,29 @@ def test_shares_name_every_part(tmp_path: Path) -> None:
 
 @proof
 def test_a_class_of_twelve(tmp_path: Path) -> None:
-    """Some went wrong in the machine or in the cam, one has copied another's cam: each is told, nobody else."""
-    files = drawn(tmp_path).files
+    """Some went wrong in the machine or in one of three parts, one has copied a cam: each is told, nobody else."""
+    files = drawn(tmp_path, sample="shaper-whole").files
+    assert all(len(one.parts) == 3 and all(part.is_file() for part in one.parts) for one in files)
     keys = [Ask().of(open_case(one.path).key()) for one in files]
     handed = tmp_path / "handed"
     handed.mkdir()
-    wrong = {1: {"cam.psi": -1.0}, 2: {"v.B": 2.0}, 3: {"cam.pitch.x": -1.0}}
+    wrong = {
+        1: {"cam.psi": -1.0},
+        2: {"v.B": 2.0},
+        3: {"cam.pitch.x": -1.0},
+        5: {"train.omega.H": -1.0},
+        6: {"gears.d.1": 2.0},
+        7: {"v.B": 2.0, "gears.d.1": 2.0, "cam.psi": -1.0},
+    }
     for number, key in enumerate(keys):
         cam = keys[0] if number == 4 else None
         (handed / f"{key.id}.xlsx").write_bytes(filled(key, wrong.get(number, {}), cam))
     graded = grade([handed], tmp_path / "out", Policy())
+    assert not graded.problems
+    assert not graded.missing
     firsts = {number: {cell.id for cell in one.first_errors} for number, one in enumerate(graded.markings)}
     copied = firsts.pop(4)
+    assert copied
     assert all(id.startswith("cam.") for id in copied)
     assert {number: ids for number, ids in firsts.items() if ids} == {n: set(ids) for n, ids in wrong.items()}
     flags = {number: marking.flags for number, marking in enumerate(graded.markings) if marking.flags}
@@ -164,8 +277,15 @@ def test_a_class_of_twelve(tmp_path: Path) -> None:
     assert 4 in flags
     assert {id.partition(".")[0] for flag in flags[4] for id, _ in flag.places} == {"cam"}
     assert {flag.other for flag in flags[4]} == {keys[0].id}
-    result = run_batch(
-        Order(tmp_path / "roster.csv", assignments=tmp_path / "out", out=tmp_path / "made", products=("task",), jobs=1),
-        (tmp_path / "log").open("w"),
-    )
-    assert (result.made, result.failures) == (12, [])
+    for number, agrees in ((0, True), (5, False), (6, False)):
+        told, found = compare(open_case(files[number].path), handed / f"{keys[number].id}.xlsx", hint=True)
+        assert found == agrees
+        assert agrees or any(symbol in " ".join(told) for symbol in ("ω_H", "d_1"))
+    with (tmp_path / "log").open("w") as log:
+        order = Order(tmp_path / "roster.csv", assignments=tmp_path / "out", out=tmp_path / "made", products=("task",))
+        result = run_batch(order, log)
+        assert (result.made, result.failures, result.notes) == (12, [], [])
+        # One part edited: its student's alone are made again.
+        edited(cam_of(files[3].path), "132 mm", "133 mm")
+        again = run_batch(order, log)
+        assert (again.made, again.kept) == (1, 11)

@@ -176,7 +176,7 @@ def is_scale(content: object) -> bool:
 
 def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
     case = pair_case("pair-centre-distance")
-    film = case.film()
+    (film,) = case.films()
     assert film.knots[-1] == 360
     touching = film.values[1].values.values
     # Over a turn the mean number of pairs is the contact ratio.

@@ -150,7 +150,7 @@ def test_words_page_sheet_and_results(name: str) -> None:
         rows = case_of(name, language).key().rows
         assert [row.id for row in rows if not row.what] == []
     case = case_of(name)
-    film = case.film()
+    (film,) = case.films()
     assert math.isclose(film.knots[-1], 360)
     (sheet,) = case.sheets()
     # On the sheet, too, a length is what its scale says: triangles are drawn twice as large.

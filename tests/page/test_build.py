@@ -14,7 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.cases import MachineCase, opened
-from reportgen.page import moving_part, page
+from reportgen.page import page, panels
 from reportgen.page.html import quoted
 from reportgen.workbook import read
 from tests.lanes import proof
@@ -44,7 +44,7 @@ def test_what_moves_is_the_same_before_and_behind_the_report() -> None:
     assignment = built.assignment(SLIDE)
     behind, before = MachineCase(assignment), MachineCase(assignment)
     behind.document()
-    assert moving_part(behind) == moving_part(before)
+    assert panels(behind) == panels(before)
 
 
 @pytest.mark.parametrize("file", [SLIDE, EXERCISE], ids=lambda file: file.stem)

@@ -241,9 +241,9 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
         "fault": "",
         "busy": False,
         "language": "en",
-        "moves": True,
+        "moves": [""],
     }
     file.unlink()
     desk.renew()
     assert "given.yaml" in desk.edition.fault
-    assert desk.edition.panel is not None
+    assert desk.edition.panels

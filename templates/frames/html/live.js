@@ -6,21 +6,21 @@
   const report = document.getElementById("report");
   const shown = { moving: given.moving, report: given.report, language: document.documentElement.lang };
   const looks = { moving: new CSSStyleSheet(), report: new CSSStyleSheet() };
-  const moves = document.getElementById("samples") !== null;
+  const moves = typeof panels === "undefined" ? [] : panels;
   document.adoptedStyleSheets = Object.values(looks);
   for (const [part, rules] of Object.entries(given.rules)) looks[part].replaceSync(rules);
 
   // After a page is loaded anew it goes on where it was.
   const KEEP = "reportgen" + location.pathname;
   const leave = () => {
-    try { sessionStorage.setItem(KEEP, JSON.stringify({ scroll: scrollY, angle: moves ? moving.angle() : null })); } catch { /* no memory */ }
+    try { sessionStorage.setItem(KEEP, JSON.stringify({ scroll: scrollY, angles: moves.map((panel) => panel.angle()) })); } catch { /* no memory */ }
     location.reload();
   };
   try {
     const kept = JSON.parse(sessionStorage.getItem(KEEP) || "null");
     sessionStorage.removeItem(KEEP);
     if (kept) {
-      if (moves && kept.angle !== null) moving.seek(kept.angle);
+      moves.forEach((panel, index) => { if (index in kept.angles) panel.seek(kept.angles[index]); });
       scrollTo(0, kept.scroll);
     }
   } catch { /* no memory */ }
@@ -36,10 +36,10 @@
 
   const renewMoving = async () => {
     const news = await ask("moving.json");
-    if (!news.data) return;
+    if (news.panels.length !== moves.length) return;
     looks.moving.replaceSync(news.rules);
     const place = anchor();
-    moving.renew(news.body, JSON.parse(news.data));
+    news.panels.forEach(({ body, data }, index) => moves[index].renew(body, data));
     stay(place);
   };
   const renewReport = async () => {
@@ -58,6 +58,9 @@
     document.dispatchEvent(new Event("renewed"));
   };
 
+  // Whether the panels of an edition, by the names that their ids begin with, are those that the page has.
+  const alike = (names) => names.join(" ") === moves.map((panel) => panel.own).join(" ");
+
   // One after the other: an edition that comes meanwhile is looked at when this one is shown.
   let news = null, working = false;
   const follow = async () => {
@@ -69,8 +72,8 @@
         news = null;
         fault.hidden = !now.fault;
         fault.lastElementChild.textContent = now.fault;
-        if (now.language !== shown.language && !now.fault || now.moves !== moves && !now.fault) { leave(); return; }
-        if (now.moving !== shown.moving && moves) await renewMoving();
+        if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { leave(); return; }
+        if (now.moving !== shown.moving) await renewMoving();
         shown.moving = now.moving;
         if (now.report !== shown.report) await renewReport();
         shown.report = now.report;

@@ -1,13 +1,14 @@
 "use strict";
-// The machine in motion.  Nothing is computed here but straight lines between two samples of the solver:
+// What moves, a panel each.  Nothing is computed here but straight lines between two samples of the solver:
 // a track is an array over the samples, an item names the tracks that it follows.
-const moving = (() => {
+const panelOf = (root, panels) => {
   const TURN_SECONDS = 7, ARROW_SHARE = 0.75, SHORT = 3, NOTHING = 0.02, READABLE = 120, SLOW = 22;
   // Where labels stand: shares of a vector, turns from the first side of a point; what a later place costs, beside a
   // line through the label; what staying is worth; white between two (mm); half of what a point covers (mm).
   const SHARES = [0.5, 0.38, 0.62, 0.27, 0.73], ABOUT = [0, 1, -1, 2, -2, 3, -3, 4].map((eighth) => eighth * Math.PI / 4);
   const RANK = 0.06, STAYS = 0.3, CLEAR = 0.25, DOT = 0.3;
-  const root = document.getElementById("moving");
+  // What a panel has by an id begins with its own name, as the panel itself; that of the machine has none.
+  const own = root.id.slice(0, -"moving".length), byId = (name) => root.querySelector(`#${own}${name}`);
   const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
   let film, values, starts, drawing, now;
 
@@ -277,7 +278,8 @@ const moving = (() => {
     state.last = time;
     const whole = 360 * film.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
     state.angle = next >= whole ? next % whole : next;
-    draw();
+    // A panel that is not on the screen goes on unseen.
+    if (visible(root)) draw();
     requestAnimationFrame(frame);
   };
 
@@ -361,6 +363,12 @@ const moving = (() => {
     setTimeout(() => URL.revokeObjectURL(link.href), 1000);
   };
 
+  // Kept in view while one reads; one panel at a time is.
+  const hold = (on) => {
+    root.classList.toggle("held", on);
+    drawing.keep.textContent = on ? film.words.release : film.words.keep;
+  };
+
   // --- setting up, and anew when the page is renewed
 
   const mount = (data) => {
@@ -370,9 +378,9 @@ const moving = (() => {
     film.lengths.reduce((start, length) => { starts.push(start); return start + length; }, 0);
     const find = (query) => root.querySelector(query), all = (query) => [...root.querySelectorAll(query)];
     drawing = {
-      layers: {}, near: -1, count: 0, slider: find("#angle"), told: find("#told"), play: find("#play"), numbers: find(".numbers"),
-      outputs: all("[data-value]"), buttons: all("[data-position]"), point: find("#point"), motion: find("#motion"),
-      tools: find("#tools"), copied: find("#copied"), pointed: null,
+      layers: {}, near: -1, count: 0, slider: byId("angle"), told: byId("told"), play: byId("play"), numbers: find(".numbers"),
+      outputs: all("[data-value]"), buttons: all("[data-position]"), point: byId("point"), motion: byId("motion"),
+      tools: byId("tools"), copied: byId("copied"), keep: byId("keep"), pointed: null,
       rates: { v: find('[data-of="v"]'), a: find('[data-of="a"]') },
     };
     drawing.parts = all("[data-stage]").map((element) => {
@@ -412,46 +420,57 @@ const moving = (() => {
     drawing.slider.addEventListener("input", () => { pause(); seek(Number(drawing.slider.value)); });
     drawing.slider.addEventListener("keydown", key);
     drawing.point.addEventListener("change", tell);
-    find("#speed").addEventListener("change", (event) => { state.rate = Number(event.target.value); });
-    find("#copy").addEventListener("click", copy);
-    find("#save").addEventListener("click", save);
+    byId("speed").addEventListener("change", (event) => { state.rate = Number(event.target.value); });
+    byId("copy").addEventListener("click", copy);
+    byId("save").addEventListener("click", save);
     drawing.buttons.forEach((button, index) => button.addEventListener("click", () => {
       pause();
       seek(film.positions[index][1]);
     }));
-    const keep = find("#keep");
-    const kept = (on) => {
+    drawing.keep.addEventListener("click", () => {
+      const on = !root.classList.contains("held");
+      for (const panel of panels) panel.hold(on && panel.root === root);
       document.body.classList.toggle("kept", on);
-      keep.textContent = on ? film.words.release : film.words.keep;
-    };
-    keep.addEventListener("click", () => kept(!document.body.classList.contains("kept")));
-    kept(document.body.classList.contains("kept"));
+    });
+    hold(root.classList.contains("held"));
     watcher.disconnect();
-    for (const element of [drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
+    for (const element of [root, drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
     mark();
   };
 
-  // What a reader has chosen stays when the machine changes: angle, open panels, layers, point, speed.
-  const renew = (body, data) => {
-    const panels = Object.fromEntries([...root.querySelectorAll("[data-panel]")].map((one) => [one.dataset.panel, one.open]));
-    const layers = { ...drawing.layers }, chosen = told()?.name, rate = root.querySelector("#speed").value;
+  // What a reader has chosen stays when the machine changes: angle, open panels, layers, point, speed.  What has not
+  // changed is left as it is.
+  const renew = (body, samples) => {
+    if (body === shown.body && samples === shown.samples) return;
+    shown = { body, samples };
+    const open = Object.fromEntries([...root.querySelectorAll("[data-panel]")].map((one) => [one.dataset.panel, one.open]));
+    const layers = { ...drawing.layers }, chosen = told()?.name, rate = byId("speed").value;
     const focused = root.contains(document.activeElement) ? document.activeElement.id : "";
     root.innerHTML = body;
     for (const one of root.querySelectorAll("[data-panel]")) {
-      if (one.dataset.panel in panels) one.open = panels[one.dataset.panel];
+      if (one.dataset.panel in open) one.open = open[one.dataset.panel];
     }
     for (const box of root.querySelectorAll("[data-layer]")) box.checked = layers[box.dataset.layer] ?? box.checked;
-    root.querySelector("#speed").value = rate;
+    byId("speed").value = rate;
     now = undefined;
-    mount(data);
+    mount(JSON.parse(samples));
     const index = film.spots.findIndex((spot) => spot.name === chosen);
     drawing.point.value = index < 0 ? "" : String(index);
     if (focused) document.getElementById(focused)?.focus();
     seek(state.angle);
   };
 
-  mount(JSON.parse(document.getElementById("samples").textContent));
-  seek(film.positions[film.shown][1]);
-  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
-  return { seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
-})();
+  let shown = { samples: document.getElementById(`${own}samples`).textContent };
+  mount(JSON.parse(shown.samples));
+  const start = () => {
+    seek(film.positions[film.shown][1]);
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
+  };
+  return { root, own, start, hold, seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
+};
+const panels = [];
+for (const root of document.querySelectorAll(".moving")) panels.push(panelOf(root, panels));
+// All are measured before the first is drawn: what is drawn would have the page laid out anew for the next.
+for (const panel of panels) panel.start();
+// That of the machine.
+const [moving] = panels;
