@@ -60,6 +60,7 @@ def test_unknown_choices_are_wrong_usage(tmp_path: Path, wrong: tuple[str, str])
     assert not (tmp_path / SMALL.stem).exists()
 
 
+@pytest.mark.proof
 def test_a_plate_larger_than_the_paper_is_named(tmp_path: Path) -> None:
     """At its crank, with the smallest size that holds all plates: no crank helps those of forces."""
     with pytest.raises(AssignmentError, match=r"engine-v-02.yaml:10:18: .*Họa đồ vị trí(.|\n)*A3(.|\n)*A2"):
