@@ -242,10 +242,8 @@ def _state(path: Path, body: str, frozen: Mapping[Path, str], force: bool) -> St
         with suppress(FileNotFoundError):
             standing[part] = _present(part)
     stated = _HASH.fullmatch(head[-1]) if len(head) == HEAD_LINES else None
-    # A part that is gone is made again; as nobody can have edited it, it counts as it is to be made.  Before parts had
-    # files of their own they stood in the student's.
-    hashes = {_digest(present, *{**frozen, **standing}.values()), _digest(present)}
-    untouched = stated is not None and stated[1] in hashes
+    # A part that is gone is made again; as nobody can have edited it, it counts as it is to be made.
+    untouched = stated is not None and stated[1] == _digest(present, *{**frozen, **standing}.values())
     if untouched and (present, standing) == (body, frozen):
         return "same"
     return "changed" if untouched or force else "kept"

@@ -54,7 +54,7 @@ def test_inputs(
         read(table, language)
     assert told in str(refused.value)
     with pytest.raises(OSError, match="no regular file"):
-        _state(assignment, "", force=False)
+        _state(assignment, "", {}, force=False)
 
 
 @pytest.mark.parametrize("language", ["en", "vi"])

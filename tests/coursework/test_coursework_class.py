@@ -100,16 +100,6 @@ def test_the_hash_of_a_student_covers_the_parts(tmp_path: Path) -> None:
     )
 
 
-def test_a_file_made_before_parts_had_files_of_their_own_is_made_anew(tmp_path: Path) -> None:
-    (file,) = (one.path for one in drawn(tmp_path, 1).files)
-    *head, body = file.read_text(encoding="utf-8").split("\n", 3)
-    head[-1] = head[-1][:-64] + sha256(body.encode()).hexdigest()
-    file.write_text("\n".join((*head, body)), encoding="utf-8")
-    cam_of(file).unlink()
-    assert [one.state for one in drawn(tmp_path, 1).files] == ["changed"]
-    assert [one.state for one in drawn(tmp_path, 1).files] == ["same"]
-
-
 def test_a_students_files_build_in_any_folder(tmp_path: Path) -> None:
     (file,) = (one.path for one in drawn(tmp_path, 1).files)
     (tmp_path / "elsewhere").mkdir()
