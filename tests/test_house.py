@@ -77,6 +77,7 @@ def test_a_list_of_any_length_is_one_argument(tmp_path: Path) -> None:
     assert house.longest_positional_call(built(tmp_path, side="print(1, 2, 3, 4)\n")) == 4
 
 
+@pytest.mark.proof
 def test_a_limit_that_is_passed_is_a_fault(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.modules: 1000})
     assert house.main() == 0

@@ -43,6 +43,7 @@ def test_plain_units_are_those_of_pint(unit: str) -> None:
     assert PLAIN[unit][1] == dimension
 
 
+@pytest.mark.proof
 def test_no_file_of_the_repository_waits_for_pint() -> None:
     """Nor would one like it: loading pint takes as long as all the rest of a check."""
     code = "import sys; from reportgen import api; [api.load(f) for f in sys.argv[1:]]; sys.exit('pint' in sys.modules)"
@@ -222,7 +223,7 @@ PIECES = st.sampled_from(
 )
 
 
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(
     st.lists(
         st.tuples(st.integers(0, len(SAMPLE_TEXT)), st.integers(0, 30), PIECES | st.text(max_size=4)),
@@ -252,7 +253,7 @@ ANYTHING = st.recursive(
 )
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=60, deadline=None)
 @given(
     st.sampled_from(
         [(one,) for one in CONTENT]

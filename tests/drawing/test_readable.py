@@ -21,13 +21,14 @@ from reportgen.formula import Symbol
 from reportgen.report.figures import FigureScenes
 from reportgen.report.outline import FIGURES
 from reportgen.report.report import Report
+from tests.lanes import matrix
 from tests.report import built
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 NAMES = sorted(file.stem for file in ASSIGNMENTS.glob("*.yaml"))
 TOUCHING = 1e-6
 """Millimetres: of pieces cut exactly, what remains of rounding."""
-every = pytest.mark.parametrize("name", NAMES)
+every = pytest.mark.parametrize("name", matrix(NAMES, NAMES[::3]))
 
 
 @cache

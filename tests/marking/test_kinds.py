@@ -29,7 +29,7 @@ STEP = 6
 """Every sixth value of a sheet is made wrong here; `python -m tests.bench.hands` takes all."""
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize("name", matrix(MACHINES, TELLING))
 def test_the_chain_comes_to_the_key(name: str) -> None:
     """At every other position of the turn: nobody who works so has a value that the key has not."""
     scheme = students.scheme(name)
@@ -103,7 +103,7 @@ def test_a_misread_datum_costs_one_mark(name: str) -> None:
     assert max(losses) <= 2
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize("name", matrix(MACHINES, TELLING))
 def test_who_works_rightly_loses_nothing(name: str) -> None:
     scheme = hands.asked(students.scheme(name, (AT,)))
     for seed, blunt in enumerate((0.3e-3, 0.5e-3)):

@@ -22,6 +22,7 @@ from reportgen.machine.loads import FULL_TURN
 from reportgen.plans import write_ledger
 from reportgen.report.curves import wittenbauer
 from reportgen.report.report import Report
+from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 
@@ -31,9 +32,10 @@ FILES = (
     *("shaper-02", "lever-six-bar-01", "toggle-press-01", "scotch-yoke-01", "linkage-8"),
 )
 """An assignment of every kind with a crank and loads."""
+TELLING = ("engine-twin-05", "four-bar-01", "shaper-02", "linkage-8")
 
 
-@pytest.fixture(scope="module", params=FILES)
+@pytest.fixture(scope="module", params=matrix(FILES, TELLING))
 def machine(request: pytest.FixtureRequest) -> Machine:
     return api.analyse(api.load(ASSIGNMENTS / f"{request.param}.yaml")).machine
 
