@@ -49,7 +49,7 @@ class CamCase(SolvedCam):
         return "pressure-angle" if any(exceeded(found)) else ""
 
     def document(self) -> Document:
-        return self.bounded(views.report)
+        return self.bounded(views.CamPage.report)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -63,7 +63,9 @@ class CamCase(SolvedCam):
         return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        return self.bounded(partial(views.task, key=key, by_section=by_section))
+        from reportgen.marking.paper import design_task
+
+        return self.bounded(partial(design_task, of=views.CamPage, key=key, by_section=by_section))
 
     def results(self) -> dict[str, Any]:
         """The choice of the cam, then its motion and its profile position by position."""

@@ -18,43 +18,10 @@ from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, ids, substitute, vocabulary
 from reportgen.formula.plain import formula
-from reportgen.report import (
-    Block,
-    Cell,
-    Column,
-    Contents,
-    Document,
-    Equation,
-    Figure,
-    InlineMath,
-    Inlines,
-    PageBreak,
-    Section,
-    Table,
-    Text,
-    Value,
-    Words,
-    listed,
-)
-from reportgen.report.case import Key
-from reportgen.report.numbering import number
+from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report.design import DesignPage
 from reportgen.report.prose import Prose
 
-SECTIONS = (
-    "cam-given",
-    "cam-law",
-    "cam-diagrams",
-    "cam-motion-table",
-    "cam-limits",
-    "cam-choice",
-    "cam-pressure",
-    "cam-profile",
-    "cam-curvature",
-    "cam-checks",
-    "cam-conclusion",
-)
-SHORT = frozenset({"cam-diagrams", "cam-curvature"})
-"""The sections, and what templates ask for by `full`, that a short report goes without."""
 DATA = (95.0, 25.0, 40.0)
 CHECKS = (74.0, 30.0, 30.0, 26.0)
 ROWS = 16.0
@@ -62,45 +29,6 @@ ROWS = 16.0
 WIDEST = 27.0
 ANGLE = 2
 NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
-
-
-def report(case: SolvedCam) -> Document:
-    """The finished, numbered report."""
-    page, words, assignment = CamPage(case), case.words, case.assignment
-    prose, full = Prose(case.places), assignment.report.extent == "full"
-    names = page.names()
-    blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
-    for section in SECTIONS:
-        if page.has(section) and (full or section not in SHORT):
-            found = prose.render(section, names)
-            blocks += found
-    return number(
-        Document(
-            language=assignment.language,
-            title=f"{words['cover']['title']} – {case.title}",
-            author=assignment.report.student.name or "",
-            header=(words["header"].format(course=case.course), case.variant_line),
-            footer=("", words["document"]["page"]),
-            words=Words.among(words["document"]),
-            blocks=tuple(blocks),
-            close=not full,
-        )
-    )
-
-
-def task(case: SolvedCam, key: Key, by_section: bool = False) -> Document:
-    """The student's handout: the given data and the empty answer sheet."""
-    from reportgen.marking.paper import empty_sheet, task_paper
-
-    page = CamPage(case)
-    names = {
-        **page.names(),
-        "answer_tables": empty_sheet(key, by_section),
-        "is_part": case.assignment.is_part,
-        "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
-    }
-    title = (Section(1, (Text(case.words["cam"]["task"].format(title=case.title)),), numbered=False),)
-    return task_paper(case, key, title, Prose(case.places).render("cam-task", names))
 
 
 @dataclass(frozen=True)
@@ -121,22 +49,21 @@ class ImpactView:
 
 
 @dataclass(frozen=True)
-class CamPage:
+class CamPage(DesignPage[SolvedCam]):
     """A cam as templates name it."""
 
-    case: SolvedCam
-
-    @property
-    def words(self) -> Mapping[str, Any]:
-        found: Mapping[str, Any] = self.case.words["cam"]
-        return found
+    NAME = "cam"
+    SECTIONS = (
+        *("cam-given", "cam-law", "cam-diagrams", "cam-motion-table", "cam-limits", "cam-choice", "cam-pressure"),
+        *("cam-profile", "cam-curvature", "cam-checks", "cam-conclusion"),
+    )
+    SHORT = frozenset({"cam-diagrams", "cam-curvature"})
 
     @cached_property
     def judged(self) -> Judged:
         return judged(self.case.solution.cam)
 
     def has(self, section: str) -> bool:
-        """Whether a cam like this has a section."""
         cam, least = self.case.solution.cam, self.case.solution.designed.least
         return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
 
@@ -146,7 +73,7 @@ class CamPage:
         exceeded, undercut = self.exceeded, self.undercut
         return {
             "words": case.words,
-            "full": case.assignment.report.extent == "full",
+            "full": self.full,
             # what kind of cam it is
             "translating": cam.translating,
             "flat": cam.flat,
@@ -361,8 +288,7 @@ class CamPage:
         ]
         width = min((160.0 - ROWS) / len(quantities), WIDEST)
         columns = (Column(ROWS), *(Column(width),) * len(quantities))
-        caption = Prose(self.case.places).inlines(self.words["captions"][name])
-        return Table(columns, heads, tuple(rows), caption, f"tab.{name}")
+        return Table(columns, heads, tuple(rows), self.caption(name), f"tab.{name}")
 
     def _bare(self, id: str, k: int) -> Inlines:
         number = self.case.printed.number(id, k)
@@ -410,16 +336,11 @@ class CamPage:
                 row(key, wanted, size_of, cam.roller <= most + 1e-12)
         head = tuple(Cell((Text(str(one)),)) for one in words["head"])
         widths = (Column(CHECKS[0], "left"), *(Column(one) for one in CHECKS[1:]))
-        caption = Prose(self.case.places).inlines(self.words["captions"]["checks"])
-        return Table(widths, (head,), tuple(rows), caption, "tab.checks")
+        return Table(widths, (head,), tuple(rows), self.caption("checks"), "tab.checks")
 
     # --- figures
 
-    def figure(self, name: str) -> Figure:
-        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
-        return Figure(tuple(self._scenes(name)), caption, f"fig.{name}")
-
-    def _scenes(self, name: str) -> Iterator[Scene]:
+    def scenes(self, name: str) -> Iterator[Scene]:
         match name:
             case "law":
                 yield law_diagrams(self.case)

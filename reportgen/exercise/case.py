@@ -30,11 +30,10 @@ from reportgen.report import (
     Table,
     Text,
     Value,
-    Words,
     listed,
 )
 from reportgen.report.case import Key, Pitfalls
-from reportgen.report.numbering import number
+from reportgen.report.numbering import finished
 from reportgen.report.prose import NamedPoint, Prose
 
 if TYPE_CHECKING:
@@ -161,19 +160,7 @@ ANSWER = (25.0, 65.0, 70.0)
 
 def solution(case: SolvedExercise) -> Document:
     """The finished, numbered document; raises `TemplateError`, and `NotOfferedError` where no steps are known."""
-    words, assignment = case.words, case.assignment
-    blocks = Prose(case.places).render("exercise", names(case))
-    return number(
-        Document(
-            language=assignment.language,
-            title=case.title,
-            author=assignment.report.student.name or "",
-            header=(words["header"].format(course=case.course), case.variant_line),
-            footer=("", words["document"]["page"]),
-            words=Words.among(words["document"]),
-            blocks=blocks,
-        )
-    )
+    return finished(case, Prose(case.places).render("exercise", names(case)), title=case.title)
 
 
 def task_names(case: SolvedExercise) -> Mapping[str, Any]:

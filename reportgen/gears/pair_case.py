@@ -65,7 +65,7 @@ class PairCase(SolvedPair):
         return "gear-limits" if any(self.chosen.broken()) else ""
 
     def document(self) -> Document:
-        return self.bounded(views.report)
+        return self.bounded(views.PairPage.report)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -78,7 +78,9 @@ class PairCase(SolvedPair):
         return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        return self.bounded(partial(views.task, key=key, by_section=by_section))
+        from reportgen.marking.paper import design_task
+
+        return self.bounded(partial(design_task, of=views.PairPage, key=key, by_section=by_section))
 
     def results(self) -> dict[str, Any]:
         """The pair and its wheels, then contact and sliding along the active path, from its beginning on."""

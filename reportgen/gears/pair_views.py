@@ -11,41 +11,9 @@ from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, ids, vocabulary
 from reportgen.gears.pair_drawings import mesh, region, sliding
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import (
-    Block,
-    Cell,
-    Column,
-    Contents,
-    Document,
-    Equation,
-    Figure,
-    InlineMath,
-    Inlines,
-    PageBreak,
-    Section,
-    Table,
-    Text,
-    Value,
-    Words,
-)
-from reportgen.report.case import Key
-from reportgen.report.numbering import number
-from reportgen.report.prose import Prose
+from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
+from reportgen.report.design import DesignPage
 
-SECTIONS = (
-    "pair-given",
-    "pair-shifts",
-    "pair-mesh",
-    "pair-wheels",
-    "pair-contact",
-    "pair-sliding",
-    "pair-region",
-    "pair-checks",
-    "pair-drawing",
-    "pair-conclusion",
-)
-SHORT = frozenset({"pair-region"})
-"""The sections, and what templates ask for by `full`, that a short report goes without."""
 DATA = (95.0, 25.0, 40.0)
 PAIR = (68.0, 22.0, 35.0, 35.0)
 CHECKS = (70.0, 18.0, 28.0, 26.0, 18.0)
@@ -56,58 +24,22 @@ OWN = ("x", "d", "d_b", "d_w", "d_a", "d_f", "h_a", "s", "s_w", "s_a", "alpha_a"
 """and for each of them."""
 
 
-def report(case: SolvedPair) -> Document:
-    """The finished, numbered report."""
-    page, words, assignment = PairPage(case), case.words, case.assignment
-    prose, full = Prose(case.places), assignment.report.extent == "full"
-    names = page.names()
-    blocks: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
-    for section in SECTIONS:
-        if full or section not in SHORT:
-            blocks += prose.render(section, names)
-    return number(
-        Document(
-            language=assignment.language,
-            title=f"{words['cover']['title']} – {case.title}",
-            author=assignment.report.student.name or "",
-            header=(words["header"].format(course=case.course), case.variant_line),
-            footer=("", words["document"]["page"]),
-            words=Words.among(words["document"]),
-            blocks=tuple(blocks),
-            close=not full,
-        )
-    )
-
-
-def task(case: SolvedPair, key: Key, by_section: bool = False) -> Document:
-    """The student's handout: the given data and the empty answer sheet."""
-    from reportgen.marking.paper import empty_sheet, task_paper
-
-    names = {
-        **PairPage(case).names(),
-        "answer_tables": empty_sheet(key, by_section),
-        "is_part": case.assignment.is_part,
-    }
-    title = (Section(1, (Text(case.words["pair"]["task"].format(title=case.title)),), numbered=False),)
-    return task_paper(case, key, title, Prose(case.places).render("pair-task", names))
-
-
 @dataclass(frozen=True)
-class PairPage:
+class PairPage(DesignPage[SolvedPair]):
     """A gear pair as templates name it."""
 
-    case: SolvedPair
-
-    @property
-    def words(self) -> Mapping[str, Any]:
-        found: Mapping[str, Any] = self.case.words["pair"]
-        return found
+    NAME = "pair"
+    SECTIONS = (
+        *("pair-given", "pair-shifts", "pair-mesh", "pair-wheels", "pair-contact", "pair-sliding", "pair-region"),
+        *("pair-checks", "pair-drawing", "pair-conclusion"),
+    )
+    SHORT = frozenset({"pair-region"})
 
     def names(self) -> dict[str, Any]:
         case, chosen = self.case, self.case.chosen
         return {
             "words": case.words,
-            "full": case.assignment.report.extent == "full",
+            "full": self.full,
             "rule": chosen.rule,
             "sought": self.sought,
             "follows": chosen.follows,
@@ -158,9 +90,7 @@ class PairPage:
         self, name: str, widths: tuple[float, ...], heads: Iterable[Inlines], rows: Iterable[tuple[Inlines, ...]]
     ) -> Table:
         columns = (Column(widths[0], "left"), *(Column(width) for width in widths[1:]))
-        caption = Prose(self.case.places).inlines(self.words["captions"][name])
-        body = tuple(tuple(Cell(one) for one in row) for row in rows)
-        return Table(columns, (tuple(Cell(one) for one in heads),), body, caption, f"tab.{name}")
+        return self.table(name, columns, (heads,), rows)
 
     def _said(self, id: str) -> Inlines:
         """What a quantity is, in words; that of a wheel goes for both."""
@@ -243,14 +173,13 @@ class PairPage:
 
     # --- figures
 
-    def figure(self, name: str) -> Figure:
-        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
+    def scenes(self, name: str) -> Iterable[Scene]:
         drawings: Mapping[str, Callable[[SolvedPair], Scene]] = {
             "mesh": mesh,
             "region": region,
             "sliding": lambda case: sliding(case).scene,
         }
-        return Figure((drawings[name](self.case),), caption, f"fig.{name}")
+        return (drawings[name](self.case),)
 
 
 def case_ends(case: SolvedPair) -> tuple[int, int]:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.drawing import Scene
 from reportgen.drawing.film import Film
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
@@ -19,34 +20,10 @@ from reportgen.gears import train_drawings
 from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
-from reportgen.report import (
-    Block,
-    Cell,
-    Column,
-    Contents,
-    Document,
-    Equation,
-    Figure,
-    InlineMath,
-    Inlines,
-    PageBreak,
-    Section,
-    Table,
-    Text,
-    Value,
-    Words,
-    listed,
-)
+from reportgen.report import Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.case import Key
-from reportgen.report.numbering import number
-from reportgen.report.prose import Prose
+from reportgen.report.design import DesignPage
 
-SECTIONS = (
-    *("train-given", "train-ratio", "train-conditions", "train-candidates", "train-choice", "train-checks"),
-    *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency", "train-conclusion"),
-)
-SHORT = frozenset({"train-triangles"})
-"""The sections that a short report goes without."""
 ROWS, SHORT_ROWS = 15, 6
 """So many of the tooth numbers found stand in the table."""
 WORDS = 60
@@ -55,52 +32,16 @@ SHOWN_SETS = 500
 """So many of the tooth numbers that are found stand in the results."""
 
 
-def report(case: SolvedTrain) -> Document:
-    """The finished, numbered report."""
-    page, words, assignment = TrainPage(case), case.words, case.assignment
-    prose, full = Prose(case.places), assignment.report.extent == "full"
-    names = page.names()
-    found: list[Block] = [case.cover, PageBreak(), Contents(words["document"]["contents"], not full)]
-    for section in SECTIONS:
-        if page.has(section) and (full or section not in SHORT):
-            found += prose.render(section, names)
-    return number(
-        Document(
-            language=assignment.language,
-            title=f"{words['cover']['title']} – {case.title}",
-            author=assignment.report.student.name or "",
-            header=(words["header"].format(course=case.course), case.variant_line),
-            footer=("", words["document"]["page"]),
-            words=Words.among(words["document"]),
-            blocks=tuple(found),
-            close=not full,
-        )
-    )
-
-
-def task(case: SolvedTrain, key: Key, by_section: bool = False) -> Document:
-    """The student's handout: the given data and the empty answer sheet."""
-    from reportgen.marking.paper import empty_sheet, task_paper
-
-    names = {
-        **TrainPage(case).names(),
-        "answer_tables": empty_sheet(key, by_section),
-        "is_part": case.assignment.is_part,
-    }
-    title = (Section(1, (Text(case.words["train"]["task"].format(title=case.title)),), numbered=False),)
-    return task_paper(case, key, title, Prose(case.places).render("train-task", names))
-
-
 @dataclass(frozen=True)
-class TrainPage:
+class TrainPage(DesignPage[SolvedTrain]):
     """A planetary train as templates name it."""
 
-    case: SolvedTrain
-
-    @property
-    def words(self) -> Mapping[str, Any]:
-        found: Mapping[str, Any] = self.case.words["train"]
-        return found
+    NAME = "train"
+    SECTIONS = (
+        *("train-given", "train-ratio", "train-conditions", "train-candidates", "train-choice", "train-checks"),
+        *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency", "train-conclusion"),
+    )
+    SHORT = frozenset({"train-triangles"})
 
     def has(self, section: str) -> bool:
         given = self.case.given
@@ -146,7 +87,7 @@ class TrainPage:
 
     @property
     def rows(self) -> int:
-        return ROWS if self.case.assignment.report.extent == "full" else SHORT_ROWS
+        return ROWS if self.full else SHORT_ROWS
 
     # --- symbols and lines
 
@@ -179,10 +120,8 @@ class TrainPage:
 
     def _table(self, name: str, head: Iterable[Any], rows: Iterable[Iterable[Any]], widths: Iterable[float]) -> Table:
         """A table of what `said` prints; its first column stands to the left if it is wide."""
-        caption = Prose(self.case.places).inlines(self.words["captions"][name])
-        cells = (tuple(Cell(said(one)) for one in row) for row in (head, *rows))
-        columns = tuple(Column(width, "left" if width > WORDS else "center") for width in widths)
-        return Table(columns, (next(cells),), tuple(cells), caption, f"tab.{name}")
+        columns = (Column(width, "left" if width > WORDS else "center") for width in widths)
+        return self.table(name, columns, (map(said, head),), (map(said, row) for row in rows))
 
     @property
     def data(self) -> Table:
@@ -260,10 +199,8 @@ class TrainPage:
 
     # --- figures
 
-    def figure(self, name: str) -> Figure:
-        caption = Prose(self.case.places).inlines(self.words["captions"][f"figure-{name}"])
-        scene = scheme_views(self.case) if name == "scheme" else velocity_triangles(self.case)
-        return Figure((scene,), caption, f"fig.{name}")
+    def scenes(self, name: str) -> Iterable[Scene]:
+        return (scheme_views(self.case) if name == "scheme" else velocity_triangles(self.case),)
 
 
 def said(what: Any) -> Inlines:
@@ -309,7 +246,7 @@ class TrainCase(SolvedTrain):
         return ""
 
     def document(self) -> Document:
-        return self.bounded(report)
+        return self.bounded(TrainPage.report)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -321,7 +258,9 @@ class TrainCase(SolvedTrain):
         return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
 
     def task(self, key: Key, by_section: bool = False) -> Document:
-        return self.bounded(partial(task, key=key, by_section=by_section))
+        from reportgen.marking.paper import design_task
+
+        return self.bounded(partial(design_task, of=TrainPage, key=key, by_section=by_section))
 
     def results(self) -> dict[str, Any]:
         """All tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their rates."""

@@ -14,8 +14,9 @@ from reportgen.formula import Number, Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
-from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
+from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, listed
 from reportgen.report.case import Calculation, Key, KeyRow, Opened, Role
+from reportgen.report.design import DesignPage
 from reportgen.report.numbering import number
 from reportgen.report.outline import names as names_of
 from reportgen.report.report import PLATES_UP_TO, Report
@@ -153,6 +154,19 @@ def task_paper(case: Opened, key: Key, title: Iterable[Block], blocks: Iterable[
     student = case.assignment.report.student.name or ""
     contents = (*title, *fields(student_rows(key)), *blocks)
     return paper(case.assignment.language, case.words, case.course, contents, student, key.variant)
+
+
+def design_task(case: Any, of: type[DesignPage[Any]], key: Key, by_section: bool = False) -> Document:
+    """The task of a case of what is designed: the given data and the empty answer sheet."""
+    page = of(case)
+    names = {
+        **page.names(),
+        "answer_tables": empty_sheet(key, by_section),
+        "is_part": page.case.assignment.is_part,
+        "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
+    }
+    title = (tree.Section(1, (Text(page.words["task"].format(title=page.case.title)),), numbered=False),)
+    return task_paper(page.case, key, title, page.section(f"{page.NAME}-task", names))
 
 
 def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:

@@ -8,13 +8,16 @@ document, which no number of a counted part can equal, as those have two members
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from reportgen import report as tree
 from reportgen.base.errors import ReportgenError
 from reportgen.report import plain
+
+if TYPE_CHECKING:
+    from reportgen.report.case import Opened
 
 _COUNTED_LEVELS = 3
 
@@ -29,6 +32,26 @@ class DocumentError(ReportgenError):
     def __init__(self, faults: list[str]) -> None:
         self.faults = tuple(faults)
         super().__init__("\n".join(faults))
+
+
+def finished(case: Opened, blocks: Iterable[tree.Block], close: bool = False, title: str = "") -> tree.Document:
+    """The numbered document of a case with its header and footer, under the title of a report unless another is given.
+
+    Raises `DocumentError`.
+    """
+    words = case.words
+    return number(
+        tree.Document(
+            language=case.assignment.language,
+            title=title or f"{words['cover']['title']} – {case.title}",
+            author=case.assignment.report.student.name or "",
+            header=(words["header"].format(course=case.course), case.variant_line),
+            footer=("", words["document"]["page"]),
+            words=tree.Words.among(words["document"]),
+            blocks=tuple(blocks),
+            close=close,
+        )
+    )
 
 
 def number(document: tree.Document) -> tree.Document:

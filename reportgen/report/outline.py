@@ -27,7 +27,6 @@ from reportgen.report import (
     Section,
     Table,
     Text,
-    Words,
     chapters,
     comments,
     curves,
@@ -45,7 +44,7 @@ from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
-from reportgen.report.numbering import number
+from reportgen.report.numbering import finished
 from reportgen.report.occurring import occurring
 from reportgen.report.report import Report
 
@@ -451,19 +450,7 @@ def compose(case: Calculation) -> Document:
             named["table"] = partial(table, whole)
         written[section] = report.prose.render(section, named)
     blocks = [case.cover, *chain.from_iterable(written[section] for section in report.sections)]
-    assignment = case.assignment
-    return number(
-        Document(
-            language=assignment.language,
-            title=f"{words['cover']['title']} – {case.title}",
-            author=assignment.report.student.name or "",
-            header=(words["header"].format(course=case.course), case.variant_line),
-            footer=("", words["document"]["page"]),
-            words=Words.among(words["document"]),
-            blocks=tuple(plates_last(blocks, partial(_plate_is_last, report))),
-            close=not report.parts("usual-type"),
-        )
-    )
+    return finished(case, plates_last(blocks, partial(_plate_is_last, report)), close=not report.parts("usual-type"))
 
 
 def _plate_is_last(report: Report, plate: Plate) -> Paragraph:

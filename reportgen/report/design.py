@@ -1,0 +1,81 @@
+"""The report of what is designed (a cam, a gear pair, a planetary train), from sections and words of its own."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
+
+from reportgen.drawing import Scene
+from reportgen.report import Block, Cell, Column, Contents, Document, Figure, Inlines, PageBreak, Table
+from reportgen.report.case import Opened
+from reportgen.report.numbering import finished
+from reportgen.report.prose import Prose
+
+Designed = TypeVar("Designed", bound=Opened)
+
+
+@dataclass(frozen=True)
+class DesignPage(ABC, Generic[Designed]):
+    """A design as its templates name it."""
+
+    case: Designed
+
+    NAME: ClassVar[str]
+    """What its words stand under."""
+    SECTIONS: ClassVar[Sequence[str]]
+    SHORT: ClassVar[frozenset[str]]
+    """The sections that a short report goes without."""
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        found: Mapping[str, Any] = self.case.words[self.NAME]
+        return found
+
+    @property
+    def full(self) -> bool:
+        return self.case.assignment.report.extent == "full"
+
+    def has(self, section: str) -> bool:
+        """Whether a design like this has a section."""
+        return True
+
+    @abstractmethod
+    def names(self) -> dict[str, Any]:
+        """All that the templates may name."""
+
+    @abstractmethod
+    def scenes(self, name: str) -> Iterable[Scene]:
+        """The drawings of a figure."""
+
+    def section(self, name: str, names: Mapping[str, Any]) -> tuple[Block, ...]:
+        return Prose(self.case.places).render(name, names)
+
+    def caption(self, name: str) -> Inlines:
+        return Prose(self.case.places).inlines(self.words["captions"][name])
+
+    def figure(self, name: str) -> Figure:
+        return Figure(tuple(self.scenes(name)), self.caption(f"figure-{name}"), f"fig.{name}")
+
+    def table(
+        self,
+        name: str,
+        columns: Iterable[Column],
+        heads: Iterable[Iterable[Inlines]],
+        rows: Iterable[Iterable[Inlines]],
+    ) -> Table:
+        """A table of inlines, under the caption of its name."""
+        head, body = (tuple(tuple(map(Cell, row)) for row in part) for part in (heads, rows))
+        return Table(tuple(columns), head, body, self.caption(name), f"tab.{name}")
+
+    @classmethod
+    def report(cls, case: Designed) -> Document:
+        """The finished, numbered report of a design."""
+        page = cls(case)
+        names, contents = page.names(), case.words["document"]["contents"]
+        blocks: list[Block] = [case.cover, PageBreak(), Contents(contents, not page.full)]
+        for section in cls.SECTIONS:
+            if page.has(section) and (page.full or section not in cls.SHORT):
+                blocks += page.section(section, names)
+        return finished(case, blocks, close=not page.full)
