@@ -28,7 +28,7 @@ from tests.page.browser import Browser
 from tests.report import built
 
 FILE = built.ROOT / "assignments" / "slider-crank-02.yaml"
-PATIENCE = 60.0
+PATIENCE = 20.0
 
 
 def until(condition: Callable[[], object], patience: float = PATIENCE) -> None:
@@ -53,6 +53,8 @@ def watching(file: Path, *options: str) -> Iterator[tuple[str, subprocess.Popen[
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
+        # Tests that run in the background hear no Ctrl-C, and neither would what they start.
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
     )
     try:
         assert process.stdout is not None
