@@ -19,6 +19,7 @@ from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, ids, substitute, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report.case import Key
 from reportgen.report.design import DesignPage
 from reportgen.report.prose import Prose
 
@@ -52,7 +53,7 @@ class ImpactView:
 class CamPage(DesignPage[SolvedCam]):
     """A cam as templates name it."""
 
-    NAME = "cam"
+    NAME, TASK = "cam", "cam-task"
     SECTIONS = (
         *("cam-given", "cam-law", "cam-diagrams", "cam-motion-table", "cam-limits", "cam-choice", "cam-pressure"),
         *("cam-profile", "cam-curvature", "cam-checks", "cam-conclusion"),
@@ -66,6 +67,10 @@ class CamPage(DesignPage[SolvedCam]):
     def has(self, section: str) -> bool:
         cam, least = self.case.solution.cam, self.case.solution.designed.least
         return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
+
+    def asked(self, key: Key) -> dict[str, Any]:
+        positions = sorted({k for row in key.asked for k in row.positions if k})
+        return {"asked": listed(Text(key.label(k)) for k in positions)}
 
     def names(self) -> dict[str, Any]:
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given

@@ -36,7 +36,7 @@ SHOWN_SETS = 500
 class TrainPage(DesignPage[SolvedTrain]):
     """A planetary train as templates name it."""
 
-    NAME = "train"
+    NAME, TASK = "train", "train-task"
     SECTIONS = (
         *("train-given", "train-ratio", "train-conditions", "train-candidates", "train-choice", "train-checks"),
         *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency", "train-conclusion"),

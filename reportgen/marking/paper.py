@@ -14,7 +14,7 @@ from reportgen.formula import Number, Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
-from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, listed
+from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
 from reportgen.report.case import Calculation, Key, KeyRow, Opened, Role
 from reportgen.report.design import DesignPage
 from reportgen.report.numbering import number
@@ -162,11 +162,11 @@ def design_task(case: Any, of: type[DesignPage[Any]], key: Key, by_section: bool
     names = {
         **page.names(),
         "answer_tables": empty_sheet(key, by_section),
-        "is_part": page.case.assignment.is_part,
-        "asked": listed(Text(key.label(k)) for k in sorted({k for row in key.asked for k in row.positions if k})),
+        "is_part": case.assignment.is_part,
+        **page.asked(key),
     }
-    title = (tree.Section(1, (Text(page.words["task"].format(title=page.case.title)),), numbered=False),)
-    return task_paper(page.case, key, title, page.section(f"{page.NAME}-task", names))
+    title = (tree.Section(1, (Text(page.words["task"].format(title=case.title)),), numbered=False),)
+    return task_paper(case, key, title, page.section(of.TASK, names))
 
 
 def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:

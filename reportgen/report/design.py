@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
 from reportgen.report import Block, Cell, Column, Contents, Document, Figure, Inlines, PageBreak, Table
-from reportgen.report.case import Opened
+from reportgen.report.case import Key, Opened
 from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
 
@@ -24,6 +24,8 @@ class DesignPage(ABC, Generic[Designed]):
 
     NAME: ClassVar[str]
     """What its words stand under."""
+    TASK: ClassVar[str]
+    """The section with its task."""
     SECTIONS: ClassVar[Sequence[str]]
     SHORT: ClassVar[frozenset[str]]
     """The sections that a short report goes without."""
@@ -44,6 +46,10 @@ class DesignPage(ABC, Generic[Designed]):
     @abstractmethod
     def names(self) -> dict[str, Any]:
         """All that the templates may name."""
+
+    def asked(self, key: Key) -> dict[str, Any]:
+        """What the task may name besides, of what is asked for."""
+        return {}
 
     @abstractmethod
     def scenes(self, name: str) -> Iterable[Scene]:

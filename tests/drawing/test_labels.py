@@ -31,7 +31,9 @@ def drafts(draw: st.DrawFn) -> Canvas:
 def test_labels_keep_clear_of_strokes_each_other_and_the_edge(draft: Canvas) -> None:
     scene = finish(draft)
     assert overlaps(scene) == []
-    assert sum(isinstance(item, Label) for item in scene.items) == len(draft.requests)
+    # Where there is no room for two, they stand side by side with a comma between.
+    names = [item.content for item in scene.items if isinstance(item, Label) and item.content != ", "]
+    assert len(names) == len(draft.requests)
 
 
 @settings(max_examples=10, deadline=None)
