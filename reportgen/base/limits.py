@@ -14,6 +14,7 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -41,6 +42,20 @@ class Limits:
 
 TEMPLATES = Limits(seconds=10, megabytes=500)
 """What making a document with a school's templates may take."""
+
+
+M_TRIM_THRESHOLD, KEPT_FREE = -1, 128 * 1024
+"""An option of glibc's `mallopt`, and the bytes of freed memory that it then keeps."""
+
+
+@cache
+def give_memory_back() -> None:
+    """Let what is freed go back to the system: the more was in use, the more glibc would keep."""
+    import ctypes
+
+    # Other libraries of C have no such option, and some systems no library that can be asked.
+    with suppress(AttributeError, OSError, TypeError):
+        ctypes.CDLL(None).mallopt(M_TRIM_THRESHOLD, KEPT_FREE)
 
 
 class LimitError(Exception):

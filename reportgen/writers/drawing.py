@@ -28,7 +28,7 @@ ANCHORS: dict[Anchor, tuple[str, float, float]] = {
 }
 """Typst's alignment, and the share of the sheet's width and height (from the top) that it measures from."""
 LABEL_SIZE = 9.0
-"""The size of labels, in points, that LaTeX's `\\scene` sets; any other is written at the label."""
+"""The size of labels, in points, that LaTeX's `\\scene` sets; any other is written where it begins."""
 
 
 # --- Typst ----------------------------------------------------------------------------------------
@@ -106,9 +106,16 @@ def paint_latex(scene: Scene, formulas: TextSetter) -> str:
     Raises `TypesetterError` for a label with a character the fonts do not have.
     """
     runs: list[str] = []
+    size = LABEL_SIZE
     for labels, items in groupby(scene.items, key=lambda item: isinstance(item, Label)):
         if labels:
-            runs += (_box_of_label(item, formulas) for item in items if isinstance(item, Label))
+            for item in items:
+                assert isinstance(item, Label)
+                # LaTeX takes long to change a size.
+                if item.size != size:
+                    size = item.size
+                    runs.append(rf"\fontsize{{{decimal(size)}}}{{{decimal(1.2 * size)}}}\selectfont")
+                runs.append(_box_of_label(item, formulas))
         else:
             runs.append("\\strokes{" + "\n".join(_operators(items)) + "}%")
     body = "\n".join(runs)
@@ -117,8 +124,6 @@ def paint_latex(scene: Scene, formulas: TextSetter) -> str:
 
 def _box_of_label(label: Label, formulas: TextSetter) -> str:
     content = formulas.content(label.content)
-    if label.size != LABEL_SIZE:
-        content = rf"\fontsize{{{decimal(label.size)}}}{{{decimal(1.2 * label.size)}}}\selectfont {content}"
     if label.turn % 360 == 90:
         content = rf"\lbturned{{{content}}}"
     if label.background:

@@ -16,6 +16,7 @@ from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
+from reportgen.base.limits import give_memory_back
 from reportgen.base.units import Language, by_power_of_ten
 from reportgen.base.words import templates
 from reportgen.drawing import Scene
@@ -373,6 +374,7 @@ def compile(source: str, system: bool = False) -> bytes:
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
     own = not needs_system_fonts(source, lacking)
+    give_memory_back()
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
