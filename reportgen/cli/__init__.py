@@ -34,6 +34,8 @@ def main() -> None:
         signal.signal(signal.SIGINT, _leave)
     import warnings
 
+    # What others plug into models is none of ours, and looking for it takes time.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     import typer
 
     from reportgen.cli.common import SYSTEM, WRONG_USAGE, complain_of_program, language_of_run, misused
