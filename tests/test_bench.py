@@ -167,6 +167,7 @@ def test_a_class_is_made_and_its_workers_memory_taken(tmp_path: Path) -> None:
     assert cost.memory > 30 or not Path("/proc/self/status").exists()
 
 
+@pytest.mark.proof
 def test_a_command_is_taken_apart_into_steps() -> None:
     """Each function that counts as a step is there and is come by; what no command here needs stays out."""
     bench = Bench(SAMPLE, SAMPLE.parent, ())

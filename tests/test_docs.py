@@ -176,6 +176,7 @@ def test_no_command_is_run_on_two_pages() -> None:
     assert sum(map(len, lines)) == len(set().union(*lines))
 
 
+@pytest.mark.proof
 def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
     place = copy_of_repository(tmp_path)
     assert follow("CONTRIBUTING.md", place) == []

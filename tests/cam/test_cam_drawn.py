@@ -89,6 +89,7 @@ def test_the_follower_touches_the_turning_cam(name: str) -> None:
             assert curve.values.values.max() <= high + 1e-6
 
 
+@pytest.mark.proof
 def test_the_least_cam_is_that_of_a_search() -> None:
     """Least r₀ over all e, from limits sampled at 400 000 angles: the same to 1e-9."""
     rng = np.random.default_rng(7)

@@ -105,6 +105,7 @@ def test_what_is_wrong_is_told_in_the_language_of_the_locale(line: str, tmp_path
     assert not re.search(r"\b(Usage|Error|Invalid|Missing|Try|the|is)\b", told["vi_VN.UTF-8"])
 
 
+@pytest.mark.proof
 def test_an_option_goes_before_the_file_and_the_file_before_the_locale(own: Path) -> None:
     wrong = ("--engine", "word")
     assert "is expected" in reportgen("build", own, *wrong, LANG="vi_VN.UTF-8").stderr
@@ -187,6 +188,7 @@ def test_examples_come_with_the_program(tmp_path: Path) -> None:
     assert (copied / "engine-twin-05.yaml").read_bytes() == SAMPLE.read_bytes()
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("way", matrix(["option", "environment", "file"], ["file"]))
 def test_a_school_keeps_its_words_where_it_likes(own: Path, way: str) -> None:
     words, out = own.parent / "words", own.parent / "out"

@@ -341,6 +341,7 @@ TAKEN = """parts:
 """
 
 
+@pytest.mark.proof
 def test_where_a_datum_comes_from_is_said_in_symbols_whatever_its_kind_and_key(tmp_path: Path) -> None:
     """z1 is z_1 and n_in is n_v; the arm of a cam is l, and the machine's l3 is l_3 by its value."""
     (tmp_path / "part.yaml").write_text(CAM.replace("  arm: 132 mm\n", ""), encoding="utf-8")

@@ -37,6 +37,7 @@ PAPERS: dict[str, Paper] = {
 }
 
 
+@pytest.mark.proof
 @pytest.mark.parametrize("engine", matrix(["typst", pytest.param("latex", marks=needs_tex)], ["typst"]))
 @pytest.mark.parametrize(("name", "language"), [("task", "vi"), ("key", "en"), ("feedback", "vi"), ("class", "en")])
 def test_a_paper_keeps_to_its_page(name: str, language: Language, engine: api.Engine) -> None:

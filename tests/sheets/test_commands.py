@@ -67,6 +67,7 @@ def test_a_plate_larger_than_the_paper_is_named(tmp_path: Path) -> None:
         api.sheet_files(ROOT / "assignments" / "engine-v-02.yaml", size="A3", formats=())
 
 
+@pytest.mark.proof
 def test_a_crank_with_which_a_plate_fits_is_told(tmp_path: Path) -> None:
     """And it does."""
     text = SMALL.read_text(encoding="utf-8")

@@ -112,7 +112,7 @@ def position(name: str, *told: Group) -> int:
 
 @pytest.mark.parametrize(("name", "every"), matrix(
     [(name, every) for name in MACHINES for every in (False, True)],
-    [("shaper-02", False), ("linkage-slide", True)],
+    [("linkage-slide", True)],
 ))  # fmt: skip
 def test_segments_of_velocities_and_accelerations_are_those_printed(name: str, every: bool) -> None:
     """On the worked plans, and where there is every plan at all positions; a segment goes from point to point."""

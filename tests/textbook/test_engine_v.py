@@ -163,6 +163,7 @@ def test_the_mean_of_the_positions_is_of_the_even_ones() -> None:
     assert ledger.number("M.mean.positions").shown == pytest.approx(sum(torque) / 8, abs=5.1e-4)
 
 
+@pytest.mark.proof
 def test_the_report_says_how_labels_and_numbers_go_together_and_why_there_is_no_power() -> None:
     """The labels once; that the mean is nothing by construction in summary and conclusion."""
     text = told(api.document(api.load(FILE, "en")))

@@ -198,6 +198,7 @@ def test_a_workbook_with_damaged_parts_is_read_or_refused(
         assert all(isinstance(page, Page) for page in read(path))
 
 
+@pytest.mark.proof
 def test_a_million_empty_cells_with_a_border_are_none(tmp_path: Path) -> None:
     """A border drawn round ten thousand rows of a hundred columns; `make bench` says how soon they are read."""
     path = tmp_path / "a.xlsx"

@@ -101,6 +101,7 @@ def figures(pdf: Any) -> list[tuple[float, float]]:
     ]
 
 
+@pytest.mark.proof
 @needs_office
 def test_libreoffice_opens_it_with_figures_true_to_scale(tmp_path: Path) -> None:
     made = sample.sample()
