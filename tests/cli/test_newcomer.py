@@ -144,6 +144,7 @@ def test_a_file_saved_by_notepad_is_read(own: Path, encoding: str) -> None:
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.proof
 def test_units_as_they_are_written_in_vietnamese(own: Path) -> None:
     text = own.read_text(encoding="utf-8")
     solved = []
@@ -153,6 +154,7 @@ def test_units_as_they_are_written_in_vietnamese(own: Path) -> None:
     assert solved[0] == solved[1] == solved[2] != ""
 
 
+@pytest.mark.proof
 def test_a_folder_is_named_and_refused(tmp_path: Path) -> None:
     for command in ("check", "build", "watch"):
         done = reportgen(command, ".", "--lang", "en", cwd=tmp_path)

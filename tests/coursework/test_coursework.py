@@ -101,6 +101,7 @@ def test_the_chapters_of_the_parts_follow_those_of_the_machine(three: Coursework
     assert next(number for number, _ in headings(document, 2) if number.startswith("4.")) == "4.1"
 
 
+@pytest.mark.proof
 def test_nothing_of_the_machines_chapters_is_another_one() -> None:
     """But for the numbers of tables at the front, where those of the parts have come in."""
     case = coursework()

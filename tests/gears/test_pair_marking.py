@@ -60,6 +60,7 @@ def graded(drawn: Path) -> Graded:
     return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
 
 
+@pytest.mark.proof
 def test_right_sheets_get_all_marks_and_a_slip_costs_few(graded: Graded) -> None:
     assert graded.problems == ()
     full = {marking.key.id for marking in graded.markings if marking.points == marking.out_of}

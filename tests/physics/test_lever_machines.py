@@ -113,6 +113,7 @@ def test_four_bar(
     clockwise=st.booleans(),
     force=whole(-500, 500),
 )
+@pytest.mark.proof
 def test_lever_six_bar(
     tmp_path_factory: pytest.TempPathFactory,
     crank: int,

@@ -53,7 +53,7 @@ def by_language(paths: list[Path], telling: list[tuple[Path, Language]]) -> list
     return matrix(found, telling)
 
 
-@pytest.mark.parametrize(("path", "language"), by_language(MACHINES, [(SLIDER, "en")]))
+@pytest.mark.parametrize(("path", "language"), by_language(MACHINES, []))
 def test_machines(path: Path, language: Language, tmp_path: Path) -> None:
     """Every position worked out; cells of tables show what the lines do."""
     document = api.document(api.load(all_worked(path, tmp_path), language))
