@@ -4,21 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-import pymupdf
 import pytest
 
-from reportgen import api, catalogue
-from reportgen.base.units import write
+from reportgen import catalogue
 from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
-from reportgen.formula.evaluation import evaluate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import MarkingScheme, Policy, marking_scheme
-from reportgen.marking.mistakes import Mistake
+from reportgen.marking.marks import Policy, marking_scheme
 from tests.marking import demo, students
+from tests.marking.designs import named, telling_and_texts
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
 STUDENTS = 12
@@ -35,17 +31,6 @@ def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
     made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
     assert len(made.files) == STUDENTS
     return folder
-
-
-def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
-    """A mistake of that name in some quantities, as the case knows it."""
-    changes = {}
-    for id in where:
-        for called, definition in scheme.pitfalls.changed.get(id, ()):
-            if called == name:
-                changes[id] = lambda _, values, made=definition: np.atleast_1d(evaluate(made, values))
-    assert changes, name
-    return Mistake(name, where[0], changes)
 
 
 @pytest.fixture(scope="module")
@@ -74,16 +59,7 @@ def test_right_sheets_get_all_marks_and_a_slip_costs_few(graded: Graded) -> None
 def test_the_task_holds_no_answer(drawn: Path) -> None:
     """None of the numbers asked for that have four figures stands in it; in the key each of them does."""
     file = drawn / "variants" / "S02.yaml"
-    task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
-    texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
-    rows = open_case(file, "en").key().asked
-    shown = [
-        write(abs(float(row.printed[row.at(k)])), row.decimals, "en")
-        for row in rows
-        for k in row.positions
-        if row.decimals is not None
-    ]
-    telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
+    telling, texts = telling_and_texts(file)
     assert len(telling) > 30
     assert [text for text in telling if text in texts[0]] == []
     assert [text for text in telling if text not in texts[1]] == []
