@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.cam.case import CamCase
 from reportgen.cam.design import CamLimits, least_translating
 from reportgen.cam.drawings import inversion
 from reportgen.cam.laws import FollowerMotion, law
@@ -18,7 +19,7 @@ from reportgen.cam.profile import Cam
 from reportgen.cam.sheets import CHORD, contour
 from reportgen.cases import open_case
 from reportgen.drawing import Circle, Label
-from reportgen.formula import Chain, Symbol
+from reportgen.formula import Chain, Number, Symbol
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
@@ -26,9 +27,14 @@ NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
 MM = 1e3
 
 
+def case_of(name: str) -> CamCase:
+    case = open_case(FOLDER / f"{name}.yaml", "en")
+    assert isinstance(case, CamCase)
+    return case
+
+
 def cam_of(name: str) -> Cam:
-    cam: Cam = open_case(FOLDER / f"{name}.yaml", "en").solution.cam  # type: ignore[attr-defined]
-    return cam
+    return case_of(name).solution.cam
 
 
 @pytest.mark.parametrize("name", matrix(NAMES, ["roller-01", "flat-01"]))
@@ -64,10 +70,13 @@ def farthest(points: np.ndarray, line: np.ndarray) -> float:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_the_base_circle_is_true_to_the_scale_that_is_printed(name: str) -> None:
-    case = open_case(FOLDER / f"{name}.yaml", "en")
-    scene = inversion(case)  # type: ignore[arg-type]
+    scene = inversion(case_of(name))
     note = scene.items[-1]
-    scale = note.content.parts[1].value  # type: ignore[union-attr]
+    assert isinstance(note, Label)
+    assert isinstance(note.content, Chain)
+    number = note.content.parts[1]
+    assert isinstance(number, Number)
+    scale = number.value
     radii = [item.radius for item in scene.items if isinstance(item, Circle)]
     assert min(abs(radius * scale - cam_of(name).r0 * MM) for radius in radii) < 1e-9
 

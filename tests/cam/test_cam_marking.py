@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 
 from reportgen.base.errors import AssignmentError
+from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
@@ -139,8 +141,8 @@ def test_the_wrong_sign_is_far_off() -> None:
 
 
 def test_mistakes_have_words_in_both_languages() -> None:
-    for language in ("vi", "en"):
-        case = open_case(FOLDER / "roller-01.yaml", language)  # type: ignore[arg-type]
+    for language in get_args(Language):
+        case = open_case(FOLDER / "roller-01.yaml", language)
         pitfalls = case.pitfalls
         names = {name for many in (*pitfalls.changed.values(), *pitfalls.readings.values()) for name, _ in many}
         for name in names:

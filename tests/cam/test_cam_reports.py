@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from reportgen import report as tree
+from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
@@ -50,8 +51,8 @@ def recomputes(chain: Chain) -> bool | None:
 
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))
-def test_every_line_recomputes(name: str, language: str) -> None:
-    case = open_case(file_of(name), language)  # type: ignore[arg-type]
+def test_every_line_recomputes(name: str, language: Language) -> None:
+    case = open_case(file_of(name), language)
     found = [recomputes(chain) for chain in chains(case.document().blocks)]
     assert found.count(True) >= 10
     assert False not in found
