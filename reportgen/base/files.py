@@ -29,6 +29,8 @@ SETS = {
     "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns: what stands of an earlier set is replaced by the next one."""
+_STREAMS = ("/dev", "/proc")
+"""What these folders name is open or a device, even where it leads to a regular file."""
 _UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
@@ -66,6 +68,8 @@ def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
         for target, content in files.items():
             # A full disk does not say itself what had no room on it.
             with _named(target):
+                if is_stream(target):
+                    raise NotRegularError(errno.EINVAL, "no regular file", str(target))
                 written[target] = _beside(target, temporary)
                 written[target].write_bytes(content)
         for target in (*files, *gone):
@@ -81,6 +85,25 @@ def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
             with _named(target):
                 target.unlink(missing_ok=True)
         undo.pop_all()
+
+
+def is_stream(target: Path) -> bool:
+    """Whether a name stands for a pipe or a device, or for what is open already (/dev/stdout): nothing to replace."""
+    try:
+        mode = target.stat().st_mode
+    except OSError:
+        return False
+    folder = Path(os.path.abspath(target)).parent
+    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)) or any(folder.is_relative_to(one) for one in _STREAMS)
+
+
+def write_stream(target: Path, content: bytes) -> None:
+    """Write into a pipe or a device of characters, as a redirection would.  Raises `OSError`, for a disk, too."""
+    with _named(target):
+        if stat.S_ISBLK(target.stat().st_mode):
+            raise NotRegularError(errno.EINVAL, "no regular file", str(target))
+        with target.open("ab") as stream:
+            stream.write(content)
 
 
 def _beside(target: Path, until: ExitStack) -> Path:
@@ -118,9 +141,11 @@ def _named(target: Path) -> Iterator[None]:
     """Makes what the system complains of speak of this file."""
     try:
         yield
-    except OSError as error:
-        error.filename, error.filename2 = str(target), None
+    except NotRegularError:
         raise
+    except OSError as error:
+        # A second name that is set at all, if to None, would be told as one.
+        raise OSError(error.errno, error.strerror or str(error), str(target)) from error
 
 
 @contextmanager

@@ -15,7 +15,7 @@ import typer
 from typer.core import TyperGroup
 
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
-from reportgen.base.files import overwritten, put_file
+from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
 from reportgen.base.units import Language
 
@@ -171,10 +171,11 @@ def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
 
 
 def write(path: Path, text: str) -> None:
-    """To standard output for `-`; else to the file, which is replaced only once all is written."""
-
+    """To standard output for `-`; into a pipe or a device; else to the file, replaced only once all is written."""
     if str(path) == "-":
         sys.stdout.write(text)
+    elif is_stream(path):
+        write_stream(path, text.encode())
     else:
         put_file(path, text.encode())
 

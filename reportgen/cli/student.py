@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.base.files import put_files, put_set, reported, standing
+from reportgen.base.files import is_stream, put_files, put_set, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     EngineOption,
@@ -229,7 +229,7 @@ def new(
     if example is not None and example not in examples:
         raise typer.BadParameter(unknown("no_example", example, list(examples), lang), param_hint="--from")
     with ending(lang):
-        if output is not None and os.path.lexists(output) and not force:
+        if output is not None and os.path.lexists(output) and not (force or is_stream(output)):
             refuse([Fault("already-there", Mark(str(output)))], output, lang)
         text = sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
         write(output or Path("-"), text)
