@@ -73,6 +73,11 @@ class Fault:
     mark: Mark
     arguments: Mapping[str, str] = field(default_factory=dict)
 
+    @property
+    def wordless(self) -> str:
+        """What is told where the words themselves cannot be read."""
+        return f"{self.code} {self.arguments.get('reason', '')}".rstrip()
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:

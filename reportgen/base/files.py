@@ -165,6 +165,11 @@ class NotRegularError(OSError):
     """A pipe, a device or a socket in place of a file: nobody knows whether it ever ends."""
 
 
+def cause(error: OSError) -> str:
+    """Why the system refused a file: the name of a kind of fault, which has words, else what the system says."""
+    return error.strerror if type(error) is OSError and error.strerror else type(error).__name__
+
+
 def contents(path: Path, most: int = -1) -> bytes:
     """The bytes of a file, `most` of them if that is no less than 0.  Raises `OSError`, and waits for nobody."""
     mode = path.stat().st_mode

@@ -21,7 +21,7 @@ from typing import Any, NoReturn
 import yaml
 
 from reportgen.base.errors import Fault, Mark, Where
-from reportgen.base.files import contents
+from reportgen.base.files import cause, contents
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
 """What the first bytes of a text say of the others."""
@@ -107,10 +107,10 @@ def text_in(path: Path) -> str | Fault:
         if len(data) > LARGEST:
             return Fault("too-large", Mark(file), {"largest": str(LARGEST // 1000)})
     except IsADirectoryError as error:
-        about = {"reason": type(error).__name__, "known": str(path.resolve()), "hint": "folder"}
+        about = {"reason": cause(error), "known": str(path.resolve()), "hint": "folder"}
         return Fault("unreadable", Mark(file), about)
     except OSError as error:
-        return Fault("unreadable", Mark(file), {"reason": type(error).__name__})
+        return Fault("unreadable", Mark(file), {"reason": cause(error)})
     return decoded(data, file)
 
 

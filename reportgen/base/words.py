@@ -226,7 +226,7 @@ def _of_file(file: Path) -> Language:
 def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
     """The table that a file is, or the part of one below its first lines."""
     if source.faults:
-        raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.code}" for fault in source.faults))
+        raise TemplateError("\n".join(f"{_below(fault.mark, above)}: {fault.wordless}" for fault in source.faults))
     if not isinstance(source.top, MappingNode):
         raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
-from reportgen.base.files import leads_out
+from reportgen.base.files import cause, leads_out
 from reportgen.base.limits import Limits
 from reportgen.base.source import encoding_of
 from reportgen.base.units import Language
@@ -161,7 +161,7 @@ def _from_archive(path: Path, faults: list[Fault]) -> Iterator[Handed]:
     except UNREADABLE_ZIP:
         faults.append(Fault("archive-damaged", mark))
     except OSError as error:
-        faults.append(Fault("unreadable", mark, {"reason": type(error).__name__}))
+        faults.append(Fault("unreadable", mark, {"reason": cause(error)}))
 
 
 def _content(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:

@@ -19,7 +19,7 @@ from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
 from reportgen.assignment.reading import words_beside
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
-from reportgen.base.files import contents, held, put_file, put_set, remove_unfinished, reported, scratch
+from reportgen.base.files import cause, contents, held, put_file, put_set, remove_unfinished, reported, scratch
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes import ready
@@ -289,7 +289,7 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, 
         parts = {one.relative_to(file.parent).as_posix(): contents(one) for one in beside(file) if one.is_file()}
         return file.name, contents(file), {**words_beside(file), **parts}
     except OSError as error:
-        return as_problem(Fault("unreadable", Mark(str(file)), {"reason": type(error).__name__}), language)
+        return as_problem(Fault("unreadable", Mark(str(file)), {"reason": cause(error)}), language)
 
 
 def _pool(order: Order, students: int) -> Pool:

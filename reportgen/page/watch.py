@@ -5,10 +5,13 @@ This is the only module that imports watchfiles, for the templates.
 
 from __future__ import annotations
 
+import io
 import json
 import secrets
+import socket
 import sys
 import threading
+import time
 import webbrowser
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -199,6 +202,10 @@ def _nothing(edition: Edition) -> tree.Document:
 HOST = "127.0.0.1"
 BEAT = 10.0
 """A page that has had no news for so long (s) hears that the server is there."""
+REQUEST = 10.0
+"""A connection has so long (s) to send a whole request, or to take a part of the answer."""
+RESPITE = 0.2
+"""Where no connection can be accepted, the server looks again after so long (s)."""
 HEADERS = {
     "Cache-Control": "no-store",
     "X-Content-Type-Options": "nosniff",
@@ -222,8 +229,41 @@ class Server(ThreadingHTTPServer):
     def address(self) -> str:
         return f"http://{HOST}:{self.server_port}/{self.token}/"
 
+    def get_request(self) -> tuple[socket.socket, Any]:
+        """The next connection; where no more files can be opened it waits, and would be asked at once again."""
+        try:
+            return super().get_request()
+        except OSError:
+            time.sleep(RESPITE)
+            raise
+
     def handle_error(self, request: Any, client_address: Any) -> None:
         """A page that was closed while it was answered is nobody's fault."""
+
+
+class _InTime(io.RawIOBase):
+    """What a connection sends until its time is up; then reading raises `TimeoutError`, however much has come."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self._connection = connection
+        self.begin()
+
+    def begin(self) -> None:
+        """Let the time for a request begin."""
+        self._end = time.monotonic() + REQUEST
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        left = self._end - time.monotonic()
+        if left <= 0:
+            raise TimeoutError
+        self._connection.settimeout(left)
+        try:
+            return self._connection.recv_into(buffer)
+        finally:
+            self._connection.settimeout(REQUEST)
 
 
 class _Request(BaseHTTPRequestHandler):
@@ -234,6 +274,18 @@ class _Request(BaseHTTPRequestHandler):
         "moving.json": Desk.moving,
         "report.json": Desk.report,
     }
+
+    def setup(self) -> None:
+        super().setup()
+        self._incoming = _InTime(self.connection)
+        self.rfile.close()
+        self.rfile = io.BufferedReader(self._incoming)
+
+    def handle_one_request(self) -> None:
+        self._incoming.begin()
+        # Nobody is told: what takes too long ends, as what is closed does.
+        with suppress(ConnectionError):
+            super().handle_one_request()
 
     def do_GET(self) -> None:
         if not self._known():

@@ -12,7 +12,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from reportgen.base.errors import Fault, Mark, TemplateError
-from reportgen.base.files import contents
+from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.workbook.package import Attributes, Package, RefusedError
@@ -57,7 +57,7 @@ def read_letterhead(path: Path, language: Language) -> Letterhead:
         code = fault.code if fault.code.startswith("letterhead") else _CODES.get(fault.code[6:], "letterhead-damaged")
         raise TemplateError(str(as_problem(Fault(code, fault.mark, fault.arguments), language))) from None
     except OSError as error:
-        fault = Fault("unreadable", Mark(str(path)), {"reason": error.strerror or type(error).__name__})
+        fault = Fault("unreadable", Mark(str(path)), {"reason": cause(error)})
         raise TemplateError(str(as_problem(fault, language))) from error
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import threading
@@ -12,7 +14,7 @@ import time
 import urllib.error
 import urllib.request
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,8 +22,11 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from reportgen.base import source, words
+from reportgen.base.errors import TemplateError
 from reportgen.cases import open_case
 from reportgen.cli import app
+from reportgen.page import watch as serving
 from reportgen.page.watch import Desk, Server
 from tests.lanes import matrix, proof
 from tests.page.browser import Browser
@@ -249,3 +254,93 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
     desk.renew()
     assert "given.yaml" in desk.edition.fault
     assert desk.edition.panels
+
+
+# --- connections that say nothing, or too little ----------------------------------------------------
+
+
+@pytest.fixture
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
+    """A server whose patience is short, with a page that has no news."""
+    monkeypatch.setattr(serving, "REQUEST", 0.4)
+    monkeypatch.setattr(serving, "BEAT", 0.1)
+    desk = Desk(partial(open_case, FILE, None))
+    server = Server(desk)
+    thread = threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True)
+    thread.start()
+    yield server
+    desk.close()
+    server.shutdown()
+    server.server_close()
+    thread.join()
+
+
+def ended(connection: socket.socket, patience: float = PATIENCE) -> bool:
+    """Whether the other side hangs up."""
+    connection.settimeout(patience)
+    with suppress(ConnectionResetError):
+        return connection.recv(1000) == b""
+    return True
+
+
+@pytest.mark.parametrize("sent", [b"", b"GET / HTTP/1.1\r\nHost:"], ids=["nothing", "half a request"])
+def test_a_connection_without_a_whole_request_ends(server: Server, sent: bytes) -> None:
+    with socket.create_connection(server.server_address[:2]) as connection:
+        connection.sendall(sent)
+        assert ended(connection)
+
+
+def test_a_request_that_comes_letter_by_letter_ends(server: Server) -> None:
+    """Each letter is soon enough; all of them are not."""
+    with socket.create_connection(server.server_address[:2]) as connection:
+        begun = time.monotonic()
+        with suppress(ConnectionError):
+            while time.monotonic() - begun < PATIENCE:
+                connection.sendall(b"G")
+                time.sleep(0.1)
+        assert time.monotonic() - begun < PATIENCE
+
+
+def test_a_page_that_waits_for_news_stays(server: Server) -> None:
+    """Its stream is idle by nature: it hears that the server is there, long after a request would have ended."""
+    with socket.create_connection(server.server_address[:2]) as connection:
+        host = f"{serving.HOST}:{server.server_port}"
+        connection.sendall(f"GET /{server.token}/news HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
+        connection.settimeout(PATIENCE)
+        heard, end = b"", time.monotonic() + 4 * serving.REQUEST
+        while time.monotonic() < end:
+            more = connection.recv(1000)
+            assert more
+            heard += more
+        assert heard.count(b":\n\n") > 3
+
+
+def test_at_the_limit_of_open_files_it_waits(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A connection that cannot be accepted is asked for again after a while, not at once and again and again."""
+    asked: list[float] = []
+    accept = socket.socket.accept
+
+    def full(self: socket.socket) -> tuple[socket.socket, Any]:
+        asked.append(time.monotonic())
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+
+    monkeypatch.setattr(socket.socket, "accept", full)
+    with socket.create_connection(server.server_address[:2]) as connection:
+        until(lambda: len(asked) > 3)
+        assert (asked[-1] - asked[0]) / (len(asked) - 1) >= serving.RESPITE
+        # And where there is room again, it is served.
+        monkeypatch.setattr(socket.socket, "accept", accept)
+        connection.sendall(b"GET / HTTP/1.1\r\nHost: elsewhere\r\n\r\n")
+        connection.settimeout(PATIENCE)
+        assert connection.recv(1000).startswith(b"HTTP/1.1 403")
+
+
+def test_words_that_cannot_be_opened_name_the_cause(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "words.yaml").touch()
+
+    def full(path: Path, most: int = -1) -> bytes:
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE), str(path))
+
+    monkeypatch.setattr(source, "contents", full)
+    with pytest.raises(TemplateError, match=os.strerror(errno.EMFILE)):
+        words.load_words((tmp_path,))
