@@ -36,6 +36,7 @@ from reportgen.base.files import version
 from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.units import Language
 from reportgen.base.words import templates, templates_hash, unexpected, word
+from reportgen.classes import leavings
 
 if TYPE_CHECKING:
     from multiprocessing.context import ForkServerContext, SpawnContext
@@ -156,15 +157,15 @@ NAME = "reportgen-job"
 """The name of the processes, which distinguishes them from others."""
 
 
-def local(workers: int, kinds: Iterable[str] = ()) -> Pool:
+def local(workers: int, kinds: Iterable[str] = (), out: Path | None = None) -> Pool:
     """A pool of so many processes at a time; the server that starts them begins to load at once.
 
-    It prepares `kinds`, each as `kind:language`, for all of them.
+    It prepares `kinds`, each as `kind:language`, for all of them, and tidies up in `out` if this process is killed.
     """
     # It understands `context` but is annotated with another name.
     process: Any = concurrent.process
     start: Callable[[Job], Future[Outcome]] = process(
-        name=NAME, timeout=LIMIT, context=_context((*LOADED, READY), kinds)
+        name=NAME, timeout=LIMIT, context=_context((*LOADED, READY), kinds, out)
     )(_work)
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
@@ -233,17 +234,19 @@ READY = "reportgen.classes.ready"
 KINDS = "REPORTGEN_KINDS"
 
 
-def _context(loaded: Sequence[str] = LOADED, kinds: Iterable[str] = ()) -> ForkServerContext | SpawnContext:
+def _context(
+    loaded: Sequence[str] = LOADED, kinds: Iterable[str] = (), out: Path | None = None
+) -> ForkServerContext | SpawnContext:
     """New processes come from a server that has imported everything already, where the system allows it."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     from multiprocessing import forkserver, resource_tracker
 
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(list(loaded))
+    context.set_forkserver_preload([leavings.__name__, *loaded])
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds)}
+    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.told(out)}
     before = {name: os.environ.get(name) for name in surroundings}
     os.environ |= surroundings
     try:

@@ -299,8 +299,8 @@ def _pool(order: Order, students: int) -> Pool:
         return cluster(order.cluster, order.language)
     # As many as there are cores that this process may use.
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    given = order.assignments or order.spec
-    return local(order.jobs or cores, ready.kinds(given, order.language) if given and students >= ready.FEW else ())
+    given = (order.assignments or order.spec) if students >= ready.FEW else None
+    return local(order.jobs or cores, ready.kinds(given, order.language) if given else (), order.out)
 
 
 # --- files ------------------------------------------------------------------------------------------

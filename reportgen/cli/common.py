@@ -20,6 +20,8 @@ from reportgen.base.files import version as own_version
 from reportgen.base.units import Language
 
 AT_FAULT, WRONG_USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
+ENDED = frozenset({"SIGTERM", "SIGHUP"})
+"""Signals that end a command tidily, as far as a system knows them."""
 ASSIGNMENTS = frozenset({".yaml", ".yml"})
 """Endings of assignment files."""
 
@@ -80,6 +82,9 @@ def ending(lang: Language | None) -> Iterator[None]:
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         # From here on there is something to tidy up.
         signal.signal(signal.SIGINT, signal.default_int_handler)
+    for name in ENDED & {*dir(signal)}:
+        if signal.getsignal(number := getattr(signal, name)) is signal.SIG_DFL:
+            signal.signal(number, lambda number, _: sys.exit(128 + number))
     try:
         yield
     except KeyboardInterrupt:

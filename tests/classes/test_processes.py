@@ -272,6 +272,36 @@ def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> Non
         time.sleep(0.05)
 
 
+@proof
+@pytest.mark.parametrize(("end", "code"), [("SIGKILL", -9), ("SIGTERM", 143), ("SIGHUP", 129)])
+def test_a_batch_that_is_ended_leaves_no_process_and_no_folder(tmp_path: Path, end: str, code: int) -> None:
+    """Itself alone is hit, as by a lack of memory: its workers and the process that they come from tidy up."""
+    text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
+    roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})
+    out, temporary = tmp_path / "out", tmp_path / "tmp"
+    temporary.mkdir()
+    command = (sys.executable, "-m", "reportgen.cli", "batch", roster, "--assignments", given, "--out", out)
+    with subprocess.Popen(
+        [*map(str, command), "--jobs", "2", "--make", "report"],
+        cwd=ROOT,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        env=os.environ | {"TMPDIR": str(temporary)},
+    ) as process:
+        assert process.stderr is not None
+        process.stderr.readline()
+        assert any(temporary.iterdir())
+        process.send_signal(getattr(signal, end))
+        assert process.wait(20) == code
+        deadline = time.monotonic() + 30
+        while lives(process.pid):
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+    assert not [*temporary.iterdir()]
+    assert not [*out.glob(".reportgen-*")]
+
+
 def lives(group: int) -> bool:
     """Whether there still is a process in the group."""
     try:
