@@ -22,7 +22,7 @@ SOCKETS, OUT = "REPORTGEN_SOCKETS", "REPORTGEN_OUT"
 def told(out: Path | None) -> Mapping[str, str]:
     """What the process has to know, for its environment."""
     # The folder that multiprocessing makes; a run that ends by itself removes it.
-    sockets = multiprocessing.util.get_temp_dir()  # type: ignore[attr-defined]
+    sockets = multiprocessing.util.get_temp_dir()
     return {SOCKETS: sockets, OUT: "" if out is None else os.path.abspath(out)}
 
 
