@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 SAMPLE := assignments/engine-twin-05.yaml
 
-.PHONY: setup report reports test proof hour lint bench fuzz pictures clean
+.PHONY: setup report reports test quick proof hour lint bench fuzz pictures clean
 
 setup: $(VENV)/.installed
 
@@ -17,6 +17,10 @@ reports: setup
 # What is compiled is kept whatever the environment says: each of the many processes that tests start would do it anew.
 test: $(VENV)/.developing
 	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -rs -n auto
+
+# What a change of formulas may break, while it is made: expressions, physics, books, wrong files.
+quick: $(VENV)/.developing
+	PYTHONDONTWRITEBYTECODE= $(BIN)/python -m pytest -n auto tests/formula tests/physics tests/textbook tests/broken
 
 # What `make test` leaves out: the rest of each matrix, pages in a browser, killed batches, fuzz.
 proof: $(VENV)/.developing

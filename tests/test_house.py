@@ -63,13 +63,10 @@ def test_an_arrow_in_a_circle_of_rooms_runs_back_up(tmp_path: Path) -> None:
 
 def test_what_is_counted_of_the_code(tmp_path: Path) -> None:
     little = built(tmp_path)
-    assert house.modules(little) == 7
     assert house.longest_module(little) == 7
-    assert house.template_files(little) == 1
     assert house.words_of_architecture(little) == 3
     assert house.class_names_twice(little) == ["A"]
     assert house.ids_by_f_string(little) == [f"{tmp_path / 'little/middle/one.py'}:3"]
-    assert house.lines_of_code(built(tmp_path, top="", side="")) == 2 + 3 + 4
 
 
 def test_a_list_of_any_length_is_one_argument(tmp_path: Path) -> None:
@@ -79,7 +76,7 @@ def test_a_list_of_any_length_is_one_argument(tmp_path: Path) -> None:
 
 @pytest.mark.proof
 def test_a_limit_that_is_passed_is_a_fault(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.modules: 1000})
+    monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.rooms: 1000})
     assert house.main() == 0
     monkeypatch.setattr(house, "LIMITS", {house.floors: 1})
     assert house.main() == 1
