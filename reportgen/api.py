@@ -175,7 +175,7 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
     from reportgen.workbook.letterhead import LETTERHEAD, read_letterhead
     from reportgen.writers import typst
     from reportgen.writers import word as writer
-    from reportgen.writers.word_parts import Own
+    from reportgen.writers.word_elements import Own
 
     given = assignment.report
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]

@@ -13,11 +13,9 @@ from itertools import groupby, pairwise
 from reportgen import report as tree
 from reportgen.drawing import Scene
 from reportgen.formula.setting import NARROW, written
-from reportgen.writers.word_math import GAP, Equations, grid_cell, grid_table
-from reportgen.writers.word_parts import (
+from reportgen.writers.word_elements import (
     A4,
     BOLD,
-    BULLETS,
     CENTRE,
     DECLARED,
     GRID,
@@ -26,27 +24,23 @@ from reportgen.writers.word_parts import (
     KEPT,
     LEFT,
     LIGHT,
-    LIST_INDENT,
     PROLOGUE,
     RULED,
     Own,
     PageSetup,
     drawing,
     field,
-    merged,
-    numbering,
-    packed,
     paragraph,
-    properties,
     right_tab,
     rule,
     run,
     section,
-    settings,
     spaced,
-    styles,
     twips,
 )
+from reportgen.writers.word_math import GAP, Equations, grid_cell, grid_table
+from reportgen.writers.word_package import packed
+from reportgen.writers.word_styles import BULLETS, LIST_INDENT, merged, numbering, properties, settings, styles
 
 COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)
 LANDSCAPE = PageSetup(297, 210, left=20, right=20, top=20, bottom=18, above=10, below=8)

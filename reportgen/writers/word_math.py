@@ -30,20 +30,8 @@ from reportgen.formula.setting import (
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.report import ABREAST, TEXT_WIDTH, in_groups
-from reportgen.writers.word_parts import (
-    EQUATION_SIZE,
-    GRID,
-    ITALIC,
-    KEPT,
-    KNOWN_SIZE,
-    LIGHT,
-    MATH_FONT,
-    escape,
-    paragraph,
-    rule,
-    run,
-    twips,
-)
+from reportgen.writers.word_elements import GRID, ITALIC, KEPT, LIGHT, MATH_FONT, escape, paragraph, rule, run, twips
+from reportgen.writers.word_styles import EQUATION_SIZE, KNOWN_SIZE
 
 QUAD, EMPTY = "\N{EM SPACE}", "\N{ZERO WIDTH SPACE}"
 _UPRIGHT = f'<m:rPr><m:nor/></m:rPr><w:rPr><w:rFonts w:ascii="{MATH_FONT}" w:hAnsi="{MATH_FONT}"/></w:rPr>'

@@ -125,7 +125,7 @@ def test_what_is_made_with_it_is_valid(school: Put, letterhead: bytes, tmp_path:
 
 def test_styles_are_found_by_their_names_in_word_of_any_language(letterhead: bytes) -> None:
     """In other languages Word has other ids for them."""
-    from reportgen.writers.word_parts import merged, styles
+    from reportgen.writers.word_styles import merged, styles
 
     def renamed(name: str, part: bytes) -> bytes:
         return part.replace(b'"Heading1"', b'"u1"').replace(b'"Normal"', b'"Binhthng"') if "styles" in name else part

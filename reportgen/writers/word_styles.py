@@ -1,0 +1,136 @@
+"""The parts of a Word file that say how it looks: styles, lists and settings, of `templates/frames/word/`.
+
+A school's own styles go before ours, under the names that the report uses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
+
+from reportgen.base.units import Language
+from reportgen.base.words import templates
+from reportgen.writers.word_elements import DECLARED, MATH_FONT, NAMESPACES, PROLOGUE, escape, twips
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
+
+CODES: Mapping[Language, str] = {"vi": "vi-VN", "en": "en-GB"}
+EQUATION_SIZE, KNOWN_SIZE = 12.0, 9.5
+"""Of displayed formulas, whose lines are measured in it, and of what is known of vectors below them (points)."""
+HEADINGS, BULLETS = 1, 2
+"""The lists that headings and lists without numbers are in; those with numbers follow, one each."""
+LIST_INDENT = 8.0
+"""What each level of a list stands further right (mm)."""
+
+
+@cache
+def _environment() -> Environment:
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    made = Environment(
+        loader=FileSystemLoader(templates() / "frames" / "word"),
+        undefined=StrictUndefined,
+        # Texts go through `escape`, as in all other parts.
+        autoescape=False,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    made.globals |= {"declared": DECLARED, "math_font": MATH_FONT}
+    made.filters |= {"escaped": escape, "twips": twips}
+    return made
+
+
+def _part(name: str, **values: Any) -> str:
+    """A part as its frame has it, without the white between elements that makes a frame readable."""
+    text = _environment().get_template(f"{name}.xml.j2").render(values)
+    return PROLOGUE + "".join(line.strip() for line in text.splitlines())
+
+
+def styles(font: str, size: float, language: Language, close: bool, room: float) -> str:
+    """The part of styles of a report in a font of a size (points), whose text takes `room` across (mm).
+
+    In one that is set `close`, type and gaps are smaller.  Without a school's own, they are all that the report names.
+    """
+    body, gap = (size - 1, 4.0) if close else (size, 5.0)
+    sizes = {"equation": EQUATION_SIZE, "known": KNOWN_SIZE}
+    return _part("styles", font=font, size=body, gap=gap, code=CODES[language], room=room, headings=HEADINGS, **sizes)
+
+
+def numbering(starts: Sequence[tuple[int, int]]) -> str:
+    """The part of lists; `starts` are level and first number of each ordered one."""
+    return _part("numbering", starts=starts, headings=HEADINGS, bullets=BULLETS, indent=LIST_INDENT)
+
+
+def settings(language: Language) -> str:
+    """The part of settings: what Word 2013 and later do, the font of formulas, the language's marks."""
+    decimal, separator = (",", ";") if language == "vi" else (".", ",")
+    return _part("settings", code=CODES[language], decimal=decimal, separator=separator)
+
+
+def properties(title: str, author: str, language: Language) -> str:
+    """The part that says what the file is, without a date."""
+    return _part("core", title=title, author=author, code=CODES[language])
+
+
+# --- a school's own styles ---------------------------------------------------------------------------
+
+_W = f"{{{NAMESPACES['w']}}}"
+_REFERENCES = frozenset(f"{_W}{name}" for name in ("basedOn", "next", "link"))
+_BEFORE_NUMBERS = frozenset(
+    f"{_W}{name}" for name in ("pStyle", "keepNext", "keepLines", "pageBreakBefore", "framePr", "widowControl")
+)
+"""What stands before the list of a style in the schema's order."""
+
+
+def merged(ours: str, school: str, language: Language) -> str:
+    """A school's styles under the names that the report uses, with what they lack; lists and language stay ours."""
+    own, usual = ElementTree.fromstring(school), ElementTree.fromstring(ours)
+    styles, wanted = ({_named(style): style for style in one.iter(f"{_W}style")} for one in (own, usual))
+    ids = {_id(styles[name]): _id(style) for name, style in wanted.items() if name in styles}
+    taken = set(ids.values())
+    for style in styles.values():
+        ids.setdefault(_id(style), f"own-{_id(style)}" if _id(style) in taken else _id(style))
+    for name, style in styles.items():
+        style.set(f"{_W}styleId", ids[_id(style)])
+        for reference in (one for one in style if one.tag in _REFERENCES):
+            reference.set(f"{_W}val", ids.get(reference.get(f"{_W}val", ""), "Normal"))
+        lines = style.find(f"{_W}pPr")
+        if lines is not None:
+            for numbers in lines.findall(f"{_W}numPr"):
+                lines.remove(numbers)
+        if name in wanted and (numbers_wanted := wanted[name].find(f"{_W}pPr/{_W}numPr")) is not None:
+            _put_in_list(style, numbers_wanted)
+    own.extend(style for name, style in wanted.items() if name not in styles)
+    letters = own.find(f"{_W}docDefaults/{_W}rPrDefault/{_W}rPr")
+    if letters is None:
+        for incomplete in own.findall(f"{_W}docDefaults"):
+            own.remove(incomplete)
+        own[:0] = usual.findall(f"{_W}docDefaults")
+    else:
+        for other in letters.findall(f"{_W}lang"):
+            letters.remove(other)
+        ElementTree.SubElement(letters, f"{_W}lang", {f"{_W}val": CODES[language], f"{_W}eastAsia": CODES[language]})
+    ElementTree.register_namespace("w", NAMESPACES["w"])
+    return PROLOGUE + ElementTree.tostring(own, encoding="unicode")
+
+
+def _put_in_list(style: ElementTree.Element, numbers: ElementTree.Element) -> None:
+    """Give a style the list that it is numbered in, at its place in the schema's order."""
+    lines = style.find(f"{_W}pPr")
+    if lines is None:
+        lines = ElementTree.Element(f"{_W}pPr")
+        letters = style.find(f"{_W}rPr")
+        style.insert(len(style) if letters is None else list(style).index(letters), lines)
+    lines.insert(sum(one.tag in _BEFORE_NUMBERS for one in lines), numbers)
+
+
+def _id(style: ElementTree.Element) -> str:
+    return style.get(f"{_W}styleId", "")
+
+
+def _named(style: ElementTree.Element) -> str:
+    name = style.find(f"{_W}name")
+    return "" if name is None else name.get(f"{_W}val", "").casefold()
