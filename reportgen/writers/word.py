@@ -6,7 +6,7 @@ captions and equations are fields, and references lead to bookmarks round them: 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 
@@ -40,26 +40,14 @@ from reportgen.writers.word_elements import (
 )
 from reportgen.writers.word_math import GAP, Equations, grid_cell, grid_table
 from reportgen.writers.word_package import packed
+from reportgen.writers.word_sections import CONTENTS_LEVEL, COVER, broken, paged, places, sequence
 from reportgen.writers.word_styles import BULLETS, LIST_INDENT, merged, numbering, properties, settings, styles
 
-COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)
-LANDSCAPE = PageSetup(297, 210, left=20, right=20, top=20, bottom=18, above=10, below=8)
 FONT = "Times New Roman"
 SIZES = {"vi": 13.0, "en": 12.0}
 """The letter, unless another one is asked for; sizes in points."""
-CONTENTS_LEVEL = 3
-"""The deepest level of heading that the contents list."""
-
 Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
 """Scenes as PNG and SVG."""
-
-
-@dataclass(frozen=True, slots=True)
-class Bookmark:
-    """What a reference leads to: a bookmark, and what of it is shown instead of the text that it marks."""
-
-    bookmark: str
-    shown: str = ""
 
 
 def write(
@@ -152,7 +140,7 @@ class _Blocks:
         sections = [block for block in document.blocks if isinstance(block, tree.Section)]
         self.entries = [one for one in sections if one.level <= CONTENTS_LEVEL]
         self._entries = {id(one): f"_Toc{index}" for index, one in enumerate(self.entries, start=1)}
-        self.places = dict(_places(document.blocks))
+        self.places = dict(places(document.blocks))
 
     # --- sections of the file ---------------------------------------------------------------------
 
@@ -160,12 +148,12 @@ class _Blocks:
         """The body, and the pages that have a header and a footer of their own."""
         runs = [
             (page, [block for _, block in run])
-            for (page, _), run in groupby(_paged(self.document.blocks, self.page), key=lambda one: one[0])
+            for (page, _), run in groupby(paged(self.document.blocks, self.page), key=lambda one: one[0])
         ]
         pages = list(dict.fromkeys(page for page, _ in runs if page.running))
         body = []
         for index, (page, blocks) in enumerate(runs, start=1):
-            body.append(self.write(_broken(blocks)))
+            body.append(self.write(broken(blocks)))
             ending = section(page, self.running(page, pages))
             last = index == len(runs)
             # Nothing but a paragraph ends a section.
@@ -250,7 +238,7 @@ class _Blocks:
         if section.level > 1 or not section.number:
             return ""
         names = (self.words.figure, self.words.table, EQUATION)
-        return "".join(field(f"SEQ {_sequence(name)} \\h \\r 0", "", "<w:vanish/>") for name in names)
+        return "".join(field(f"SEQ {sequence(name)} \\h \\r 0", "", "<w:vanish/>") for name in names)
 
     def run_in(self, section: tree.Section) -> str:
         shown = run(f"{section.number} " if section.number else "", BOLD) + self.inlines(section.title, BOLD)
@@ -344,10 +332,10 @@ class _Blocks:
         part, _, last = number.rpartition(".")
         if part:
             shown = field("STYLEREF 1 \\s", part, look) + run(".", look)
-            shown += field(f"SEQ {_sequence(name)} \\* ARABIC \\s 1", last, look)
+            shown += field(f"SEQ {sequence(name)} \\* ARABIC \\s 1", last, look)
         else:
             # In parts without a number they count through the whole document.
-            shown = field(f"SEQ {_sequence(name)}_0 \\* ARABIC", last, look)
+            shown = field(f"SEQ {sequence(name)}_0 \\* ARABIC", last, look)
         opening, closing = (run(mark, look) for mark in around.split("%s"))
         shown = opening + shown + closing
         return self.bookmarked(self.places[key].bookmark, shown) if key else shown
@@ -432,63 +420,3 @@ class _Blocks:
         number = len(self.scenes)
         told = f"{self.words.figure} {block.number}. {tree.plain(block.caption, self.language)} {scene.title}"
         return drawing(number, scene.width, scene.height, " ".join(told.split()))
-
-
-# --- what a document is parted into ---------------------------------------------------------------
-
-
-def _paged(blocks: Sequence[tree.Block], usual: PageSetup) -> Iterator[tuple[tuple[PageSetup, int], tree.Block]]:
-    """Each block with the page that it stands on, and a number of its own where that is a page for itself."""
-    for index, block in enumerate(blocks, start=1):
-        page = _page(block, usual)
-        yield (page, index if isinstance(block, (tree.Plate, tree.Figure)) and page != usual else 0), block
-
-
-def _page(block: tree.Block, usual: PageSetup) -> PageSetup:
-    """The paper of a block: what is wider than the text stands on a turned page."""
-    match block:
-        case tree.Cover():
-            return COVER
-        case tree.Plate(scene, (width, height)):
-            upright = max(14.0, min(20.0, (height - scene.height - 14) / 2))
-            return PageSetup(width, height, left=15, right=15, top=upright, bottom=upright, above=7, below=6)
-        case tree.Figure(turned=True):
-            return LANDSCAPE
-        case tree.Table(columns) if round(sum(column.width for column in columns), 3) > tree.TEXT_WIDTH:
-            return LANDSCAPE
-    return usual
-
-
-def _broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
-    """The blocks of a section with a break before and behind contents on pages of their own.
-
-    A section begins and ends with its page, so that breaks at its ends say nothing, nor does a second one.
-    """
-    found: list[tree.Block] = [tree.PageBreak()]
-    for block in blocks:
-        alone = isinstance(block, tree.Contents) and not block.brief
-        for one in (tree.PageBreak(), block, tree.PageBreak()) if alone else (block,):
-            if not (isinstance(one, tree.PageBreak) and isinstance(found[-1], tree.PageBreak)):
-                found.append(one)
-    return found[1:-1] if isinstance(found[-1], tree.PageBreak) else found[1:]
-
-
-def _places(blocks: Sequence[tree.Block]) -> Iterator[tuple[str, Bookmark]]:
-    """Where the references to each key lead; a numbered heading is named by its number, all else by what is marked."""
-    for index, block in enumerate(_walk(blocks), start=1):
-        if key := getattr(block, "key", ""):
-            numbered = isinstance(block, tree.Section) and block.number and block.level <= CONTENTS_LEVEL
-            yield key, Bookmark(f"_Ref{index}", " \\w" if numbered else "")
-
-
-def _walk(blocks: Sequence[tree.Block]) -> Iterator[tree.Block]:
-    for block in blocks:
-        yield block
-        if isinstance(block, tree.List):
-            for item in block.items:
-                yield from _walk(item)
-
-
-def _sequence(name: str) -> str:
-    """The counter of captions with a word, by the name that Word gives it."""
-    return name.replace(" ", "_")
