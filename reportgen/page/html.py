@@ -58,7 +58,7 @@ class Panel:
 
 @dataclass(frozen=True)
 class Live:
-    """What a page has that is renewed while it is read: words of its own (`live` in `words.yaml`), its editions."""
+    """What a page has that is renewed while it is read: words of its own (`live` in `words.yaml`), its revisions."""
 
     words: Mapping[str, str]
     moving: int

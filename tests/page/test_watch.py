@@ -26,8 +26,9 @@ from reportgen.base import source, words
 from reportgen.base.errors import TemplateError
 from reportgen.cases import open_case
 from reportgen.cli import app
-from reportgen.page import watch as serving
-from reportgen.page.watch import Desk, Server
+from reportgen.page import serving
+from reportgen.page.live import LiveSession
+from reportgen.page.serving import Server
 from tests.lanes import matrix, proof
 from tests.page.browser import Browser
 from tests.report import built
@@ -198,12 +199,12 @@ def test_a_file_behind_a_link_is_followed(file: Path, tmp_path: Path) -> None:
 
 @pytest.fixture
 def served(file: Path) -> Iterator[Server]:
-    desk = Desk(partial(open_case, file))
-    server = Server(desk)
+    session = LiveSession(partial(open_case, file))
+    server = Server(session)
     threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
-    desk.open()
+    session.open()
     yield server
-    desk.close()
+    session.close()
     server.shutdown()
     server.server_close()
 
@@ -233,15 +234,15 @@ def test_only_this_machine_and_only_its_own_page_are_served(served: Server) -> N
 
 @proof
 def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server) -> None:
-    desk = served.desk
-    until(lambda: desk.edition.reports == 1)
+    session = served.session
+    until(lambda: session.revision.reports == 1)
     given = file.read_text(encoding="utf-8")
     for number in range(3):
         file.write_text(given.replace("variant:", f"variant: {number} #"), encoding="utf-8")
-        desk.renew()
-    until(lambda: not desk.edition.busy)
+        session.renew()
+    until(lambda: not session.revision.busy)
     # Of three changes in a moment each has its moving part, but only the last its report.
-    assert (desk.edition.moving, desk.edition.reports) == (4, 2)
+    assert (session.revision.moving, session.revision.reports) == (4, 2)
     assert news(served.address) == {
         "moving": 4,
         "report": 2,
@@ -251,9 +252,9 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
         "moves": [""],
     }
     file.unlink()
-    desk.renew()
-    assert "given.yaml" in desk.edition.fault
-    assert desk.edition.panels
+    session.renew()
+    assert "given.yaml" in session.revision.fault
+    assert session.revision.panels
 
 
 # --- connections that say nothing, or too little ----------------------------------------------------
@@ -264,12 +265,12 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
     """A server whose patience is short, with a page that has no news."""
     monkeypatch.setattr(serving, "REQUEST", 0.4)
     monkeypatch.setattr(serving, "BEAT", 0.1)
-    desk = Desk(partial(open_case, FILE, None))
-    server = Server(desk)
+    session = LiveSession(partial(open_case, FILE, None))
+    server = Server(session)
     thread = threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True)
     thread.start()
     yield server
-    desk.close()
+    session.close()
     server.shutdown()
     server.server_close()
     thread.join()

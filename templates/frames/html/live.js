@@ -1,5 +1,5 @@
 "use strict";
-// A page that follows its file: it is told of each edition, and asks for what is newer than what it shows.
+// A page that follows its file: it is told of each revision, and asks for what is newer than what it shows.
 (() => {
   const given = JSON.parse(document.getElementById("live").textContent);
   const fault = document.getElementById("fault"), state = document.getElementById("state");
@@ -58,10 +58,10 @@
     document.dispatchEvent(new Event("renewed"));
   };
 
-  // Whether the panels of an edition, by the names that their ids begin with, are those that the page has.
+  // Whether the panels of a revision, by the names that their ids begin with, are those that the page has.
   const alike = (names) => names.join(" ") === moves.map((panel) => panel.own).join(" ");
 
-  // One after the other: an edition that comes meanwhile is looked at when this one is shown.
+  // One after the other: a revision that comes meanwhile is looked at when this one is shown.
   let news = null, working = false;
   const follow = async () => {
     if (working) return;

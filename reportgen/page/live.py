@@ -1,0 +1,174 @@
+"""What a reader of a watched file sees: the latest revisions of the moving part, of the report, and of a fault.
+
+The moving part is made first and stands at once; the report follows, made of the same case in another thread.  A
+change meanwhile is taken up as soon as it comes: what is made of an older file is dropped.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+
+from reportgen import report as tree
+from reportgen.base.errors import AssignmentError, ReportgenError
+from reportgen.base.units import Language
+from reportgen.base.words import load_words, search_path, spoken, unexpected
+from reportgen.page import html, panels
+from reportgen.page.html import Live, Panel, WrittenReport
+from reportgen.report.case import Case
+
+NOBODY = "–"
+"""What stands on the page of a file that was never right."""
+AHEAD = 0.2
+"""The time (s) that the moving part has to itself before the report is begun."""
+
+
+@dataclass(frozen=True)
+class Revision:
+    """What is to be shown; `moving` and `report` count how often each of them has changed."""
+
+    language: Language
+    words: Mapping[str, Any]
+    panels: tuple[Panel, ...] = ()
+    report: WrittenReport | None = None
+    document: tree.Document | None = None
+    fault: str = ""
+    moving: int = 0
+    reports: int = 0
+    busy: bool = False
+    """Whether a report of the file as it stands is still to come."""
+
+    @property
+    def news(self) -> Mapping[str, Any]:
+        """What a page is told at once; it asks for the rest where it has an older one."""
+        return {
+            "moving": self.moving,
+            "report": self.reports,
+            "fault": self.fault,
+            "busy": self.busy,
+            "language": self.language,
+            "moves": [panel.own for panel in self.panels],
+        }
+
+
+@dataclass
+class LiveSession:
+    """Makes the revisions of a file, which `opens`.  `told` is called with each finished report's case and document."""
+
+    opens: Callable[[], Case]
+    language: Language | None = None
+    told: Callable[[Case, tree.Document], None] = lambda case, document: None
+    changed: threading.Condition = field(default_factory=threading.Condition)
+    closed: bool = False
+
+    def __post_init__(self) -> None:
+        first = self.language or spoken()
+        self.revision = Revision(first, load_words(search_path(first)))
+        self._asked = 0
+        self._worker = threading.Thread(target=self._write_reports, daemon=True)
+        self._to_write: tuple[int, Case] | None = None
+
+    def open(self) -> None:
+        """Make the first revision."""
+        self._worker.start()
+        self.renew()
+
+    def close(self) -> None:
+        """Let everybody go who waits for news."""
+        with self.changed:
+            self.closed = True
+            self.changed.notify_all()
+
+    def next_revision(self, known: Revision | None, patience: float) -> Revision:
+        """The revision after the `known` one as soon as it is there, or what there is after so many seconds."""
+        with self.changed:
+            self.changed.wait_for(lambda: self.closed or self.revision is not known, patience)
+            return self.revision
+
+    def renew(self) -> None:
+        """Make the moving part of the file as it stands, and leave the report to its thread."""
+        self._asked += 1
+        number = self._asked
+        try:
+            case = self.opens()
+            moving = panels(case)
+            language, words = case.assignment.language, case.words
+        except Exception as error:
+            self._to_write = None
+            self._publish(fault=self._in_words(error), busy=False)
+            return
+        count = self.revision.moving + 1
+        self._publish(language=language, words=words, panels=moving, moving=count, fault="", busy=True)
+        with self.changed:
+            self._to_write = number, case
+            self.changed.notify_all()
+
+    def _write_reports(self) -> None:
+        """Write the report of the latest case, again and again."""
+        while True:
+            with self.changed:
+                self.changed.wait_for(lambda: self.closed or self._to_write is not None)
+                if self.closed or self._to_write is None:
+                    return
+                wanted = self._to_write
+                # The moving part goes to the page first.
+                if self.changed.wait_for(partial(self._overtaken, wanted), AHEAD):
+                    continue
+                self._to_write = None
+            number, case = wanted
+            try:
+                document = case.document()
+                if number != self._asked:
+                    continue
+                written = html.report(document)
+                count = self.revision.reports + 1
+                self._publish(report=written, document=document, reports=count, busy=False)
+                self.told(case, document)
+            except Exception as error:
+                if number == self._asked:
+                    self._publish(fault=self._in_words(error), busy=False)
+
+    def _overtaken(self, wanted: tuple[int, Case]) -> bool:
+        """Whether another report is to be written than this one, or none."""
+        return self.closed or self._to_write is not wanted
+
+    def _publish(self, **news: Any) -> None:
+        with self.changed:
+            self.revision = replace(self.revision, **news)
+            self.changed.notify_all()
+
+    def _in_words(self, error: Exception) -> str:
+        if isinstance(error, AssignmentError):
+            return "\n".join(map(str, error.problems))
+        if isinstance(error, (ReportgenError, OSError)):
+            return str(error)
+        return unexpected(error, self.language or self.revision.language)
+
+    # --- what is served
+
+    def page(self) -> str:
+        """The whole page as it stands; where no report is finished yet, an empty one."""
+        now = self.revision
+        document = now.document or _nothing(now)
+        live = Live(now.words["live"], now.moving, now.reports)
+        return html.write(document, now.words["page"], now.panels, live, now.report)
+
+    def moving(self) -> Mapping[str, Any]:
+        """The moving part for a page that has an older one."""
+        now = self.revision.panels
+        return {"rules": html.rules_of(now), "panels": [{"body": one.body, "data": one.data} for one in now]}
+
+    def report(self) -> Mapping[str, Any]:
+        """The report for a page that has an older one."""
+        now = self.revision
+        if now.report is None or now.document is None:
+            return {}
+        return {"body": now.report.body, "rules": now.report.rules, "title": now.document.title}
+
+
+def _nothing(revision: Revision) -> tree.Document:
+    words = tree.Words.among(revision.words["document"])
+    return tree.Document(revision.language, NOBODY, "", ("", ""), ("", ""), words)

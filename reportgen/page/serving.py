@@ -1,0 +1,166 @@
+"""A server for one page on this machine: a few fixed addresses under a secret one, and news as they come.
+
+Other machines cannot reach it; other pages in the same browser do not know the token, and a request under another
+name of this machine is refused, so that no site can pose as this one.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import secrets
+import socket
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any, ClassVar
+from urllib.parse import urlsplit
+
+from reportgen.page.live import LiveSession
+
+HOST = "127.0.0.1"
+BEAT = 10.0
+"""A page that has had no news for so long (s) hears that the server is there."""
+REQUEST = 10.0
+"""A connection has so long (s) to send a whole request, or to take a part of the answer."""
+RESPITE = 0.2
+"""Where no connection can be accepted, the server looks again after so long (s)."""
+HEADERS = {
+    "Cache-Control": "no-store",
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+}
+
+
+class Server(ThreadingHTTPServer):
+    """Serves the revisions of a session on a free port, each request in a thread of its own."""
+
+    daemon_threads = True
+
+    def __init__(self, session: LiveSession, port: int = 0) -> None:
+        self.session = session
+        self.token = secrets.token_urlsafe(16)
+        super().__init__((HOST, port), _Request)
+
+    @property
+    def address(self) -> str:
+        return f"http://{HOST}:{self.server_port}/{self.token}/"
+
+    def get_request(self) -> tuple[socket.socket, Any]:
+        """The next connection; where no more files can be opened it waits, and would be asked at once again."""
+        try:
+            return super().get_request()
+        except OSError:
+            time.sleep(RESPITE)
+            raise
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """A page that was closed while it was answered is nobody's fault."""
+
+
+class _InTime(io.RawIOBase):
+    """What a connection sends until its time is up; then reading raises `TimeoutError`, however much has come."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self._connection = connection
+        self.begin()
+
+    def begin(self) -> None:
+        """Let the time for a request begin."""
+        self._end = time.monotonic() + REQUEST
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        left = self._end - time.monotonic()
+        if left <= 0:
+            raise TimeoutError
+        self._connection.settimeout(left)
+        try:
+            return self._connection.recv_into(buffer)
+        finally:
+            self._connection.settimeout(REQUEST)
+
+
+class _Request(BaseHTTPRequestHandler):
+    server: Server
+    protocol_version = "HTTP/1.1"
+    server_version, sys_version = "reportgen", ""
+    answers: ClassVar[Mapping[str, Callable[[LiveSession], Mapping[str, Any]]]] = {
+        "moving.json": LiveSession.moving,
+        "report.json": LiveSession.report,
+    }
+
+    def setup(self) -> None:
+        super().setup()
+        self._incoming = _InTime(self.connection)
+        self.rfile.close()
+        self.rfile = io.BufferedReader(self._incoming)
+
+    def handle_one_request(self) -> None:
+        self._incoming.begin()
+        # Nobody is told: what takes too long ends, as what is closed does.
+        with suppress(ConnectionError):
+            super().handle_one_request()
+
+    def do_GET(self) -> None:
+        if not self._known():
+            self._refuse(HTTPStatus.FORBIDDEN)
+            return
+        folder, _, name = urlsplit(self.path).path[1:].partition("/")
+        if not secrets.compare_digest(folder.encode(), self.server.token.encode()):
+            self._refuse(HTTPStatus.NOT_FOUND)
+        elif name == "":
+            self._send(self.server.session.page().encode(), "text/html; charset=utf-8")
+        elif name == "news":
+            self._tell()
+        elif name in self.answers:
+            found = self.answers[name](self.server.session)
+            self._send(json.dumps(found, ensure_ascii=False).encode(), "application/json")
+        else:
+            self._refuse(HTTPStatus.NOT_FOUND)
+
+    def _known(self) -> bool:
+        """Whether a request is for this server by its own name, and from no other page."""
+        own = {f"{HOST}:{self.server.server_port}", f"localhost:{self.server.server_port}"}
+        origin = self.headers.get("Origin")
+        return self.headers.get("Host") in own and (origin is None or origin.removeprefix("http://") in own)
+
+    def _refuse(self, status: HTTPStatus) -> None:
+        self._send(status.phrase.encode(), "text/plain; charset=utf-8", status)
+
+    def _send(self, body: bytes, kind: str, status: HTTPStatus = HTTPStatus.OK) -> None:
+        self.send_response(status)
+        self.send_header("Content-Type", kind)
+        self.send_header("Content-Length", str(len(body)))
+        for name, value in HEADERS.items():
+            self.send_header(name, value)
+        self.end_headers()
+        self.wfile.write(body)
+
+    def _tell(self) -> None:
+        """Tell each revision as it appears, until the page goes or the server ends."""
+        self.close_connection = True
+        self.send_response(HTTPStatus.OK)
+        self.send_header("Content-Type", "text/event-stream")
+        for name, value in HEADERS.items():
+            self.send_header(name, value)
+        self.end_headers()
+        session, known = self.server.session, None
+        while not session.closed:
+            current = session.next_revision(known, BEAT)
+            line = f"data: {json.dumps(current.news, ensure_ascii=False)}\n\n" if current is not known else ":\n\n"
+            known = current
+            try:
+                self.wfile.write(line.encode())
+                self.wfile.flush()
+            except OSError:
+                return
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Requests are not printed: the page says what there is to say."""
