@@ -87,6 +87,18 @@ def name_faults(path: Path) -> Iterator[Fault]:
         yield Fault("file-name", Mark(str(path)), {"text": stem})
 
 
+def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
+    """An assignment file, and what it names beside itself by the ways from there: a school's words, files of parts.
+
+    Raises `OSError` for a file that cannot be read.
+    """
+    content = contents(path)
+    # Most files have no parts, and are not read for it.
+    named = parts.files(read_source(path), path) if b"parts:" in content else []
+    of_parts = {file.relative_to(path.parent).as_posix(): contents(file) for file in named if file.is_file()}
+    return content, {**words_beside(path), **of_parts}
+
+
 def words_beside(path: Path) -> dict[str, bytes]:
     """The files of the school's folder that an assignment file names beside itself, by their ways from there."""
     named = at(read_source(path).top, ("report", "templates"))
