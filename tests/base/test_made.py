@@ -1,4 +1,4 @@
-"""What stands of earlier runs: the same input stays, stale files go if they are as they were written, others are left."""
+"""What stands of earlier runs: the same input stays, stale files go as long as nobody changed them."""
 
 from __future__ import annotations
 
