@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -15,12 +16,13 @@ from typing import TYPE_CHECKING, Any, Literal
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
-from reportgen.assignment.reading import placed
+from reportgen.assignment.reading import inputs, placed
+from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
-from reportgen.base.files import put_files, reported, scratch
+from reportgen.base.files import reported, scratch, version
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, school_folder, word
+from reportgen.base.words import as_error, school_folder, templates_hash, word
 from reportgen.cases import open_case, opened
 from reportgen.report.case import Calculation
 
@@ -109,7 +111,8 @@ def build(
     Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
     `OutputError`.
     """
-    return build_each(path, out, engine, language, keep_source, formats, extent=extent, listing=listing)[0]
+    put = build_each(path, out, engine, language, keep_source, formats, extent=extent, listing=listing)
+    return put.paths[0]
 
 
 def build_each(
@@ -121,8 +124,8 @@ def build_each(
     formats: Sequence[str],
     extent: Extent | None = None,
     listing: bool = False,
-) -> list[Path]:
-    """Write the complete report in some of `FORMATS`; gives their paths in that order."""
+) -> made.Put:
+    """Write the complete report in some of `FORMATS`; gives their paths in that order, and what became of others."""
     from reportgen.report import Listing
 
     assignment = load(path, language)
@@ -147,8 +150,19 @@ def build_each(
             files["report.py"] = "\n".join((*program.lines, "")).encode()
         elif listing:
             raise NotOfferedError(word("no_listing", assignment.language, kind=assignment.kind))
-    put_files(Path(out) / assignment.id, files, "report")
-    return [Path(out) / assignment.id / f"report.{name}" for name in formats]
+    put = made.put_made(Path(out) / assignment.id, files, "report", made_of(path, engine, assignment.language))
+    return replace(put, paths=tuple(Path(out) / assignment.id / f"report.{name}" for name in formats))
+
+
+def made_of(path: Path | str, engine: str, language: Language | None, **more: str) -> made.MadeOf:
+    """All input that decides the bytes of what is made of an assignment file now, in its own language without another.
+
+    Raises `AssignmentError`, `OutputError`.
+    """
+    spoken = language or load(path).language
+    with reported():
+        assignment = made.assignment_hash(*inputs(Path(path)))
+    return made.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
 
 
 def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> AbstractContextManager[Ahead | None]:

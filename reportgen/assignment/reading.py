@@ -30,7 +30,7 @@ from reportgen.assignment.fields import RESERVED
 from reportgen.base.errors import Fault, Finding, Mark, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, at, plain, read_source
-from reportgen.base.units import Language
+from reportgen.base.units import Language, two_readings
 from reportgen.base.words import as_error, close_or_known, language_of, school_files
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -87,6 +87,18 @@ def name_faults(path: Path) -> Iterator[Fault]:
         yield Fault("file-name", Mark(str(path)), {"text": stem})
 
 
+def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
+    """An assignment file, and what it names beside itself by the ways from there: a school's words, files of parts.
+
+    Raises `OSError` for a file that cannot be read.
+    """
+    content = contents(path)
+    # Most files have no parts, and are not read for it.
+    named = parts.files(read_source(path), path) if b"parts:" in content else []
+    of_parts = {file.relative_to(path.parent).as_posix(): contents(file) for file in named if file.is_file()}
+    return content, {**words_beside(path), **of_parts}
+
+
 def words_beside(path: Path) -> dict[str, bytes]:
     """The files of the school's folder that an assignment file names beside itself, by their ways from there."""
     named = at(read_source(path).top, ("report", "templates"))
@@ -121,6 +133,40 @@ def placed(source: Source, findings: Iterable[Finding]) -> list[Fault]:
 def misread(top: MappingNode, kind: Kind) -> list[Fault]:
     """The faults that single values and keys show by themselves, without the checks of several values."""
     return [_placed(finding, top) for finding in _sections(plain(top), kind)[0]]
+
+
+WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt"})
+"""Keys under which no quantity stands, though a text there may look like one."""
+
+
+def doubtful(source: Source) -> Iterator[Fault]:
+    """Numbers of a file that may be meant as thousands, 1.400 N; what they are read as, and what they would be."""
+    yield from _doubtful(source.top)
+
+
+def doubtful_parts(source: Source, path: Path) -> Iterator[Fault]:
+    """As `doubtful`, of the files of a coursework's parts."""
+    for file in parts.files(source, path):
+        yield from doubtful(read_source(file))
+
+
+def _doubtful(node: Node | None) -> Iterator[Fault]:
+    match node:
+        case MappingNode(entries):
+            for key, value in entries:
+                if key.text not in WORDED:
+                    yield from _doubtful(value)
+        case SequenceNode(items):
+            texts = [item.text for item in items if isinstance(item, Scalar)]
+            # Beside 0.125 a bare 1.250 can be nothing else: the point of the list is the decimal one.
+            plain_points = any("." in text and two_readings(text) is None for text in texts)
+            for item in items:
+                bare = isinstance(item, Scalar) and item.text.strip()[-1:].isdigit()
+                if not (bare and plain_points):
+                    yield from _doubtful(item)
+        case Scalar(text, mark):
+            if ways := two_readings(text):
+                yield Fault("thousands", mark, {"text": text, "fixed": ways[0], "other": ways[1]})
 
 
 def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:

@@ -21,30 +21,27 @@ from reportgen.base.errors import Fault, Mark, OutputError
 
 SETS = {
     "task": r"task\.pdf|answers\.xlsx",
-    "report": r"report\.(pdf|html|py)",
+    "report": r"report\.(pdf|html|docx|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
     "feedback": r"feedback\.(pdf|xlsx)",
     "class": r"grades\.csv|class\.pdf|feedback\.zip",
 }
-"""The names of files that belong together, as patterns: what stands of an earlier set is replaced by the next one."""
+"""The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")
 """What these folders name is open or a device, even where it leads to a regular file."""
 _UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
 
-def put_files(folder: Path, files: Mapping[str, bytes], kind: str = "") -> list[Path]:
-    """Put files by name into a folder, together or not at all; those of an earlier set of a kind of `SETS` go.
-
-    Raises `OutputError`.
-    """
+def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] = ()) -> list[Path]:
+    """Put files by name into a folder, and take the ones `gone` away, together or not at all.  Raises `OutputError`."""
     with reported():
         folder.mkdir(parents=True, exist_ok=True)
         written = {folder / name: content for name, content in files.items()}
         try:
-            put_set(written, standing(folder, kind) - written.keys() if kind else ())
+            put_set(written, gone)
         except OSError:
             # A folder without a file tells nobody anything.
             with suppress(OSError):

@@ -275,7 +275,7 @@ def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
     """The entries of a mapping; a key met again is a fault and is left out."""
     seen: dict[str, Mark] = {}
-    for key_node, value_node in node.value:
+    for key_node, value_node in _rejoined(node):
         key, value = _node(key_node, file, faults), _node(value_node, file, faults)
         if not isinstance(key, Scalar):
             faults.append(Fault("wrong-type", key.mark, {"expected": "text"}))
@@ -286,6 +286,32 @@ def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator
             continue
         seen[name] = key.mark
         yield Scalar(name, key.mark), value
+
+
+def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:
+    """The entries of a mapping, a number with a comma as one text again: {F: 1,600 N} has no key “600 N”."""
+    entries: list[tuple[yaml.Node, yaml.Node]] = []
+    for key, value in node.value:
+        if node.flow_style and entries and _is_parted(entries[-1][1], key, value):
+            named, before = entries[-1]
+            text = f"{before.value},{key.value}"
+            entries[-1] = named, yaml.ScalarNode(before.tag, text, before.start_mark, key.end_mark)
+        else:
+            entries.append((key, value))
+    return entries
+
+
+def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
+    """Whether a value and the key without a value after it are what stands before and behind a comma in a number."""
+    ends = before.end_mark.index, key.start_mark.index, key.end_mark.index, value.end_mark.index
+    numbers = all(isinstance(one, yaml.ScalarNode) and not one.style for one in (before, key))
+    return (
+        numbers
+        and ends[1] == ends[0] + 1
+        and ends[2] == ends[3]
+        and re.fullmatch(r"[+-]?[0-9]+(?:,[0-9]+)*", before.value) is not None
+        and key.value[:1].isdigit()
+    )
 
 
 def _tabs(text: str, file: str) -> Iterator[Fault]:

@@ -81,7 +81,9 @@ UNIT = rf"(?:{_KNOWN}|[A-Za-zµμ°ºΩ][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·�
 
 _QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
-_COMMA = re.compile(r"([+-]?[0-9]+),([0-9].*)", re.DOTALL)
+_MARKED = re.compile(r"([+-]?)([0-9]+(?:[.,][0-9]+)+)(?![.,0-9])(.*)", re.DOTALL)
+_THOUSANDS = re.compile(r"[1-9][0-9]{0,2}[.,][0-9]{2}0")
+"""What a Vietnamese reader may mean as thousands, 1.400; nobody writes 1.4 so but to three decimals."""
 _NOT_FINITE = re.compile(r"[+-]?\.?(?:inf|infinity|nan)\b.*", re.IGNORECASE | re.DOTALL)
 _JOINED = re.compile(r"(?<![A-Za-z])(k?N|kg)(?=[mc]?m)")
 _LONGEST = 60
@@ -142,6 +144,45 @@ def read_quantity(text: str, unit: str) -> Given:
     return Given(value * factor, value, match[2], text)
 
 
+def two_readings(text: str) -> tuple[str, str] | None:
+    """A number that is read as decimals and may be meant as thousands, written both ways: 1.4 N and 1400 N for 1.400 N.
+
+    None for any other text; 1.375 mm and 0.350 leave no doubt.
+    """
+    match = _MARKED.fullmatch(text.strip().replace("\N{MINUS SIGN}", "-"))
+    if match is None or "," in match[2] or not _THOUSANDS.fullmatch(match[2]):
+        return None
+    if match[3] and (re.match(r"[eE][+-]?[0-9]", match[3]) or not _is_unit(match[3].strip())):
+        return None
+    decimals, thousands = (f"{match[1]}{way}{match[3]}" for way in _ways(match[2]))
+    return decimals, thousands
+
+
+def _is_unit(text: str) -> bool:
+    try:
+        scale(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _ways(body: str) -> list[str]:
+    """Digits with points or commas among them, with a decimal point or none as they may be meant: the decimals first.
+
+    1,6 is 1.6; 1,600 is 1.6 or 1600; 1.400.000 and 1.400,5 are 1400000 and 1400.5; none for what is no number.
+    """
+    whole, *groups = re.split("[.,]", body)
+    *marks, last = re.findall("[.,]", body)
+    if not marks:
+        if _THOUSANDS.fullmatch(body):
+            return [f"{whole}.{groups[0]}".rstrip("0").rstrip("."), whole + groups[0]]
+        return [f"{whole}.{groups[0]}"]
+    apart = len(set(marks)) == 1 and len(whole) <= 3 and whole[0] != "0" and all(len(one) == 3 for one in groups[:-1])
+    if apart and last != marks[0]:
+        return [f"{whole}{''.join(groups[:-1])}.{groups[-1]}"]
+    return [whole + "".join(groups)] if apart and len(groups[-1]) == 3 else []
+
+
 def read_unit(text: str, unit: str) -> float:
     """The SI factor of a unit of the same dimension as `unit`; raises `QuantityFault`."""
     try:
@@ -187,8 +228,10 @@ def _cleaned(text: str) -> str:
     cleaned = text.strip().replace("\N{MINUS SIGN}", "-")
     if len(cleaned) > _LONGEST:
         raise QuantityFault("not-a-number", text=text)
-    if match := _COMMA.fullmatch(cleaned):
-        raise QuantityFault("decimal-comma", text=text, fixed=f"{match[1]}.{match[2]}")
+    if (match := _MARKED.fullmatch(cleaned)) and ("," in match[2] or match[2].count(".") > 1):
+        ways = (f"{match[1]}{way}{match[3]}" for way in _ways(match[2]))
+        code = "decimal-comma" if "," in match[2] else "not-a-number"
+        raise QuantityFault(code, text=text, **dict(zip(("fixed", "other"), ways, strict=False)))
     if _NOT_FINITE.fullmatch(cleaned):
         raise QuantityFault("not-finite", text=text)
     return cleaned

@@ -104,6 +104,8 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
     }
     source, spoken = read_source(Path(path)), assignment.language
     found = [as_problem(one, spoken, level) for level in told for one in reading.placed(source, told[level])]
+    doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, Path(path)))
+    found += [as_problem(one, spoken, "warning") for one in doubtful]
     return sorted(found, key=lambda problem: problem.mark)
 
 

@@ -22,7 +22,6 @@ from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Se
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from hashlib import sha256
 from itertools import islice
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
@@ -34,6 +33,7 @@ from reportgen.api import Engine, Maker
 from reportgen.base.errors import AssignmentError, Problem, ReportgenError
 from reportgen.base.files import version
 from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
+from reportgen.base.made import assignment_hash
 from reportgen.base.units import Language
 from reportgen.base.words import templates, templates_hash, unexpected, word
 from reportgen.classes import leavings
@@ -80,7 +80,7 @@ class Job:
     @property
     def assignment(self) -> str:
         """SHA-256 of the assignment file, and of what lies beside it."""
-        return sha256(b"\0".join((self.content, *self.beside.values()))).hexdigest()
+        return assignment_hash(self.content, self.beside)
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,26 +5,28 @@ from __future__ import annotations
 import errno
 import json
 import os
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from hashlib import sha256
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TextIO
 
 from pydantic import TypeAdapter, ValidationError
 
 from reportgen import api
 from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
-from reportgen.assignment.reading import words_beside
+from reportgen.assignment.reading import inputs
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
 from reportgen.base.files import cause, contents, held, put_file, put_set, remove_unfinished, reported, scratch
+from reportgen.base.made import MADE_OF, Made, hash_of
+from reportgen.base.made import made_of as made_of_input
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes import ready
 from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
-from reportgen.classes.roster import Assigned, Roster, RosterEntry, beside, match_files, read_roster
+from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 
@@ -286,8 +288,7 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, 
     if isinstance(file, Problem):
         return file
     try:
-        parts = {one.relative_to(file.parent).as_posix(): contents(one) for one in beside(file) if one.is_file()}
-        return file.name, contents(file), {**words_beside(file), **parts}
+        return file.name, *inputs(file)
     except OSError as error:
         return as_problem(Fault("unreadable", Mark(str(file)), {"reason": cause(error)}), language)
 
@@ -338,7 +339,10 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -
         else:
             # What stands as it is made now has not been edited: a run was killed before it could note it.
             edited = {*earlier.edited(out)} & {*entry_of(job, outcome).edited(out)}
-            put_set({path: made[path] for path in made.keys() - edited}, tuple(earlier.outlived(outcome.files, out)))
+            put_set(
+                {path: made[path] for path in made.keys() - edited},
+                tuple(earlier.made.outlived(outcome.files, out / earlier.folder)),
+            )
     except OSError as error:
         if error.errno in NO_ROOM:
             raise OutputError(f"{error.filename or ''}: {error.strerror or error}") from error
@@ -355,10 +359,8 @@ def _put(job: Job, outcome: Outcome, out: Path, earlier: ManifestEntry | None) -
 NAME = "manifest.json"
 JOURNAL = ".manifest.journal"
 FORMAT = "reportgen-batch/1"
-MADE_OF = ("assignment", "engine", "language", "templates", "version")
-"""All that decides the bytes of a product."""
 ASK = "ask"
-"""What the answer sheet asks for decides them too, where a policy says so."""
+"""What the answer sheet asks for decides the bytes of a product too, where a policy says so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,22 +380,16 @@ class ManifestEntry:
             not self.problems
             and bool(self.files)
             and (self.folder, self.made_of) == (job.folder, made_of(job))
-            and all(_hash(out / self.folder / name) for name in self.files)
+            and all(hash_of(out / self.folder / name) for name in self.files)
         )
+
+    @property
+    def made(self) -> Made:
+        return Made(self.made_of, self.files)
 
     def edited(self, out: Path) -> Iterator[Path]:
         """The files that were changed since they were made, an answer sheet that is filled in."""
-        for name, known in self.files.items():
-            path = out / self.folder / name
-            if _hash(path) not in ("", known):
-                yield path
-
-    def outlived(self, made: Collection[str], out: Path) -> Iterator[Path]:
-        """The files that were made, are unaltered and are `made` no more; a name with a folder is none of them."""
-        for name, known in self.files.items():
-            path = out / self.folder / name
-            if name not in made and PurePath(name).name == name and _hash(path) == known:
-                yield path
+        return self.made.edited(out / self.folder)
 
 
 _ENTRY = TypeAdapter(ManifestEntry)
@@ -407,10 +403,9 @@ def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
 
 
 def made_of(job: Job) -> dict[str, str | None]:
-    """The values of `MADE_OF` for a job, and of `ASK`."""
+    """What a job's product is made of, what the answer sheet asks for as `ASK`."""
     how = job.making
-    made = dict(zip(MADE_OF, (job.assignment, how.engine, how.language, how.templates, how.version), strict=True))
-    return {**made, **({ASK: how.ask} if how.ask else {})}
+    return made_of_input(job.assignment, how.engine, how.language, how.templates, how.version, **{ASK: how.ask})
 
 
 def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
@@ -490,11 +485,4 @@ def _text(path: Path) -> str:
     try:
         return contents(path).decode("utf-8", "replace")
     except FileNotFoundError:
-        return ""
-
-
-def _hash(path: Path) -> str:
-    try:
-        return sha256(contents(path)).hexdigest()
-    except (OSError, ValueError):
         return ""

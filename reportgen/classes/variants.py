@@ -24,7 +24,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment, parts
 from reportgen.assignment.common import PARTS
-from reportgen.assignment.reading import words_beside
+from reportgen.assignment.reading import doubtful, words_beside
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, overwritten, put_file, put_set, version
 from reportgen.base.limits import Limits
@@ -42,7 +42,7 @@ from reportgen.base.source import (
     without,
 )
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, word
+from reportgen.base.words import as_error, as_problem, word
 from reportgen.cases import opened
 from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
 from reportgen.classes.pool import each_within
@@ -185,9 +185,16 @@ def make_variants(
     out.mkdir(parents=True, exist_ok=True)
     made = [file.files for file in files if file.state in ("new", "changed")]
     put_set({**{path: content for one in made for path, content in one.items()}, out / TABLE: _csv(files, efforts)})
-    remarks = (*_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
+    remarks = (*_doubts(spec), *_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
     known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
     return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
+
+
+def _doubts(spec: Spec) -> Iterator[str]:
+    """The warnings of numbers in the spec and the files of its parts that may be meant as thousands."""
+    for file in spec.files:
+        if file.suffix.lower() in (".yaml", ".yml"):
+            yield from (str(as_problem(one, spec.language, "warning")) for one in doubtful(read_source(file)))
 
 
 def _refuse(faults: Sequence[Fault], spec: Spec) -> None:

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
 from typer.core import TyperGroup
@@ -18,6 +18,9 @@ from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
 from reportgen.base.units import Language
+
+if TYPE_CHECKING:
+    from reportgen.base.made import Put
 
 AT_FAULT, WRONG_USAGE, SYSTEM, INTERRUPTED = 1, 2, 3, 130
 ENDED = frozenset({"SIGTERM", "SIGHUP"})
@@ -147,6 +150,14 @@ def say(key: str, lang: Language | None, /, **arguments: object) -> str:
     from reportgen.base.words import word
 
     return word(key, lang, **arguments)
+
+
+def tell(put: Put, lang: Language | None) -> None:
+    """Prints the paths of files that were put in place; says which others of their kind went, and which were left."""
+    print(*put.paths, sep="\n", flush=True)
+    for key, paths in (("stale_gone", put.gone), ("stale_left", put.left)):
+        for path in paths:
+            complain(say(key, lang, path=path))
 
 
 def listed(text: str, known: Collection[str], option: str, complaint: str, lang: Language | None) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
-from reportgen.base.files import put_files, reported, standing
+from reportgen.base.files import reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
@@ -23,6 +23,7 @@ from reportgen.cli.common import (
     listed,
     refuse_inputs,
     say,
+    tell,
 )
 
 PolicyOption = Annotated[
@@ -147,6 +148,7 @@ def key(
     """Write the answer key of each FILE. It has every value with the bands within which it is right, in DIR/<id>/."""
     from reportgen import api
     from reportgen.base.files import scratch
+    from reportgen.base.made import put_made
     from reportgen.marking.marks import read_policy
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
@@ -160,7 +162,8 @@ def key(
     def work(file: Path) -> None:
         with reported(out), scratch(out):
             made = api.key_files(file, engine, lang, formats, ask)
-        print(*put_files(out / file.stem, made), sep="\n", flush=True)
+        of = api.made_of(file, engine, lang, ask="" if ask is None else str(ask))
+        tell(put_made(out / file.stem, made, "key", of), lang)
 
     for_each(files, lang, work)
 

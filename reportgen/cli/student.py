@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.base.files import is_stream, put_files, put_set, reported, standing
+from reportgen.base.files import is_stream, put_set, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     EngineOption,
@@ -27,6 +27,7 @@ from reportgen.cli.common import (
     refuse,
     refuse_inputs,
     say,
+    tell,
     write,
 )
 
@@ -60,8 +61,7 @@ def build(
     def work(file: Path) -> None:
         folder = out / file.stem
         refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
-        made = api.build_each(file, out, engine, lang, keep_source, formats, extent=extent, listing=listing)
-        print(*made, sep="\n", flush=True)
+        tell(api.build_each(file, out, engine, lang, keep_source, formats, extent=extent, listing=listing), lang)
 
     for_each(files, lang, work)
 
@@ -93,6 +93,7 @@ def sheet(
     """Lay the plans out on drawing sheets, true to scale. They go to DIR/<id>/sheet-1.pdf, sheet-1.dxf, …."""
     from reportgen import api
     from reportgen.base.files import scratch
+    from reportgen.base.made import hash_of, put_made
 
     formats = listed(format, api.SHEET_FORMATS, "--format", "no_format", lang)
 
@@ -116,7 +117,9 @@ def sheet(
                 block=path,
                 every=every,
             )
-            print(*put_files(out / assignment.id, made, "sheet"), sep="\n", flush=True)
+            layout = " ".join((size or "", "all" if every else "", hash_of(path) if path else "")).strip()
+            of = api.made_of(file, "typst", assignment.language, layout=layout)
+            tell(put_made(out / assignment.id, made, "sheet", of), lang)
 
     for_each(files, lang, work)
 
@@ -142,12 +145,15 @@ def watch(
 
 def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
     """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
-    from reportgen.api import typeset
+    from reportgen.api import made_of, typeset
     from reportgen.base.errors import ReportgenError
+    from reportgen.base.made import put_made
 
     def write(case: Case, document: Document) -> None:
         try:
-            print(*put_files(out / path.stem, {"report.pdf": typeset(document, "typst")[1]}), flush=True)
+            pdf = {"report.pdf": typeset(document, "typst")[1]}
+            of = made_of(path, "typst", case.assignment.language)
+            tell(put_made(out / path.stem, pdf, "report", of, alone=True), None)
         except ReportgenError as error:
             complain(say("system", case.assignment.language, text=error))
 
@@ -174,6 +180,7 @@ def solve(
 ) -> None:
     """Compute motion, forces and torque. They are printed as tables, or written in SI units."""
     from reportgen import api
+    from reportgen.base.made import put_made
     from reportgen.marking.results import print_tables
 
     formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
@@ -181,12 +188,13 @@ def solve(
     with ending(lang):
         tables = standing(out / file.stem, "results") if formats else ()
         refuse_inputs((*tables, *([json_file] if json_file else ())), [file], lang)
+        assignment = api.load(file, lang)
         if formats:
             files = api.result_files(file, formats, positions, lang)
-            print(*put_files(out / file.stem, files), sep="\n", flush=True)
+            of = api.made_of(file, "", assignment.language)
+            tell(put_made(out / file.stem, files, "results", of), lang)
         if formats and json_file is None:
             return
-        assignment = api.load(file, lang)
         results = api.solve(assignment, positions, printed=json_file is not None and positions is None)
         if json_file is None:
             print_tables(results, assignment.language)

@@ -166,14 +166,15 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
 
     # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
     console = Console(width=500)
-    scales = _scales(results["positions"])
-    for name, rows in tables(results["positions"]).items():
+    found = tables(results["positions"])
+    scales = _scales(found, results["positions"])
+    for name, rows in found.items():
         for headings in _split(rows[0]):
             table = Table(title=word(name, language), title_justify="left", title_style="bold")
             for heading in headings:
                 text = word(heading, language) if heading in WORDS else heading
                 table.add_column(text, justify="right", no_wrap=True)
-            columns = [_column([row.get(one) for row in rows], _scale(name, one, scales), language) for one in headings]
+            columns = [_column([row.get(one) for row in rows], scales[name, one], language) for one in headings]
             for cells in zip(*columns, strict=True):
                 table.add_row(*cells)
             console.print(table)
@@ -197,7 +198,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
         if position is None:
             continue
         lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
-        points, links = position.get("points", {}), position.get("links", {})
+        points, links, wheels = (position.get(name, {}) for name in ("points", "links", "wheels"))
         rows: dict[str, Row] = {
             "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
             "accelerations": {f"a {name}": _size(point["a"]) for name, point in points.items()},
@@ -206,6 +207,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
                 for symbol, quantity in (("ω", "omega"), ("ε", "epsilon"))
                 for name, link in links.items()
             },
+            "wheels": {f"ω{name}": wheel["omega"] for name, wheel in wheels.items()},
             "loads": {name: _size(load) for name, load in position.get("loads", {}).items()},
             "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
             "torque": dict(position.get("balancing_torque", {})),
@@ -253,7 +255,8 @@ def _once(reactions: Row) -> Row:
 
 def _without_zeros(rows: list[Row]) -> list[Row]:
     """The rows without the columns that are zero at every position (a slider's angular velocity)."""
-    kept = [key for key in rows[0] if any(row.get(key) for row in rows) or key in WORDS]
+    heads = dict.fromkeys(key for row in rows for key in row)
+    kept = [key for key in heads if any(row.get(key) for row in rows) or key in WORDS]
     return [{key: row.get(key) for key in kept} for row in rows]
 
 
@@ -285,28 +288,43 @@ def _column(values: Sequence[float | str | None], scale: float, language: Langua
     return [cell(value) for value in values]
 
 
-def _scale(name: str, heading: str, scales: Mapping[str, float]) -> float:
-    """The scale of a column: of its table, of links by their letter; none for where the driver is."""
-    return 0.0 if heading in LEADS else scales[heading[:1] if name == "links" else name]
+SCALES: Mapping[str, str] = {
+    **{name: name for name in ("velocities", "accelerations", "torque")},
+    **dict.fromkeys(("loads", "reactions", "force"), "force"),
+}
+"""The scale that all columns of a table share, since they are worked out of one another."""
+ROWS_OF_LINKS = ("links", "wheels")
+"""Tables whose columns share a scale by their letter: an ω is measured by the others."""
 
 
-def _scales(positions: Sequence[Mapping[str, Any] | None]) -> Mapping[str, float]:
-    """How large the values of each table are at their largest, torques by the forces and the lengths that make them."""
-    found: dict[str, float] = defaultdict(float)
-    for position in filter(None, positions):
-        points, links = position["points"].values(), position["links"].values()
-        for name, sizes in {
-            "velocities": [_size(point["v"]) for point in points],
-            "accelerations": [_size(point["a"]) for point in points],
-            "length": [_size(point["p"]) for point in points],
-            "ω": [link["omega"] for link in links],
-            "ε": [link["epsilon"] for link in links] + [link["omega"] ** 2 for link in links],
-            "reactions": [_size(force) for force in position.get("reactions", {}).values()],
-        }.items():
-            found[name] = max([found[name], *(abs(size) for size in sizes if size is not None)])
-    found["loads"] = found["force"] = found["reactions"]
-    found["torque"] = found["reactions"] * found["length"]
-    return found
+def _scale(name: str, heading: str) -> str:
+    """The scale that a column of a table shares with others; any other quantity has one of its own."""
+    if name in ROWS_OF_LINKS:
+        return heading[:1]
+    return SCALES.get(name, f"{name} {heading}")
+
+
+def _scales(
+    found: Mapping[str, Sequence[Row]], positions: Sequence[Mapping[str, Any] | None]
+) -> Mapping[tuple[str, str], float]:
+    """How large the values are at their largest that a column shares its scale with; 0 for where the driver is.
+
+    ε is also measured by ω², a torque by the forces and the lengths that make it.
+    """
+    largest: dict[str, float] = defaultdict(float)
+    columns = {
+        (name, heading): "" if heading in LEADS else _scale(name, heading)
+        for name, rows in found.items()
+        for heading in rows[0]
+    }
+    for (name, heading), scale in columns.items():
+        values = (row.get(heading) for row in found[name])
+        sizes = (abs(value) for value in values if not (value is None or isinstance(value, str)))
+        largest[scale] = max(largest[scale], *sizes, 0.0)
+    places = (point["p"] for position in positions if position for point in position.get("points", {}).values())
+    largest["ε"] = max(largest["ε"], largest["ω"] ** 2)
+    largest["torque"] = max(largest["torque"], largest["force"] * max((_size(p) or 0.0 for p in places), default=0.0))
+    return {column: largest[scale] if scale else 0.0 for column, scale in columns.items()}
 
 
 # --- results as files -----------------------------------------------------------------------------

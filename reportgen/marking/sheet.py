@@ -352,7 +352,12 @@ class _Reading:
             arguments = fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
             return self.problem(place, Fault(fault.code, cell.mark, arguments))
         if doubtful:
-            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": f"{number:g}"}))
+            ways = sorted(
+                {read_number(cell.value, KINDS[row.kind].unit, one)[0] for one in get_args(DecimalMark)}, key=abs
+            )
+            number = _nearest(ways, float(row.values[row.at(place[1])]), number)
+            read, other = (units.write(way, None, self.language or self.key.language) for way in ways)
+            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": read, "other": other}))
         self.values[place] = Answer(number, cell.text, cell.mark)
         return None
 
@@ -361,6 +366,13 @@ class _Reading:
 
     def note(self, fault: Fault) -> None:
         self.notes.append(as_problem(fault, self.language))
+
+
+def _nearest(ways: Sequence[float], right: float, otherwise: float) -> float:
+    """The way to read a number that is of the size of the right one, so that the doubt costs no mark."""
+    if not right or not math.isfinite(right):
+        return otherwise
+    return min(ways, key=lambda way: abs(math.log(abs(way / right))) if way else math.inf)
 
 
 def _is_empty(cell: SheetCell) -> bool:

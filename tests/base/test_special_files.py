@@ -67,7 +67,7 @@ def test_a_report_in_place_of_a_pipe_is_refused(tmp_path: Path) -> None:
     (tmp_path / "x").mkdir()
     os.mkfifo(tmp_path / "x" / "report.pdf")
     with pytest.raises(files.OutputError, match=r"report\.pdf: no regular file"):
-        put_files(tmp_path / "x", {"report.pdf": b"%PDF"}, "report")
+        put_files(tmp_path / "x", {"report.pdf": b"%PDF"})
 
 
 def test_what_is_open_already_is_written_into(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

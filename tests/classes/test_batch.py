@@ -63,7 +63,7 @@ def test_a_file_that_cannot_be_read_costs_one_student(tmp_path: Path, monkeypatc
             raise PermissionError(errno.EACCES, "no", str(path))
         return read(path, most)
 
-    monkeypatch.setattr("reportgen.classes.run.contents", guarded)
+    monkeypatch.setattr("reportgen.assignment.reading.contents", guarded)
     done = batch.run()
     assert batch.students("done") == ["K2"]
     ((problem,),) = [failure.problems for failure in done.failures]

@@ -9,13 +9,14 @@ import zipfile
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 from reportgen.base.errors import AssignmentError
-from reportgen.base.units import QuantityFault
+from reportgen.base.units import Language, QuantityFault
 from reportgen.formula.vocabulary import KINDS
 from reportgen.marking.marks import Submission
 from reportgen.marking.sheet import answer_book, decimal_mark, is_blank, read_number, read_submission
@@ -317,13 +318,33 @@ def test_one_value_in_two_cells_must_be_one_number(tmp_path: Path) -> None:
 def test_a_number_that_reads_two_ways_is_noted_unless_the_sheet_decides(tmp_path: Path) -> None:
     path = tmp_path / "marks.csv"
     path.write_text("id;Value;1;2\nv.B;;4.710;\n", encoding="utf-8")
-    alone = read_submission(path, small_key("vi"))
-    assert numbers(alone) == {("v.B", 1): 4710}
-    assert [note.code for note in alone.notes] == ["cell-thousands"]
+    alone = read_submission(path, small_key("vi"), "en")
+    # v_B is 4.71 there: neither reading of a lone number costs its mark, and both are told.
+    assert numbers(alone) == {("v.B", 1): 4.71}
+    (note,) = alone.notes
+    assert note.code == "cell-thousands"
+    assert "4.71 or as 4710" in note.message
     path.write_text("id;Value;1;2\nv.B;;4.710;2.4\n", encoding="utf-8")
     decided = read_submission(path, small_key("vi"))
     assert numbers(decided) == {("v.B", 1): 4.71, ("v.B", 2): 2.4}
     assert not decided.notes
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize(("right", "read"), [(1.42, 1.42), (1420.0, 1420.0), (-1.3, 1.42), (900, 1420.0), (0, None)])
+@pytest.mark.parametrize("text", ["1.420", "1,420"])
+def test_a_lone_number_is_read_in_the_way_that_fits(
+    tmp_path: Path, text: str, right: float, read: float | None, language: Language
+) -> None:
+    """Where nothing fits, a force that is nothing, it is read as the language of the sheet has it."""
+    key = small_key(language)
+    changed = [replace(row, values=np.full(4, right)) if row.id == "v.B" else row for row in key.rows]
+    path = tmp_path / "lone.csv"
+    path.write_text(f"id;Value;1;2\nv.B;;{text};\n", encoding="utf-8")
+    submission = read_submission(path, replace(key, rows=tuple(changed)))
+    decimal = (text[1] == ",") == (language == "vi")
+    assert numbers(submission) == {("v.B", 1): (1.42 if decimal else 1420.0) if read is None else read}
+    assert [note.code for note in submission.notes] == ["cell-thousands"]
 
 
 @pytest.mark.parametrize("text", ["a,b\n1,2\n", "id\nv.B\n", "Value\n3\n"])

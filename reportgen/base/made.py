@@ -1,0 +1,139 @@
+"""What files were made of: so those made of the same stay, stale ones go, and what was changed since is not lost.
+
+A file is stale when it was made of other input than is at hand now.  It goes only while its bytes are as they were
+written; one that somebody went on with stays, and is named.  The rule is that of a batch, whose manifest vouches for
+the files of a class, and of the folder of one assignment, which has a hidden record of its own.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path, PurePath
+from typing import Any
+
+from reportgen.base.files import contents, put_files, standing
+
+MADE_OF = ("assignment", "engine", "language", "templates", "version")
+"""All input that decides the bytes of a product; further names say what else does, such as what a sheet asks for."""
+MadeOf = Mapping[str, str | None]
+
+RECORD = ".reportgen.json"
+"""The record of a folder, among the files that it vouches for."""
+FORMAT = "reportgen-made/1"
+LARGEST = 1_000_000
+"""Bytes of a record."""
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """Files of a folder by name, with the SHA-256 that they were written with, and what they were made of."""
+
+    made_of: MadeOf = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
+
+    def edited(self, folder: Path) -> Iterator[Path]:
+        """The files that were changed since they were made, an answer sheet that is filled in."""
+        for name, known in self.files.items():
+            if hash_of(folder / name) not in ("", known):
+                yield folder / name
+
+    def without(self, names: Collection[str], folder: Path) -> Made:
+        """Those of the files that are still there, without some names."""
+        there = {name for name in self.files if name not in names and os.path.lexists(folder / name)}
+        return Made(self.made_of, {name: self.files[name] for name in self.files if name in there})
+
+    def outlived(self, made: Collection[str], folder: Path) -> Iterator[Path]:
+        """The files that are unaltered and are `made` no more; a name with a folder is none of them."""
+        for name, known in self.files.items():
+            if name not in made and PurePath(name).name == name and hash_of(folder / name) == known:
+                yield folder / name
+
+
+@dataclass(frozen=True, slots=True)
+class Put:
+    """What came of putting files into a folder: their `paths`, the stale files that are `gone`, those that are `left`.
+
+    What is left was changed since it was made, or nothing vouches for it.
+    """
+
+    paths: tuple[Path, ...]
+    gone: tuple[Path, ...] = ()
+    left: tuple[Path, ...] = ()
+
+
+def assignment_hash(content: bytes, beside: Mapping[str, bytes]) -> str:
+    """SHA-256 of an assignment file, and of what lies beside it."""
+    return sha256(b"\0".join((content, *beside.values()))).hexdigest()
+
+
+def made_of(
+    assignment: str, engine: str, language: str | None, templates: str, version: str, **more: str
+) -> dict[str, str | None]:
+    """The values of `MADE_OF`, and whatever else decides the bytes of a product if that is not empty."""
+    known = dict(zip(MADE_OF, (assignment, engine, language, templates, version), strict=True))
+    return {**known, **{name: value for name, value in more.items() if value}}
+
+
+def hash_of(path: Path) -> str:
+    """SHA-256 of a file as it stands; "" where there is none to be read."""
+    try:
+        return sha256(contents(path)).hexdigest()
+    except (OSError, ValueError):
+        return ""
+
+
+def put_made(folder: Path, files: Mapping[str, bytes], kind: str, of: MadeOf, alone: bool = False) -> Put:
+    """Put files of a kind of `SETS` into a folder, together or not at all, and take its stale ones away.
+
+    The folder's record says then what each was made `of`.  Files put `alone` leave all others.  Raises `OutputError`.
+    """
+    record = _read(folder)
+    earlier = record.get(kind, [])
+    same = {name: known for one in earlier if one.made_of == of for name, known in one.files.items()}
+    stale = [one for one in earlier if one.made_of != of]
+    outlived = {path for one in stale for path in one.outlived(files, folder)}
+    settled = files.keys() | same.keys() | (set() if alone else {path.name for path in outlived})
+    now = {
+        **{name: known for name, known in same.items() if os.path.lexists(folder / name)},
+        **{name: sha256(content).hexdigest() for name, content in files.items()},
+    }
+    before = [one.without(settled, folder) for one in stale]
+    made = [one for one in (Made(of, now), *before) if one.files]
+    gone = set() if alone else outlived
+    *paths, _ = put_files(folder, {**files, RECORD: _text({**record, kind: made})}, gone)
+    left = {folder / name for one in before for name in one.files} | standing(folder, kind)
+    told = () if alone else sorted(path for path in left if path.name not in settled)
+    return Put(tuple(paths), tuple(sorted(gone)), tuple(told))
+
+
+def _text(record: Mapping[str, list[Made]]) -> bytes:
+    kinds = {
+        kind: [{"made_of": dict(one.made_of), "files": dict(one.files)} for one in made]
+        for kind, made in record.items()
+    }
+    content = {"format": FORMAT, "made": kinds}
+    return (json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n").encode()
+
+
+def _read(folder: Path) -> dict[str, list[Made]]:
+    """The record of a folder by the kinds of files; what cannot be understood counts as missing."""
+    try:
+        content: Any = json.loads(contents(folder / RECORD, LARGEST))
+        if content["format"] != FORMAT:
+            return {}
+        return {kind: [_made(one) for one in made] for kind, made in content["made"].items()}
+    except (OSError, ValueError, RecursionError, KeyError, TypeError, AttributeError):
+        return {}
+
+
+def _made(plain: Any) -> Made:
+    """What a record says of files made of one input; raises `ValueError` for what this program never wrote."""
+    of, files = dict(plain["made_of"]), dict(plain["files"])
+    names = all(isinstance(name, str) and PurePath(name).name == name for name in files)
+    if not (names and all(isinstance(known, str) for known in files.values())):
+        raise ValueError("no record")
+    return Made(of, files)
