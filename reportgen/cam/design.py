@@ -1,8 +1,10 @@
 """Inverse design: the least cam that keeps the pressure angle within its limits, and a choice as a person rounds it.
 
 A translating follower is designed on the S–S′ diagram: (s′ − e)/(s₀ + s) ≤ tan [α] in the rise is a straight line above
-whose end the cam's centre lies, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  Of an oscillating one
-cos(q − [α]) ≥ (l k/a) cos [α] in the rise and cos(q + [α′]) ≤ (l k/a) cos [α′] in the return, q = ψ₀ + ψ, k = 1 ± ψ′.
+whose end the cam's centre lies, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  Of an oscillating one, with
+tan α = σ(lk − a cos q)/(a sin q), q = ψ₀ + ψ, k = 1 + σψ′, both limits are of the same two kinds: where cam and arm turn
+oppositely (σ = +1) the rise wants cos(q − [α]) ≥ (l k/a) cos [α] and the return cos(q + [α′]) ≤ (l k/a) cos [α′]; where
+they turn the same way the rise wants the second and the return the first.
 """
 
 from __future__ import annotations
@@ -23,6 +25,10 @@ Rule = Literal["apex", "rise", "return"]
 SHARE_OF_RHO, SHARE_OF_R0 = 0.8, 0.4
 """A roller is no larger than these shares of the least radius of curvature and of the base circle."""
 GOLDEN = (math.sqrt(5) - 1) / 2
+USUAL_RISE = {True: math.radians(40), False: math.radians(45)}
+"""The largest pressure angle (rad) that is usual in the rise of a translating follower (True) and of an oscillating one."""
+USUAL_BY_SPRING = math.radians(80)
+"""The largest pressure angle (rad) that is usual in a return that a spring drives."""
 TALLEST = 400
 """So many steps a base circle grows at most until nothing is undercut."""
 
@@ -122,36 +128,56 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
 
 
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
-    """The least cam of an oscillating roller at a distance a of the pivot; None where no ψ₀ keeps the limits."""
+    """The least cam of an oscillating follower at a distance a of the pivot (m); None where no ψ₀ keeps the limits.
+
+    Where the limit of the rise alone leaves ψ₀ free, down to an arm in line with the centres, the return decides by what
+    is usual with a spring.
+    """
     assert limits.rise is not None
-    α1, α2 = limits.rise, limits.back
-
-    def share(ds: Floats, α: float) -> Floats:
-        return arm * (1 + opposite * ds) * math.cos(α) / a
-
-    def lowest(s: Floats, ds: Floats) -> Floats:
-        found = share(ds, α1)
-        return np.where(found > 1, np.inf, α1 - np.arccos(np.clip(found, -1, 1)) - s)
-
-    def highest(s: Floats, ds: Floats) -> Floats:
-        return -(α1 + np.arccos(np.clip(share(ds, α1), -1, 1)) - s)
-
-    def of_return(s: Floats, ds: Floats) -> Floats:
-        assert α2 is not None
-        return np.arccos(np.clip(share(ds, α2), -1, 1)) - α2 - s
-
-    rise, most = touch(motion, "rise", lowest), -touch(motion, "rise", highest).bound
-    back = touch(motion, "return", of_return) if α2 is not None else None
-    rule: Rule = "return" if back is not None and back.bound > rise.bound else "rise"
-    ψ0 = max(rise.bound, back.bound if back else -math.inf)
+    found = [bounded(motion, "rise", limits.rise, arm, opposite, a)]
+    if limits.back is not None or found[0][0].bound <= 0:
+        found.append(bounded(motion, "return", limits.back or USUAL_BY_SPRING, arm, opposite, a))
+    touches, most = [touch for touch, _ in found], min(most for _, most in found)
+    back = touches[1] if len(touches) > 1 else None
+    rule: Rule = "return" if back is not None and back.bound > touches[0].bound else "rise"
+    ψ0 = max(touch.bound for touch in touches)
     if not 0 < ψ0 <= most or ψ0 + motion.stroke >= math.pi:
         return None
-    r0 = math.sqrt(a**2 + arm**2 - 2 * a * arm * math.cos(ψ0))
-    return Least(rule, r0, a=a, psi0=ψ0, rise=rise, back=back)
+    return Least(rule, triangle(a, arm, ψ0), a=a, psi0=ψ0, rise=touches[0], back=back)
+
+
+def bounded(
+    motion: FollowerMotion, phase: str, limit: float, arm: float, opposite: int, a: float
+) -> tuple[Touch, float]:
+    """Between what ψ₀ (rad) a phase keeps its limit: where the lower bound is touched, and the upper one.
+
+    With c = lk cos(limit)/a it is cos(q − limit) ≥ c in the rise against the cam and in the return with it: q from
+    limit − arccos c to limit + arccos c; else cos(q + limit) ≤ c: q from arccos c − limit to 2π − arccos c − limit.
+    """
+    side = opposite if phase == "rise" else -opposite
+
+    def share(ds: Floats) -> Floats:
+        return arm * (1 + opposite * ds) * math.cos(limit) / a
+
+    def half(ds: Floats) -> Floats:
+        return np.arccos(np.clip(share(ds), -1, 1))
+
+    def lowest(s: Floats, ds: Floats) -> Floats:
+        return np.where(side * share(ds) > 1, np.inf, side * (limit - half(ds)) - s)
+
+    def most(s: Floats, ds: Floats) -> Floats:
+        return (limit + half(ds) if side > 0 else 2 * math.pi - half(ds) - limit) - s
+
+    return touch(motion, phase, lowest), -touch(motion, phase, lambda s, ds: -most(s, ds)).bound
+
+
+def triangle(a: float, arm: float, angle: float) -> float:
+    """The third side of a triangle (m): √((a − l)² + 4al sin²(ψ/2)), which is a² + l² − 2al cos ψ and never negative."""
+    return math.hypot(a - arm, 2 * math.sqrt(a * arm) * math.sin(angle / 2))
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
-    """The least cam of an oscillating roller at the best distance a of the pivot, between 0.4 and 3 arms.
+    """The least cam of an oscillating follower at the best distance a of the pivot, between 0.4 and 3 arms.
 
     The region of the centres is convex, so that r₀ over a has one valley: a golden section finds it.
     """
@@ -162,14 +188,18 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
 
     grid = np.linspace(0.4 * arm, 3 * arm, 53)
     sizes = [of(float(a)) for a in grid]
-    best = int(np.argmin(sizes))
-    if not math.isfinite(sizes[best]):
+    index = int(np.argmin(sizes))
+    best, size = float(grid[index]), sizes[index]
+    if not math.isfinite(size):
         raise NoCamError("cam-no-centre", "limits")
-    low, high = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
+    low, high = float(grid[max(index - 1, 0)]), float(grid[min(index + 1, len(grid) - 1)])
+    # Beyond the ends of the valley there is no cam: the best one so far always stays between.
     while high - low > 1e-9 * arm:
-        one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        low, high = (low, other) if of(one) <= of(other) else (one, high)
-    found = least_oscillating(motion, limits, arm, opposite, (low + high) / 2)
+        tried = best + (1 - GOLDEN) * (high - best) if high - best > best - low else best - (1 - GOLDEN) * (best - low)
+        tried_size = of(tried)
+        worse, best, size = (best, tried, tried_size) if tried_size < size else (tried, best, size)
+        low, high = (low, worse) if worse > best else (worse, high)
+    found = least_oscillating(motion, limits, arm, opposite, best)
     assert found is not None
     return found
 

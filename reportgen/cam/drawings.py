@@ -181,9 +181,10 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
             for index, (ψ, rate) in enumerate(zip(s, ds, strict=True)):
                 arm = _arm(cam, float(ψ))
                 end = pivot + arm * cam.arm * (1 + σ * rate)
-                # Into the region: along the arm for the rise, back along it for the return, and to the cam's side.
+                # Into the region: to the cam's side, and along the arm in a rise against the cam or a return with it,
+                # else back along it.
                 aside = arm * 1j * σ * cam.turn
-                plane = HalfPlane(end, sign * arm * math.cos(limit) + aside * math.sin(limit))
+                plane = HalfPlane(end, sign * σ * arm * math.cos(limit) + aside * math.sin(limit))
                 planes.append(plane)
                 if index % (160 // (LINES - 1)) == 0:
                     shown.append((pivot + arm * cam.arm, end, plane))

@@ -2,8 +2,9 @@
 
 The plane is complex.  F(φ) is the follower's point (centre of the roller, edge of the knife, point of contact of a
 flat face) in the fixed frame of a cam that turns anticlockwise about 0; in the cam's own frame it is F e^(−iφ).  With
-dots for d/dφ the tangent there is (Ḟ − iF) e^(−iφ), so that N = F + iḞ is the outward normal in the fixed frame.  The
-profile of a cam that turns clockwise is the mirror image.
+dots for d/dφ the tangent there is (Ḟ − iF) e^(−iφ), so that N = F + iḞ is the outward normal in the fixed frame.  With
+the way t in which the follower lifts, F + iḞ = F + it dS/dφ for a lift S, so that the pressure angle α = arg(N/t) grows
+with the speed of the lift in either sense of an arm.  The profile of a cam that turns clockwise is the mirror image.
 """
 
 from __future__ import annotations
@@ -111,7 +112,11 @@ class Cam:
         return self.e + 1j * high, aside + 1j * high, np.arctan2(-aside, high), rho
 
     def _oscillating(self, s: Floats, ds: Floats, dds: Floats) -> tuple[Complexes, Complexes, Floats, Floats]:
-        """About ±a: tan α = (l k − a cos q)/(a sin q) with q = ψ₀ + ψ and k = 1 ± ψ′, + for opposite senses."""
+        """About σa: tan α = σ(l k − a cos q)/(a sin q) with q = ψ₀ + ψ and k = 1 + σψ′, σ = +1 for opposite senses.
+
+        F = σ(a − l cos q) + il sin q gives N = F + iḞ = σ(a − lk cos q) + ilk sin q; the arm lifts along
+        t = σ sin q + i cos q, and N·t = a sin q, t × N = σ(lk − a cos q).
+        """
         σ, a, q = self.opposite, self.a, self.psi0 + s
         k = 1 + σ * ds
         cos, sin = np.cos(q), np.sin(q)
@@ -124,7 +129,7 @@ class Cam:
         with np.errstate(divide="ignore", invalid="ignore"):
             bent = u * arm * (k**2 * sin - dds * cos) + w * (a - arm * (k**2 * cos + dds * sin))
             rho = (u**2 + w**2) ** 1.5 / bent
-        alpha = np.arctan2(arm * k - a * cos, a * sin)
+        alpha = np.arctan2(σ * (arm * k - a * cos), a * sin)
         return σ * (a - arm * cos) + 1j * arm * sin, σ * w + 1j * u, alpha, rho
 
     # --- curves

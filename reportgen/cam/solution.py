@@ -384,14 +384,13 @@ class CamSheet:
         assert least is not None
         a, arm = q["cam.a"], q["cam.l"]
         found: dict[str, Expression] = {}
-        if least.rise is not None:
-            ψ, dψ = self._touch("rise", least.rise)
-            limit = q["cam.limit.rise"]
-            found["rise"] = limit - acos(arm * self.k(dψ) * cos(limit) / a) - ψ
-        if least.back is not None:
-            ψ, dψ = self._touch("return", least.back)
-            limit = q["cam.limit.return"]
-            found["return"] = acos(arm * self.k(dψ) * cos(limit) / a) - limit - ψ
+        for phase, touch, side in (("rise", least.rise, self.σ), ("return", least.back, -self.σ)):
+            if touch is None:
+                continue
+            ψ, dψ = self._touch(phase, touch)
+            limit = q[ids.cam_limit(phase)]
+            aside = acos(arm * self.k(dψ) * cos(limit) / a)
+            found[phase] = limit - aside - ψ if side > 0 else aside - limit - ψ
         ψ0 = q.define("cam.least.psi0", found[least.rule])
         q.define("cam.least.r0", sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0)))
 
@@ -427,13 +426,15 @@ class CamSheet:
             a, arm, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds
             ψ0 = q.define("cam.psi0", acos((a**2 + arm**2 - q["cam.r0"] ** 2) / (2 * a * arm)))
             at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
-            α = q.define("cam.alpha", atan((arm * k - a * cos(at)) / (a * sin(at))), scale=1.0)
+            # N = F + iF′ from the way in which the arm lifts: arm k − a cos q against the cam's sense, a cos q − arm k in it.
+            aside = arm * k - a * cos(at) if self.σ > 0 else a * cos(at) - arm * k
+            α = q.define("cam.alpha", atan(aside / (a * sin(at))), scale=1.0)
             x, y = self._inverted(a - arm * cos(at), arm * sin(at))
             u, w = q.define("cam.u", arm * k * sin(at)), q.define("cam.w", a - arm * k * cos(at))
             bend = q.define("cam.m.1", arm * (k**2 * sin(at) - ddψ * cos(at)))
             turn = q.define("cam.m.2", a - arm * (k**2 * cos(at) + ddψ * sin(at)))
             ρ = sqrt(u**2 + w**2) ** 3 / (u * bend + w * turn)
-            lean = φ + (at - α) if self.σ > 0 else φ - (at - α)
+            lean = φ + at - α if self.σ > 0 else φ - at - α
         x_B = q.define(ids.cam_pitch("x"), self.across(x), scale=r0)
         y_B = q.define(ids.cam_pitch("y"), y, scale=r0)
         ρ_B = q.define("cam.rho", ρ)
