@@ -10,7 +10,7 @@ they turn the same way the rise wants the second and the return the first.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -31,6 +31,8 @@ USUAL_BY_SPRING = math.radians(80)
 """The largest pressure angle (rad) that is usual in a return that a spring drives."""
 TALLEST = 400
 """So many steps a base circle grows at most until nothing is undercut."""
+STEPS = 60
+"""So many base circles under an oscillating face are tried for one that is large enough."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +56,10 @@ class Touch:
 
 @dataclass(frozen=True)
 class Least:
-    """The least cam within the limits (m, rad): of a translating follower s₀ and e, of an oscillating one a and ψ₀."""
+    """The least cam within the limits (m, rad): of a translating follower s₀ and e, of an oscillating one a and ψ₀.
+
+    `most` is the largest ψ₀ within them.
+    """
 
     rule: Rule
     r0: float
@@ -62,6 +67,7 @@ class Least:
     s0: float = 0.0
     a: float = 0.0
     psi0: float = 0.0
+    most: float = math.inf
     rise: Touch | None = None
     back: Touch | None = None
     apex: complex | None = None
@@ -98,13 +104,14 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
     """The least cam of a translating follower with a knife or a roller, at a given offset or at the best one.
 
     c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) lead to s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′].
+    Where the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides by what is usual with a spring.
     """
     assert limits.rise is not None
     t1 = math.tan(limits.rise)
     rise = touch(motion, "rise", lambda s, ds: ds - t1 * s)
     back, t2 = None, math.inf
-    if limits.back is not None:
-        t2 = math.tan(limits.back)
+    if limits.back is not None or (e is not None and e >= rise.bound):
+        t2 = math.tan(limits.back or USUAL_BY_SPRING)
         back = touch(motion, "return", lambda s, ds: -ds - t2 * s)
     c1, c2 = rise.bound, back.bound if back else 0.0
 
@@ -143,7 +150,7 @@ def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opp
     ψ0 = max(touch.bound for touch in touches)
     if not 0 < ψ0 <= most or ψ0 + motion.stroke >= math.pi:
         return None
-    return Least(rule, triangle(a, arm, ψ0), a=a, psi0=ψ0, rise=touches[0], back=back)
+    return Least(rule, triangle(a, arm, ψ0), a=a, psi0=ψ0, most=most, rise=touches[0], back=back)
 
 
 def bounded(
@@ -217,9 +224,12 @@ def least_flat(cam: Cam, rho: float) -> float:
 
     if cam.translating:
         return max(rho - flattest(0.0), rho)
-    low, high = 0.0, 0.999 * cam.a * math.sin(min(math.pi / 2, max(math.pi - cam.motion.stroke, 0.0)))
-    if flattest(high) < rho:
+    # The face keeps short of a right angle to the line of centres.
+    tried = cam.a * np.sin(np.linspace(0, math.pi / 2 - cam.motion.stroke, STEPS + 2)[1:-1])
+    enough = next((i for i, r0 in enumerate(tried) if flattest(float(r0)) >= rho), None)
+    if enough is None:
         raise NoCamError("cam-not-convex", "r0")
+    low, high = float(tried[enough - 1]) if enough else 0.0, float(tried[enough])
     while high - low > 1e-9 * cam.a:
         middle = (low + high) / 2
         low, high = (low, middle) if flattest(middle) >= rho else (middle, high)
@@ -247,15 +257,23 @@ def rounded_down(length: float) -> float:
     return round(math.floor(length / step + 1e-9) * step, 9)
 
 
-def grown(cam: Cam, rho: float) -> Cam:
-    """The cam with so large a base circle, by round steps, that no radius of curvature of its profile is below ρ."""
+def round_ups(length: float) -> Iterator[float]:
+    """Lengths that are no less, the roundest first: to its own step, to 1, 0.5 and 0.1 mm, and itself."""
+    yield rounded_up(length)
+    for step in (1.0 / MM, 0.5 / MM, 0.1 / MM):
+        yield round(math.ceil(length / step - 1e-9) * step, 9)
+    yield length
+
+
+def grown(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -> Cam:
+    """The cam with so large a base circle, by round steps, that it is enough; raises the error where none is."""
     for _ in range(TALLEST):
-        if sharpest(cam) >= rho - 1e-12:
+        if enough(cam):
             return cam
         cam = replace(cam, r0=rounded_up(cam.r0 + step_of(cam.r0) * 0.999))
-        if not cam.translating and cam.r0 >= cam.a + cam.arm:
+        if not cam.translating and (cam.r0 >= cam.a + cam.arm or cam.psi0 + cam.motion.stroke >= math.pi):
             break
-    raise NoCamError("cam-not-convex", "r0")
+    raise error
 
 
 def sharpest(cam: Cam) -> float:
@@ -265,10 +283,6 @@ def sharpest(cam: Cam) -> float:
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
-    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the profile's convex curvature, rounded down."""
-    bare = replace(cam, roller=0.0)
-    least = sharpest(bare)
-    found = rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))
-    if found <= 0:
-        raise NoCamError("cam-no-roller", "roller")
-    return found
+    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the profile's convex curvature, rounded down; ≤ 0 for none."""
+    least = sharpest(replace(cam, roller=0.0))
+    return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

@@ -102,6 +102,7 @@ class CamPage(DesignPage[SolvedCam]):
             "has_limits": found.limits.rise is not None,
             "limited": found.limits.rise is not None and not cam.flat,
             "both_limits": found.limits.back is not None,
+            "usual": found.usual,
             "least": found.least is not None,
             "apex": "cam.apex.s0" in case.ledger,
             "apex_is_least": found.least is not None and found.least.rule == "apex",
@@ -167,6 +168,8 @@ class CamPage(DesignPage[SolvedCam]):
         """The data with their names, symbols and values; what was found is left out."""
         case, heads, finds = self.case, self.case.words["table"], self.case.solution.given.finds
         hidden = {_id(key) for key in finds}
+        if case.solution.designed.usual:
+            hidden.add(ids.cam_limit("return"))
         rows = []
         for id, name in case.words["given"].items():
             if id in case.printed and id not in hidden:
