@@ -138,9 +138,11 @@ def _swing(given: Parameters) -> Iterator[Finding]:
     """A swing that is too fast for the cam, or too far for a face, which must keep short of a right angle."""
     motion, flat = motion_of(given), given.end == "flat"
     # Where k = 1 ± ψ′ vanishes the point of contact runs off along a face.
-    if given.lifts == "with" and touch(motion, "rise", lambda _, ds: ds).bound >= 1:
-        yield Finding("cam-overtakes", (*TOP, "phases"))
-    elif flat and given.lifts == "against" and touch(motion, "return", lambda _, ds: -ds).bound >= 1:
+    if given.lifts == "with":
+        fastest = touch(motion, "rise", lambda _, ds: ds).bound
+    else:
+        fastest = touch(motion, "return", lambda _, ds: -ds).bound if flat else 0.0
+    if fastest >= 1:
         yield Finding("cam-overtakes", (*TOP, "phases"))
     if flat:
         start = math.asin(given.r0.si / given.a.si) if given.r0 and given.a else 0.0

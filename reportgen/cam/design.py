@@ -1,10 +1,10 @@
 """Inverse design: the least cam that keeps the pressure angle within its limits, and a choice as a person rounds it.
 
 A translating follower is designed on the S–S′ diagram: (s′ − e)/(s₀ + s) ≤ tan [α] in the rise is a straight line above
-whose end the cam's centre lies, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  Of an oscillating one, with
-tan α = σ(lk − a cos q)/(a sin q), q = ψ₀ + ψ, k = 1 + σψ′, both limits are of the same two kinds: where cam and arm turn
-oppositely (σ = +1) the rise wants cos(q − [α]) ≥ (l k/a) cos [α] and the return cos(q + [α′]) ≤ (l k/a) cos [α′]; where
-they turn the same way the rise wants the second and the return the first.
+whose end the cam's centre lies, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  Of an oscillating one
+tan α = ±(lk − a cos q)/(a sin q), q = ψ₀ + ψ, k = 1 ± ψ′, with + where cam and arm turn oppositely.  There the rise
+wants cos(q − [α]) ≥ (l k/a) cos [α] and the return cos(q + [α′]) ≤ (l k/a) cos [α′]; where they turn the same way the
+rise wants the second and the return the first.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ SHARE_OF_RHO, SHARE_OF_R0 = 0.8, 0.4
 """A roller is no larger than these shares of the least radius of curvature and of the base circle."""
 GOLDEN = (math.sqrt(5) - 1) / 2
 USUAL_RISE = {True: math.radians(40), False: math.radians(45)}
-"""The largest pressure angle (rad) that is usual in the rise of a translating follower (True) and of an oscillating one."""
+"""The largest pressure angle (rad) that is usual in the rise, of a translating follower (True) and of any other."""
 USUAL_BY_SPRING = math.radians(80)
 """The largest pressure angle (rad) that is usual in a return that a spring drives."""
 TALLEST = 400
@@ -137,8 +137,8 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
     """The least cam of an oscillating follower at a distance a of the pivot (m); None where no ψ₀ keeps the limits.
 
-    Where the limit of the rise alone leaves ψ₀ free, down to an arm in line with the centres, the return decides by what
-    is usual with a spring.
+    Where the limit of the rise alone leaves ψ₀ free, down to an arm in line with the centres, the return decides by
+    what is usual with a spring.
     """
     assert limits.rise is not None
     found = [bounded(motion, "rise", limits.rise, arm, opposite, a)]
@@ -179,7 +179,7 @@ def bounded(
 
 
 def triangle(a: float, arm: float, angle: float) -> float:
-    """The third side of a triangle (m): √((a − l)² + 4al sin²(ψ/2)), which is a² + l² − 2al cos ψ and never negative."""
+    """The third side of a triangle (m): a² + l² − 2al cos ψ as (a − l)² + 4al sin²(ψ/2), which is never negative."""
     return math.hypot(a - arm, 2 * math.sqrt(a * arm) * math.sin(angle / 2))
 
 
@@ -220,7 +220,7 @@ def least_flat(cam: Cam, rho: float) -> float:
     def flattest(r0: float) -> float:
         tried = replace(cam, r0=r0)
         every = range(len(cam.motion.stretches))
-        return min(-tried.worst(number, lambda one: -one.traced.rho)[1] for number in every)
+        return min(-tried.worst(number, lambda one: -one.rho)[1] for number in every)
 
     if cam.translating:
         return max(rho - flattest(0.0), rho)
@@ -234,6 +234,11 @@ def least_flat(cam: Cam, rho: float) -> float:
         middle = (low + high) / 2
         low, high = (low, middle) if flattest(middle) >= rho else (middle, high)
     return high
+
+
+def reaches(cam: Cam) -> bool:
+    """Whether an oscillating face keeps short of a right angle to the line of centres."""
+    return cam.r0 < cam.a and cam.psi0 + cam.motion.stroke < math.pi / 2
 
 
 # --- a choice as a person rounds it ---------------------------------------------------------------
@@ -283,6 +288,6 @@ def sharpest(cam: Cam) -> float:
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
-    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the profile's convex curvature, rounded down; ≤ 0 for none."""
+    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the convex curvature, rounded down; none if ≤ 0."""
     least = sharpest(replace(cam, roller=0.0))
     return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

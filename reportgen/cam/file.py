@@ -238,7 +238,9 @@ def designed(given: Parameters) -> Designed:
     least, flat = None, 0.0
     if cam.flat:
         flat = design.least_flat(cam, limits.rho)
-        cam = replace(cam, r0=design.rounded_up(flat)) if given.seeks("r0") else cam
+        if given.seeks("r0"):
+            rounded = (replace(cam, r0=r0) for r0 in design.round_ups(flat))
+            cam = next(one for one in rounded if cam.translating or design.reaches(one))
     elif limits.rise is not None:
         least, cam = _within(given, cam, limits)
     usual = limits.back is None and least is not None and least.back is not None
@@ -311,6 +313,7 @@ def positions_of(given: Parameters) -> tuple[float, ...]:
 
 # --- what is judged of it -------------------------------------------------------------------------
 
+
 def exceeded(found: Designed) -> Iterator[tuple[str, float, float]]:
     """The phases in which the pressure angle passes its limit: its largest value, and at which angle of the cam."""
     cam, limits = found.cam, found.limits
@@ -337,7 +340,7 @@ def steep(found: Designed) -> Iterator[tuple[float, float, float]]:
 def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Where in a phase ±α is greatest, and how great it is."""
     numbers = [number for number, one in enumerate(cam.motion.stretches) if one.phase == phase]
-    return max((cam.worst(number, lambda one: sign * one.traced.alpha) for number in numbers), key=lambda one: one[1])
+    return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 
 
 @dataclass(frozen=True)
@@ -362,7 +365,7 @@ def judged(cam: Cam) -> Judged:
             if of == "working":
                 φ, value = cam.worst(number, lambda one: -one.effective)
             else:
-                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
+                φ, value = cam.worst(number, lambda one: np.where(one.rho > 0, -one.rho, -np.inf))
             found.append((φ, -value))
         return min(found, key=lambda one: one[1])
 

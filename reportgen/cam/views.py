@@ -53,7 +53,7 @@ class ImpactView:
 
 @dataclass(frozen=True)
 class RequirementView:
-    """A requirement by its words' key: at most or at least so much is wanted, there is so much, and whether it holds."""
+    """A requirement by its words' key: what is wanted at most or at least, what there is, and whether it holds."""
 
     key: str
     sign: str

@@ -6,7 +6,6 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from reportgen.formula import refs
 from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
@@ -21,8 +20,8 @@ def model(sheet: Sheet, wanted: Iterable[str], **known: Value) -> dict[str, Valu
     wanted, values = tuple(wanted), dict(known)
     needed = {*wanted} - {*known}
     for id in reversed(sheet.families):
-        if id in needed and (definition := sheet.families[id].definition) is not None:
-            needed |= {*refs(definition)} - {*known}
+        if id in needed:
+            needed |= {*sheet.inputs(id)} - {*known}
     with np.errstate(all="ignore"):
         for id, family in sheet.families.items():
             if id in needed and family.definition is None:

@@ -109,9 +109,7 @@ def test_the_least_cam_of_an_arm_is_that_of_a_search(seed: int) -> None:
 @pytest.mark.parametrize("lifts", ["with", "against"])
 def test_a_found_cam_keeps_its_limits_in_either_sense(tmp_path: Path, lifts: str) -> None:
     """ψ 15°, l 132, a 180, sine 72.58°/72.58°, 40°/50°: r₀ 60 with the lift would reach 58.23° in the rise."""
-    small = Cam(
-        case_of(written(tmp_path)).solution.motion, False, False, 0.060, a=0.180, arm=0.132, opposite=-1
-    )
+    small = Cam(case_of(written(tmp_path)).solution.motion, False, False, 0.060, a=0.180, arm=0.132, opposite=-1)
     assert pressure(small)[0] == pytest.approx(58.23, abs=NEAR)
     file = written(tmp_path, lifts=lifts, direction="clockwise" if lifts == "with" else "anticlockwise")
     assert told(file) == []
@@ -186,7 +184,9 @@ def test_steep_angles_are_told_without_limits(tmp_path: Path) -> None:
     assert size > 60
     said = [float(one.message.split("reaches ")[1].split("°")[0]) for one in found]
     assert max(said) == pytest.approx(size, abs=NEAR)
-    assert [one for one in told(written(tmp_path, limits="", r0="90 mm", roller="5 mm")) if one.code == "cam-steep"] == []
+    assert [
+        one for one in told(written(tmp_path, limits="", r0="90 mm", roller="5 mm")) if one.code == "cam-steep"
+    ] == []
 
 
 @pytest.mark.parametrize("psi", ["10 deg", "25 deg", "30 deg", "40 deg", "45 deg"])

@@ -98,7 +98,7 @@ SEEDS, BLOCKS = 2000, 40
 
 @pytest.mark.parametrize("block", matrix(range(BLOCKS), [0]))
 def test_random_cams(block: int) -> None:
-    """Fifty of them: profile within 1e-6 r₀ of the envelope, α with its sign within 0.05°, undercut where there is a cusp."""
+    """Fifty of them: profile within 1e-6 r₀ of the envelope, signed α within 0.05°, undercut where there is a cusp."""
     count = SEEDS // BLOCKS
     for seed in range(block * count, (block + 1) * count):
         one_cam(seed)

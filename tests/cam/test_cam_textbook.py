@@ -36,7 +36,7 @@ def motion(stroke: float, phases: tuple[float, ...], rise: str, back: str) -> Fo
 def worst(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Angle of the cam and ±α there, in degrees."""
     numbers = [n for n, one in enumerate(cam.motion.stretches) if one.phase == phase]
-    φ, α = max((cam.worst(n, lambda one: sign * one.traced.alpha) for n in numbers), key=lambda one: one[1])
+    φ, α = max((cam.worst(n, lambda one: sign * one.alpha) for n in numbers), key=lambda one: one[1])
     return math.degrees(φ), math.degrees(α)
 
 
@@ -93,7 +93,7 @@ def test_C3_small_offset() -> None:
     assert cam.s0 == pytest.approx(59.8665 * MM, abs=5e-5 * MM)
     assert worst(cam, "rise", 1) == pytest.approx((29.4, 10.03), abs=0.05)
     assert worst(cam, "return", -1) == pytest.approx((101, 16.83), abs=0.05)
-    at, least = cam.worst(0, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
+    at, least = cam.worst(0, lambda one: np.where(one.rho > 0, -one.rho, -np.inf))
     assert (math.degrees(at), -least / MM) == pytest.approx((44.3, 39.82), abs=0.05)
     assert -least / MM == pytest.approx(39.82, abs=5e-3)
 

@@ -1,4 +1,4 @@
-"""A sheet as a model: the crank and slider by closed formulas of arrays, from one sheet that is entered with numbers."""
+"""A sheet as a model: the crank and slider over arrays, from a sheet that is entered with single numbers."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from reportgen.formula import asin, cos, sin, sqrt
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
 
-
 R, L, PHI, UP, X, BETA = "l.O1A", "l.AB", "cam.phi", "cam.u", "cam.s", "cam.alpha"
-"""Ids that the vocabulary has: crank, rod, angle of the crank, height of the pin, way of the slider, angle of the rod."""
+"""Ids that the vocabulary has: for crank, rod, angle of the crank, height of the pin, way of the slider, rod."""
 
 
 def slider() -> Sheet:
