@@ -32,8 +32,8 @@ from reportgen.exercise.speeds import (
 )
 from reportgen.exercise.trains import by_rack, by_rims, by_train
 from reportgen.formula import Symbol, ids, refs
+from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Sheet
 
 BELOW_A_TURN = 1e-9
@@ -60,7 +60,7 @@ class Worked:
     @cached_property
     def printed(self) -> Ledger:
         """Every number as it is written down."""
-        return printed(self.ledger)
+        return carried(self.ledger)
 
     @property
     def by_method(self) -> bool:
