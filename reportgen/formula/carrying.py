@@ -9,12 +9,14 @@ that is carried with one decimal more, and all is written anew.  So each line st
 the like have as many decimals as the results need, and nothing has more than usual that does not need them.
 
 Roundings are taken as they are: to hold for the worst of them at once, a chain of twelve lines would have to begin with
-16 decimals.  What is measured on a drawing is as exact as that, and what stands on it claims no more.
+16 decimals.  What is measured on a drawing is as exact as that, and what stands on it has the figures that this gives.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 
@@ -32,16 +34,23 @@ MOST = 10
 """Decimals that anything is carried with at most."""
 
 Derivatives = Mapping[str, Mapping[str, np.ndarray]]
-"""Of each value that claims its decimals ∂r/∂q (SI) by those that it stands on, one or one per position."""
+"""Of each value ∂r/∂q (SI) by those that it stands on, one or one per position."""
 
 
 def carried(ledger: Ledger) -> Ledger:
     """The ledger as it is written down when every computed value carries the figures that others need of it."""
     decimals = dict(usual_decimals(ledger))
-    names, derivatives = names_of(ledger), _derivatives(ledger, decimals)
+    measured = {id for id, family in ledger.families.items() if family.kind == MEASURED and decimals[id] is not None}
+    drawn = _standing_on(ledger, measured)
+    names = {id: (name, id in drawn) for id, name in names_of(ledger).items()}
+    derivatives = _derivatives(ledger, decimals)
+    for id in drawn & derivatives.keys():
+        by = {one: derivative for one, derivative in derivatives[id].items() if one in measured}
+        decimals[id] = min(decimals[id] or 0, _as_drawn(ledger, id, by))
+    claimed = {id: by for id, by in derivatives.items() if id not in drawn | measured}
     while True:
         found, roundings = written(ledger, decimals, _ends)
-        finer = {names[cause] for cause in _causes(ledger, found, derivatives, roundings)}
+        finer = {names[cause] for cause in _causes(ledger, found, claimed, roundings)}
         if not finer:
             return found
         for id, own in decimals.items():
@@ -49,12 +58,32 @@ def carried(ledger: Ledger) -> Ledger:
                 decimals[id] = own + 1
 
 
+def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
+    """What is worked out from some quantities."""
+    found = set[str]()
+    for id, inputs in ledger.inputs.items():
+        if id not in some and not {*inputs}.isdisjoint(found | some):
+            found.add(id)
+    return found
+
+
+def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> int:
+    """The decimals that what is measured leaves a value: in the last of them it is right to one unit."""
+    off = sum(_half_unit(ledger[one]) * float(np.max(np.abs(by))) for one, by in measured.items())
+    return max(math.floor(-math.log10(2 * off / ledger[id].how.scale)), 0) if off else MOST
+
+
+def _half_unit(family: Family, decimals: int | None = None) -> float:
+    """Half a unit (SI) of the last of so many decimals, else of those of its kind."""
+    return 0.5 * 10.0 ** -(family.how.decimals or 0 if decimals is None else decimals) * family.how.scale
+
+
 def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivatives:
-    """Each value is moved by half a unit of its last decimal, all at once in worlds of their own [values, positions]."""
+    """Each value is moved by half a unit of its last decimal, in a world of its own: [values, positions]."""
     # What is nothing is written as 0, whatever stands above it.
     nothing = {id for id, family in ledger.families.items() if np.all(np.abs(family.values) <= ZERO * family.scale)}
     rounded = [id for id, own in decimals.items() if own is not None and id not in nothing]
-    steps = {id: 0.5 * 10.0 ** -(decimals[id] or 0) * ledger[id].how.scale for id in rounded}
+    steps = {id: _half_unit(ledger[id], decimals[id]) for id in rounded}
     one_each = np.eye(len(rounded) + 1)
 
     def moved(at: int, id: str) -> Callable[[np.ndarray, object], np.ndarray]:
@@ -63,17 +92,15 @@ def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivati
     held = {id: ledger[id].values for id in nothing}
     worlds = follow(by_lines(ledger), {**held, **{id: moved(at, id) for at, id in enumerate(rounded)}})
     found: dict[str, Mapping[str, np.ndarray]] = {}
-    drawn = set[str]()
-    for id, values in worlds.items():
-        family = ledger[id]
-        if family.kind == MEASURED or drawn.intersection(ledger.inputs[id]):
-            drawn.add(id)
-        elif id in steps and not family.residue:
-            by = np.real(values) - np.real(values[-1:])
-            by[~np.isfinite(by)] = 0.0
-            least = DUST * np.max(np.abs(family.values), initial=0.0)
-            standing = np.nonzero(np.max(np.abs(by), axis=-1) > least)[0]
-            found[id] = {rounded[at]: by[at] / steps[rounded[at]] for at in standing if rounded[at] != id}
+    for id in rounded:
+        values, family = worlds[id], ledger[id]
+        if family.residue:
+            continue
+        by = np.real(values) - np.real(values[-1:])
+        by[~np.isfinite(by)] = 0.0
+        least = DUST * np.max(np.abs(family.values), initial=0.0)
+        standing = np.nonzero(np.max(np.abs(by), axis=-1) > least)[0]
+        found[id] = {rounded[at]: by[at] / steps[rounded[at]] for at in standing if rounded[at] != id}
     return found
 
 
