@@ -270,7 +270,7 @@ def inversion(
     requests.append(label(0j, Symbol("O"), gap=1.9, prefer=(-2.4, -0.7)))
     radius = max(0.45 * cam.r0 * at, 5.0)
     begin = math.pi / 2 + 0.5
-    items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, style.VISIBLE, style.DIMENSION_HEAD))
+    items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, Pen(0.25), style.HEAD))
     requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
     return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from reportgen.cam.file import Parameters
 from reportgen.cam.solution import CamSolution
-from reportgen.formula.ledger import Ledger
 from reportgen.formula.carrying import carried
+from reportgen.formula.ledger import Ledger
 from reportgen.report.case import Opened
 
 
