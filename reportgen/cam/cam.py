@@ -12,8 +12,8 @@ from reportgen.assignment.common import Draft, of_parameters
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM
 from reportgen.cam import file
-from reportgen.cam.design import NoCamError
-from reportgen.cam.file import PerPhase, designed, exceeded, positions_of
+from reportgen.cam.design import NoCamError, touch
+from reportgen.cam.file import PerPhase, designed, exceeded, motion_of, positions_of, steep
 from reportgen.cam.laws import PHASES, AccelerationGraph
 
 if TYPE_CHECKING:
@@ -61,6 +61,8 @@ def _keys(given: Parameters) -> Iterator[Finding]:
         if key in told:
             yield Finding("cam-idle-key", (*TOP, key), {"key": key, "of": f"{given.follower}, {given.end}"}, at="key")
     sought = [key for key in ("r0", "e", "a") if given.seeks(key)]
+    if given.end == "flat" and given.seeks("a"):
+        yield Finding("cam-free", (*TOP, "a"))
     if sought and given.end != "flat" and given.limits is None:
         yield Finding("missing-key", (*TOP, "limits"), {"key": "limits"})
     if sought and sought != ["r0"] and "r0" not in sought:
@@ -120,20 +122,36 @@ def _shape(given: Parameters) -> Iterator[Finding]:
             ends = {"low": f"{abs(a.si - arm.si) * MM:g}", "high": f"{(a.si + arm.si) * MM:g}"}
             yield Finding("cam-triangle", (*TOP, "r0"), {"r0": r0.text, **ends})
             return
+    if not given.translating and (found := list(_swing(given))):
+        yield from found
+        return
     try:
-        found = designed(given)
+        cam = designed(given).cam
     except NoCamError as error:
         yield Finding(error.code, (*TOP, error.key))
         return
-    cam = found.cam
-    if not cam.translating:
-        farthest = cam.psi0 + cam.motion.stroke
-        if farthest >= math.pi * (0.5 if cam.flat else 1):
-            yield Finding("cam-past", (*TOP, "psi_max"), {"angle": f"{math.degrees(farthest):.2f}"})
-        elif cam.opposite < 0 and any(
-            cam.worst(number, lambda one: one.traced.ds)[1] >= 1 for number in range(len(cam.motion.stretches))
-        ):
-            yield Finding("cam-overtakes", (*TOP, "phases"))
+    if not cam.translating and cam.psi0 + cam.motion.stroke >= math.pi:
+        yield _past(cam.psi0 + cam.motion.stroke)
+
+
+def _swing(given: Parameters) -> Iterator[Finding]:
+    """A swing that is too fast for the cam, or too far for a face, which must keep short of a right angle."""
+    motion, flat = motion_of(given), given.end == "flat"
+    # Where k = 1 ± ψ′ vanishes the point of contact runs off along a face.
+    if given.lifts == "with":
+        fastest = touch(motion, "rise", lambda _, ds: ds).bound
+    else:
+        fastest = touch(motion, "return", lambda _, ds: -ds).bound if flat else 0.0
+    if fastest >= 1:
+        yield Finding("cam-overtakes", (*TOP, "phases"))
+    if flat:
+        start = math.asin(given.r0.si / given.a.si) if given.r0 and given.a else 0.0
+        if start + motion.stroke >= math.pi / 2:
+            yield _past(start + motion.stroke)
+
+
+def _past(angle: float) -> Finding:
+    return Finding("cam-past", (*TOP, "psi_max"), {"angle": f"{math.degrees(angle):.2f}"})
 
 
 def check(given: Parameters) -> Iterator[Finding]:
@@ -166,7 +184,7 @@ CHECKS = (of_parameters(check), _worked)
 
 
 def physics(assignment: Assignment) -> Iterator[Finding]:
-    """Rigid impacts, a pressure angle beyond its limit, a profile that is undercut: where, and what helps."""
+    """Rigid impacts, a pressure angle beyond its limit or what is usual, an undercut profile: where, and what helps."""
     given: Parameters = assignment.parameters
     found = designed(given)
     cam, motion = found.cam, found.cam.motion
@@ -180,6 +198,9 @@ def physics(assignment: Assignment) -> Iterator[Finding]:
         mend = f"{math.ceil(wanted.r0 * MM * 10) / 10:g}" if wanted is not None else ""
         told = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
         yield Finding("cam-pressure", (*TOP, "limits", phase), told | ({"r0": mend} if mend else {}))
+    for angle, at, usual in steep(found) if given.limits is None else ():
+        told = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
+        yield Finding("cam-steep", (*TOP, "r0"), told | {"usual": f"{math.degrees(usual):g}"})
     for angle in cam.undercut[:1]:
         yield Finding("cam-undercut", (*TOP, "roller" if cam.roller else "r0"), {"at": f"{math.degrees(angle):.1f}"})
 

@@ -2,13 +2,15 @@
 
 A translating follower is designed on the S–S′ diagram: (s′ − e)/(s₀ + s) ≤ tan [α] in the rise is a straight line above
 whose end the cam's centre lies, −(s′ − e)/(s₀ + s) ≤ tan [α′] in the return another.  Of an oscillating one
-cos(q − [α]) ≥ (l k/a) cos [α] in the rise and cos(q + [α′]) ≤ (l k/a) cos [α′] in the return, q = ψ₀ + ψ, k = 1 ± ψ′.
+tan α = ±(lk − a cos q)/(a sin q), q = ψ₀ + ψ, k = 1 ± ψ′, with + where cam and arm turn oppositely.  There the rise
+wants cos(q − [α]) ≥ (l k/a) cos [α] and the return cos(q + [α′]) ≤ (l k/a) cos [α′]; where they turn the same way the
+rise wants the second and the return the first.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -23,8 +25,14 @@ Rule = Literal["apex", "rise", "return"]
 SHARE_OF_RHO, SHARE_OF_R0 = 0.8, 0.4
 """A roller is no larger than these shares of the least radius of curvature and of the base circle."""
 GOLDEN = (math.sqrt(5) - 1) / 2
+USUAL_RISE = {True: math.radians(40), False: math.radians(45)}
+"""The largest pressure angle (rad) that is usual in the rise, of a translating follower (True) and of any other."""
+USUAL_BY_SPRING = math.radians(80)
+"""The largest pressure angle (rad) that is usual in a return that a spring drives."""
 TALLEST = 400
 """So many steps a base circle grows at most until nothing is undercut."""
+STEPS = 60
+"""So many base circles under an oscillating face are tried for one that is large enough."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +56,10 @@ class Touch:
 
 @dataclass(frozen=True)
 class Least:
-    """The least cam within the limits (m, rad): of a translating follower s₀ and e, of an oscillating one a and ψ₀."""
+    """The least cam within the limits (m, rad): of a translating follower s₀ and e, of an oscillating one a and ψ₀.
+
+    `most` is the largest ψ₀ within them.
+    """
 
     rule: Rule
     r0: float
@@ -56,6 +67,7 @@ class Least:
     s0: float = 0.0
     a: float = 0.0
     psi0: float = 0.0
+    most: float = math.inf
     rise: Touch | None = None
     back: Touch | None = None
     apex: complex | None = None
@@ -92,13 +104,14 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
     """The least cam of a translating follower with a knife or a roller, at a given offset or at the best one.
 
     c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) lead to s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′].
+    Where the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides by what is usual with a spring.
     """
     assert limits.rise is not None
     t1 = math.tan(limits.rise)
     rise = touch(motion, "rise", lambda s, ds: ds - t1 * s)
     back, t2 = None, math.inf
-    if limits.back is not None:
-        t2 = math.tan(limits.back)
+    if limits.back is not None or (e is not None and e >= rise.bound):
+        t2 = math.tan(limits.back or USUAL_BY_SPRING)
         back = touch(motion, "return", lambda s, ds: -ds - t2 * s)
     c1, c2 = rise.bound, back.bound if back else 0.0
 
@@ -122,36 +135,56 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
 
 
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
-    """The least cam of an oscillating roller at a distance a of the pivot; None where no ψ₀ keeps the limits."""
+    """The least cam of an oscillating follower at a distance a of the pivot (m); None where no ψ₀ keeps the limits.
+
+    Where the limit of the rise alone leaves ψ₀ free, down to an arm in line with the centres, the return decides by
+    what is usual with a spring.
+    """
     assert limits.rise is not None
-    α1, α2 = limits.rise, limits.back
-
-    def share(ds: Floats, α: float) -> Floats:
-        return arm * (1 + opposite * ds) * math.cos(α) / a
-
-    def lowest(s: Floats, ds: Floats) -> Floats:
-        found = share(ds, α1)
-        return np.where(found > 1, np.inf, α1 - np.arccos(np.clip(found, -1, 1)) - s)
-
-    def highest(s: Floats, ds: Floats) -> Floats:
-        return -(α1 + np.arccos(np.clip(share(ds, α1), -1, 1)) - s)
-
-    def of_return(s: Floats, ds: Floats) -> Floats:
-        assert α2 is not None
-        return np.arccos(np.clip(share(ds, α2), -1, 1)) - α2 - s
-
-    rise, most = touch(motion, "rise", lowest), -touch(motion, "rise", highest).bound
-    back = touch(motion, "return", of_return) if α2 is not None else None
-    rule: Rule = "return" if back is not None and back.bound > rise.bound else "rise"
-    ψ0 = max(rise.bound, back.bound if back else -math.inf)
+    found = [bounded(motion, "rise", limits.rise, arm, opposite, a)]
+    if limits.back is not None or found[0][0].bound <= 0:
+        found.append(bounded(motion, "return", limits.back or USUAL_BY_SPRING, arm, opposite, a))
+    touches, most = [touch for touch, _ in found], min(most for _, most in found)
+    back = touches[1] if len(touches) > 1 else None
+    rule: Rule = "return" if back is not None and back.bound > touches[0].bound else "rise"
+    ψ0 = max(touch.bound for touch in touches)
     if not 0 < ψ0 <= most or ψ0 + motion.stroke >= math.pi:
         return None
-    r0 = math.sqrt(a**2 + arm**2 - 2 * a * arm * math.cos(ψ0))
-    return Least(rule, r0, a=a, psi0=ψ0, rise=rise, back=back)
+    return Least(rule, triangle(a, arm, ψ0), a=a, psi0=ψ0, most=most, rise=touches[0], back=back)
+
+
+def bounded(
+    motion: FollowerMotion, phase: str, limit: float, arm: float, opposite: int, a: float
+) -> tuple[Touch, float]:
+    """Between what ψ₀ (rad) a phase keeps its limit: where the lower bound is touched, and the upper one.
+
+    With c = lk cos(limit)/a it is cos(q − limit) ≥ c in the rise against the cam and in the return with it: q from
+    limit − arccos c to limit + arccos c; else cos(q + limit) ≤ c: q from arccos c − limit to 2π − arccos c − limit.
+    """
+    side = opposite if phase == "rise" else -opposite
+
+    def share(ds: Floats) -> Floats:
+        return arm * (1 + opposite * ds) * math.cos(limit) / a
+
+    def half(ds: Floats) -> Floats:
+        return np.arccos(np.clip(share(ds), -1, 1))
+
+    def lowest(s: Floats, ds: Floats) -> Floats:
+        return np.where(side * share(ds) > 1, np.inf, side * (limit - half(ds)) - s)
+
+    def most(s: Floats, ds: Floats) -> Floats:
+        return (limit + half(ds) if side > 0 else 2 * math.pi - half(ds) - limit) - s
+
+    return touch(motion, phase, lowest), -touch(motion, phase, lambda s, ds: -most(s, ds)).bound
+
+
+def triangle(a: float, arm: float, angle: float) -> float:
+    """The third side of a triangle (m): a² + l² − 2al cos ψ as (a − l)² + 4al sin²(ψ/2), which is never negative."""
+    return math.hypot(a - arm, 2 * math.sqrt(a * arm) * math.sin(angle / 2))
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
-    """The least cam of an oscillating roller at the best distance a of the pivot, between 0.4 and 3 arms.
+    """The least cam of an oscillating follower at the best distance a of the pivot, between 0.4 and 3 arms.
 
     The region of the centres is convex, so that r₀ over a has one valley: a golden section finds it.
     """
@@ -162,14 +195,18 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
 
     grid = np.linspace(0.4 * arm, 3 * arm, 53)
     sizes = [of(float(a)) for a in grid]
-    best = int(np.argmin(sizes))
-    if not math.isfinite(sizes[best]):
+    index = int(np.argmin(sizes))
+    best, size = float(grid[index]), sizes[index]
+    if not math.isfinite(size):
         raise NoCamError("cam-no-centre", "limits")
-    low, high = float(grid[max(best - 1, 0)]), float(grid[min(best + 1, len(grid) - 1)])
+    low, high = float(grid[max(index - 1, 0)]), float(grid[min(index + 1, len(grid) - 1)])
+    # Beyond the ends of the valley there is no cam: the best one so far always stays between.
     while high - low > 1e-9 * arm:
-        one, other = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
-        low, high = (low, other) if of(one) <= of(other) else (one, high)
-    found = least_oscillating(motion, limits, arm, opposite, (low + high) / 2)
+        tried = best + (1 - GOLDEN) * (high - best) if high - best > best - low else best - (1 - GOLDEN) * (best - low)
+        tried_size = of(tried)
+        worse, best, size = (best, tried, tried_size) if tried_size < size else (tried, best, size)
+        low, high = (low, worse) if worse > best else (worse, high)
+    found = least_oscillating(motion, limits, arm, opposite, best)
     assert found is not None
     return found
 
@@ -183,17 +220,25 @@ def least_flat(cam: Cam, rho: float) -> float:
     def flattest(r0: float) -> float:
         tried = replace(cam, r0=r0)
         every = range(len(cam.motion.stretches))
-        return min(-tried.worst(number, lambda one: -one.traced.rho)[1] for number in every)
+        return min(-tried.worst(number, lambda one: -one.rho)[1] for number in every)
 
     if cam.translating:
         return max(rho - flattest(0.0), rho)
-    low, high = 0.0, 0.999 * cam.a * math.sin(min(math.pi / 2, max(math.pi - cam.motion.stroke, 0.0)))
-    if flattest(high) < rho:
+    # The face keeps short of a right angle to the line of centres.
+    tried = cam.a * np.sin(np.linspace(0, math.pi / 2 - cam.motion.stroke, STEPS + 2)[1:-1])
+    enough = next((i for i, r0 in enumerate(tried) if flattest(float(r0)) >= rho), None)
+    if enough is None:
         raise NoCamError("cam-not-convex", "r0")
+    low, high = float(tried[enough - 1]) if enough else 0.0, float(tried[enough])
     while high - low > 1e-9 * cam.a:
         middle = (low + high) / 2
         low, high = (low, middle) if flattest(middle) >= rho else (middle, high)
     return high
+
+
+def reaches(cam: Cam) -> bool:
+    """Whether an oscillating face keeps short of a right angle to the line of centres."""
+    return cam.r0 < cam.a and cam.psi0 + cam.motion.stroke < math.pi / 2
 
 
 # --- a choice as a person rounds it ---------------------------------------------------------------
@@ -217,15 +262,23 @@ def rounded_down(length: float) -> float:
     return round(math.floor(length / step + 1e-9) * step, 9)
 
 
-def grown(cam: Cam, rho: float) -> Cam:
-    """The cam with so large a base circle, by round steps, that no radius of curvature of its profile is below ρ."""
+def round_ups(length: float) -> Iterator[float]:
+    """Lengths that are no less, the roundest first: to its own step, to 1, 0.5 and 0.1 mm, and itself."""
+    yield rounded_up(length)
+    for step in (1.0 / MM, 0.5 / MM, 0.1 / MM):
+        yield round(math.ceil(length / step - 1e-9) * step, 9)
+    yield length
+
+
+def grown(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -> Cam:
+    """The cam with so large a base circle, by round steps, that it is enough; raises the error where none is."""
     for _ in range(TALLEST):
-        if sharpest(cam) >= rho - 1e-12:
+        if enough(cam):
             return cam
         cam = replace(cam, r0=rounded_up(cam.r0 + step_of(cam.r0) * 0.999))
-        if not cam.translating and cam.r0 >= cam.a + cam.arm:
+        if not cam.translating and (cam.r0 >= cam.a + cam.arm or cam.psi0 + cam.motion.stroke >= math.pi):
             break
-    raise NoCamError("cam-not-convex", "r0")
+    raise error
 
 
 def sharpest(cam: Cam) -> float:
@@ -235,10 +288,6 @@ def sharpest(cam: Cam) -> float:
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
-    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the profile's convex curvature, rounded down."""
-    bare = replace(cam, roller=0.0)
-    least = sharpest(bare)
-    found = rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))
-    if found <= 0:
-        raise NoCamError("cam-no-roller", "roller")
-    return found
+    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the convex curvature, rounded down; none if ≤ 0."""
+    least = sharpest(replace(cam, roller=0.0))
+    return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

@@ -181,9 +181,10 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
             for index, (ψ, rate) in enumerate(zip(s, ds, strict=True)):
                 arm = _arm(cam, float(ψ))
                 end = pivot + arm * cam.arm * (1 + σ * rate)
-                # Into the region: along the arm for the rise, back along it for the return, and to the cam's side.
+                # Into the region: to the cam's side, and along the arm in a rise against the cam or a return with it,
+                # else back along it.
                 aside = arm * 1j * σ * cam.turn
-                plane = HalfPlane(end, sign * arm * math.cos(limit) + aside * math.sin(limit))
+                plane = HalfPlane(end, sign * σ * arm * math.cos(limit) + aside * math.sin(limit))
                 planes.append(plane)
                 if index % (160 // (LINES - 1)) == 0:
                     shown.append((pivot + arm * cam.arm, end, plane))
@@ -269,7 +270,7 @@ def inversion(
     requests.append(label(0j, Symbol("O"), gap=1.9, prefer=(-2.4, -0.7)))
     radius = max(0.45 * cam.r0 * at, 5.0)
     begin = math.pi / 2 + 0.5
-    items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, style.VISIBLE, style.DIMENSION_HEAD))
+    items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, Pen(0.25), style.HEAD))
     requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
     return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
 

@@ -30,6 +30,8 @@ from reportgen.cam.laws import PHASES, AccelerationGraph, FollowerLaw, FollowerM
 from reportgen.cam.profile import Cam
 
 FIND = "find"
+ALLOWED = 1e-9
+"""A pressure angle may pass its limit by what floats do (rad)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +179,10 @@ class Designed:
     least: Least | None
     least_r0: float = 0.0
     """The least base circle under a flat face (m)."""
+    by_form: bool = False
+    """Whether the follower is closed by form, so that the cam drives the return, too."""
+    usual: bool = False
+    """Whether the limit of the return is none of the file, but what is usual with a spring."""
 
 
 def table_of(given: AccelerationTable) -> AccelerationGraph:
@@ -232,14 +238,32 @@ def designed(given: Parameters) -> Designed:
     least, flat = None, 0.0
     if cam.flat:
         flat = design.least_flat(cam, limits.rho)
-        cam = replace(cam, r0=design.rounded_up(flat)) if given.seeks("r0") else cam
+        if given.seeks("r0"):
+            rounded = (replace(cam, r0=r0) for r0 in design.round_ups(flat))
+            cam = next(one for one in rounded if cam.translating or design.reaches(one))
     elif limits.rise is not None:
         least, cam = _within(given, cam, limits)
-    if given.seeks("roller"):
-        cam = replace(cam, roller=design.largest_roller(cam, limits.rho))
-    elif given.seeks("r0") and not cam.flat and cam.roller:
-        cam = design.grown(cam, limits.rho)
-    return Designed(cam, limits, least, flat)
+    usual = limits.back is None and least is not None and least.back is not None
+    if usual:
+        limits = replace(limits, back=design.USUAL_BY_SPRING)
+    return Designed(
+        _with_roller(given, cam, limits.rho), limits, least, flat, by_form=given.closed_by == "form", usual=usual
+    )
+
+
+def _with_roller(given: Parameters, cam: Cam, rho: float) -> Cam:
+    """The cam with the roller that is sought; a base circle that is sought grows as far as the curvature wants it."""
+    if cam.flat:
+        return cam
+    if not given.seeks("roller"):
+        convex = NoCamError("cam-not-convex", "r0")
+        return design.grown(cam, lambda one: design.sharpest(one) >= rho - 1e-12, convex) if given.seeks("r0") else cam
+    none = NoCamError("cam-no-roller", "roller")
+    if given.seeks("r0"):
+        cam = design.grown(cam, lambda one: design.largest_roller(one, rho) > 0, none)
+    if (roller := design.largest_roller(cam, rho)) <= 0:
+        raise none
+    return replace(cam, roller=roller)
 
 
 def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | None, Cam]:
@@ -252,15 +276,20 @@ def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | Non
             return least, replace(cam, e=e)
         needed = design.least_translating(motion, limits, e).r0
         return least, replace(cam, e=e, r0=design.rounded_up(needed))
+
+    def at(a: float) -> Least | None:
+        return design.least_oscillating(motion, limits, cam.arm, cam.opposite, a)
+
     if given.seeks("a"):
-        best = design.best_distance(motion, limits, cam.arm, cam.opposite)
-        cam = replace(cam, a=design.rounded_up(best.a))
-    found = design.least_oscillating(motion, limits, cam.arm, cam.opposite, cam.a)
+        best = design.best_distance(motion, limits, cam.arm, cam.opposite).a
+        cam = replace(cam, a=next(a for a in design.round_ups(best) if at(a) is not None))
+    found = at(cam.a)
+    if not given.seeks("r0"):
+        return found, cam
     if found is None:
-        if given.seeks("r0"):
-            raise NoCamError("cam-no-centre", "limits")
-        return None, cam
-    return found, replace(cam, r0=design.rounded_up(found.r0)) if given.seeks("r0") else cam
+        raise NoCamError("cam-no-centre", "limits")
+    chosen = (replace(cam, r0=r0) for r0 in design.round_ups(found.r0))
+    return found, next(one for one in chosen if one.psi0 <= found.most + ALLOWED)
 
 
 def positions_of(given: Parameters) -> tuple[float, ...]:
@@ -284,9 +313,6 @@ def positions_of(given: Parameters) -> tuple[float, ...]:
 
 # --- what is judged of it -------------------------------------------------------------------------
 
-ALLOWED = 1e-9
-"""A pressure angle may pass its limit by what floats do (rad)."""
-
 
 def exceeded(found: Designed) -> Iterator[tuple[str, float, float]]:
     """The phases in which the pressure angle passes its limit: its largest value, and at which angle of the cam."""
@@ -299,10 +325,22 @@ def exceeded(found: Designed) -> Iterator[tuple[str, float, float]]:
             yield phase, angle, at
 
 
+def steep(found: Designed) -> Iterator[tuple[float, float, float]]:
+    """Where no limits are given: pressure angles beyond what is usual, by their size, with where and what is usual."""
+    cam = found.cam
+    if cam.flat:
+        return
+    rise = design.USUAL_RISE[cam.translating]
+    for phase, usual in (("rise", rise), ("return", rise if found.by_form else design.USUAL_BY_SPRING)):
+        at, angle = max((extreme(cam, phase, sign) for sign in (1, -1)), key=lambda one: one[1])
+        if angle > usual + ALLOWED:
+            yield angle, at, usual
+
+
 def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Where in a phase ±α is greatest, and how great it is."""
     numbers = [number for number, one in enumerate(cam.motion.stretches) if one.phase == phase]
-    return max((cam.worst(number, lambda one: sign * one.traced.alpha) for number in numbers), key=lambda one: one[1])
+    return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 
 
 @dataclass(frozen=True)
@@ -327,7 +365,7 @@ def judged(cam: Cam) -> Judged:
             if of == "working":
                 φ, value = cam.worst(number, lambda one: -one.effective)
             else:
-                φ, value = cam.worst(number, lambda one: np.where(one.traced.rho > 0, -one.traced.rho, -np.inf))
+                φ, value = cam.worst(number, lambda one: np.where(one.rho > 0, -one.rho, -np.inf))
             found.append((φ, -value))
         return min(found, key=lambda one: one[1])
 

@@ -228,6 +228,12 @@ class Stretch:
     def x(self, φ: Floats) -> Floats:
         return (φ - self.begin) / self.angle
 
+    @cached_property
+    def own(self) -> tuple[Expression, ...]:
+        """s, s′ and s″ by x, Φ (rad) and h (SI)."""
+        x, Φ, h = Ref("x"), Ref("Φ"), Ref("h")
+        return tuple(map(as_expression, self.formulas(x, Φ, h, h)))
+
     def formulas(self, x: Expression, Φ: Operand, h: Expression, of_rates: Expression) -> tuple[Operand, ...]:
         """s, s′ and s″ by a stroke, a phase angle (rad) and x as they are called; rates by the stroke as an arc."""
         match self.phase, self.piece:
@@ -307,17 +313,10 @@ class FollowerMotion:
         found = np.zeros((3, φ.size))
         for number, one in enumerate(self.stretches):
             here = numbers == number
-            if one.phase == "far":
-                found[0, here] = self.stroke
-            if one.piece is None or not here.any():
-                continue
-            x = one.x(turned[here])
-            S, V, A = (evaluated(of, x) for of in (one.piece.S, one.piece.V, one.piece.A))
-            rate = self.stroke / one.angle
-            up = one.phase == "rise"
-            found[0, here] = self.stroke * (S if up else 1 - S)
-            found[1, here] = rate * V if up else -rate * V
-            found[2, here] = rate / one.angle * (A if up else -A)
+            if here.any():
+                values = {"x": one.x(turned[here]), "Φ": one.angle, "h": self.stroke}
+                for row, formula in zip(found, one.own, strict=True):
+                    row[here] = evaluate(formula, values)
         return found[0], found[1], found[2]
 
     @cached_property

@@ -2,14 +2,15 @@
 
 The plane is complex.  F(φ) is the follower's point (centre of the roller, edge of the knife, point of contact of a
 flat face) in the fixed frame of a cam that turns anticlockwise about 0; in the cam's own frame it is F e^(−iφ).  With
-dots for d/dφ the tangent there is (Ḟ − iF) e^(−iφ), so that N = F + iḞ is the outward normal in the fixed frame.  The
-profile of a cam that turns clockwise is the mirror image.
+dots for d/dφ the tangent there is (Ḟ − iF) e^(−iφ), so that N = F + iḞ is the outward normal in the fixed frame.  With
+the way t in which the follower lifts, F + iḞ = F + it dS/dφ for a lift S, so that the pressure angle α = arg(N/t) grows
+with the speed of the lift in either sense of an arm.  The profile of a cam that turns clockwise is the mirror image.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -17,30 +18,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.laws import NODE, Floats, FollowerMotion
+from reportgen.formula import ids
+from reportgen.formula.model import model
+from reportgen.formula.sheet import Sheet
 
 Complexes = NDArray[np.complexfloating[Any, Any]]
 Numbers = NDArray[np.intp]
-
-
-@dataclass(frozen=True)
-class Traced:
-    """A cam over angles [N]: motion, the follower's point in both frames, normals, pressure angle, radii of curvature.
-
-    `normal` is of length 1 in the cam's frame; `ρ` of the pitch curve, or the profile of a flat face, is positive where
-    it is convex.  `pitch` and `working` are in the cam's frame, `outer` the other branch of the offset.
-    """
-
-    φ: Floats
-    s: Floats
-    ds: Floats
-    dds: Floats
-    at: Complexes
-    pitch: Complexes
-    normal: Complexes
-    alpha: Floats
-    rho: Floats
-    working: Complexes
 
 
 @dataclass(frozen=True)
@@ -63,69 +48,52 @@ class Cam:
     roller: float = 0.0
     turn: int = 1
 
+    @cached_property
+    def kind(self) -> CamKind:
+        """Which formulas hold for it."""
+        return CamKind(self.translating, self.flat, bool(self.e), bool(self.roller), self.opposite, self.turn)
+
+    @property
+    def lengths(self) -> Mapping[str, float]:
+        """Its lengths (m) by their ids."""
+        return {"cam.e": self.e, "cam.a": self.a, "cam.l": self.arm, "cam.r0": self.r0, "cam.roller": self.roller}
+
+    @cached_property
+    def sheet(self) -> Sheet:
+        """Its formulas, by which it is traced: those of the report, at one angle."""
+        q = Sheet()
+        enter_lengths(q, self.kind, self.lengths)
+        for id in ("cam.phi", *self.kind.moved):
+            q.give(id, 0.0)
+        if self.translating and not self.flat:
+            enter_lowest(q, self.kind)
+        enter_profile(q, self.kind)
+        return q
+
     @property
     def s0(self) -> float:
-        """s₀ = √(r₀² − e²), the height of the lowest position of a translating follower."""
-        return math.sqrt(max(self.r0**2 - self.e**2, 0.0))
+        """s₀, the height of the lowest position of a translating follower with a tip (m)."""
+        return self.sheet.si("cam.s0")
 
     @property
     def psi0(self) -> float:
-        """ψ₀ of arm and line of centres at the start: cos ψ₀ = (a² + l² − r₀²)/2al; of a face sin ψ₀ = r₀/a."""
-        if self.flat:
-            return math.asin(min(self.r0 / self.a, 1.0))
-        cosine = (self.a**2 + self.arm**2 - self.r0**2) / (2 * self.a * self.arm)
-        return math.acos(min(max(cosine, -1.0), 1.0))
+        """ψ₀ of arm or face and line of centres at the start (rad)."""
+        return self.sheet.si("cam.psi0")
 
     def traced(self, φ: Floats, of: Numbers | None = None) -> Traced:
         """The cam at angles [N]; `of` says in which stretch of the motion each is taken to be."""
-        s, ds, dds = self.motion(φ, of)
-        point, normal, alpha, rho = (self._translating if self.translating else self._oscillating)(s, ds, dds)
-        turned = np.exp(-1j * φ)
-        normal = normal / np.abs(normal)
-        pitch, out = self.mirrored(point * turned), self.mirrored(normal * turned)
-        return Traced(
-            φ,
-            s,
-            ds,
-            dds,
-            at=self.mirrored(point),
-            pitch=pitch,
-            normal=out,
-            alpha=alpha,
-            rho=rho,
-            working=pitch - self.roller * out,
-        )
+        return Traced(self, φ, *self.motion(φ, of))
+
+    def lifting(self, s: Floats) -> Complexes:
+        """The way in which the follower lifts, of length 1 in the fixed frame of a cam that turns anticlockwise."""
+        if self.translating:
+            return np.full(s.shape, 1j)
+        lifting: Complexes = 1j * np.exp(-1j * self.opposite * (self.psi0 + s))
+        return lifting
 
     def mirrored(self, points: Complexes) -> Complexes:
         """Points of a cam that turns anticlockwise as they are at one that turns as this does."""
         return points if self.turn > 0 else -points.conj()
-
-    def _translating(self, s: Floats, ds: Floats, dds: Floats) -> tuple[Complexes, Complexes, Floats, Floats]:
-        """Along +y at x = e: tan α = (s′ − e)/(s₀ + s); a flat face is touched at s′ from the axis."""
-        if self.flat:
-            high = self.r0 + s
-            return ds + 1j * high, np.full(s.shape, 1j, dtype=np.complex128), np.zeros(s.shape), high + dds
-        high, aside = self.s0 + s, self.e - ds
-        with np.errstate(divide="ignore", invalid="ignore"):
-            rho = (high**2 + aside**2) ** 1.5 / (high * (high - dds) + aside * (aside - ds))
-        return self.e + 1j * high, aside + 1j * high, np.arctan2(-aside, high), rho
-
-    def _oscillating(self, s: Floats, ds: Floats, dds: Floats) -> tuple[Complexes, Complexes, Floats, Floats]:
-        """About ±a: tan α = (l k − a cos q)/(a sin q) with q = ψ₀ + ψ and k = 1 ± ψ′, + for opposite senses."""
-        σ, a, q = self.opposite, self.a, self.psi0 + s
-        k = 1 + σ * ds
-        cos, sin = np.cos(q), np.sin(q)
-        if self.flat:
-            along = a * cos / k
-            rho = a * sin + (a * cos * dds - a * sin * ds**2 - σ * a * cos * ds * dds / k) / k**2
-            return σ * a + along * (1j * sin - σ * cos), sin * σ + 1j * cos, np.zeros(s.shape), rho
-        arm = self.arm
-        u, w = arm * k * sin, a - arm * k * cos
-        with np.errstate(divide="ignore", invalid="ignore"):
-            bent = u * arm * (k**2 * sin - dds * cos) + w * (a - arm * (k**2 * cos + dds * sin))
-            rho = (u**2 + w**2) ** 1.5 / bent
-        alpha = np.arctan2(arm * k - a * cos, a * sin)
-        return σ * (a - arm * cos) + 1j * arm * sin, σ * w + 1j * u, alpha, rho
 
     # --- curves
 
@@ -178,22 +146,58 @@ class Cam:
         found += [one.angle for one in self.motion.impacts if one.kind == "rigid" and one.jump < 0]
         return tuple(sorted(set(found)))
 
-    def worst(self, number: int, of: Callable[[Shown], Floats]) -> tuple[float, float]:
+    def worst(self, number: int, of: Callable[[Traced], Floats]) -> tuple[float, float]:
         """Where in a stretch a quantity of the cam is greatest, and how great it is."""
         one = self.motion.stretches[number]
 
         def value(φ: Floats) -> Floats:
-            return of(Shown(self, self.traced(φ, np.full(φ.shape, number))))
+            return of(self.traced(φ, np.full(φ.shape, number)))
 
         return greatest(value, one.start, one.stop)
 
 
 @dataclass(frozen=True)
-class Shown:
-    """A cam traced, with what is judged of it."""
+class Traced:
+    """A cam over angles φ [N] with the follower's motion there; all else [N] is worked out when it is first asked for.
+
+    Points and normals are in the cam's frame, but for `at`.
+    """
 
     cam: Cam
-    traced: Traced
+    φ: Floats
+    s: Floats
+    ds: Floats
+    dds: Floats
+
+    def _of(self, *wanted: str) -> list[Floats]:
+        """Some quantities of the cam's sheet, by their ids."""
+        motion = zip(self.cam.kind.moved, (self.s, self.ds, self.dds), strict=True)
+        found = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
+        return [np.broadcast_to(found[id], self.φ.shape) for id in wanted]
+
+    @cached_property
+    def alpha(self) -> Floats:
+        """The pressure angle (rad); none under a flat face."""
+        return np.zeros(self.φ.shape) if self.cam.flat else self._of("cam.alpha")[0]
+
+    @cached_property
+    def rho(self) -> Floats:
+        """The radius of curvature (m) of the pitch curve, or of the profile of a face, positive where convex."""
+        return self._of("cam.rho")[0]
+
+    @cached_property
+    def pitch(self) -> Complexes:
+        """The follower's point (m)."""
+        x, y = self._of(*map(ids.cam_profile if self.cam.flat else ids.cam_pitch, "xy"))
+        return x + 1j * y
+
+    @cached_property
+    def working(self) -> Complexes:
+        """The point of the profile (m)."""
+        if not self.cam.roller:
+            return self.pitch
+        x, y = self._of(*map(ids.cam_profile, "xy"))
+        return x + 1j * y
 
     @property
     def effective(self) -> Floats:
@@ -201,10 +205,20 @@ class Shown:
 
         Where it is concave the working one has a larger radius, and nothing is cut away.
         """
-        rho = self.traced.rho
         if self.cam.flat:
-            return rho
-        return np.where((rho > 0) & np.isfinite(rho), rho - self.cam.roller, np.inf)
+            return self.rho
+        return np.where((self.rho > 0) & np.isfinite(self.rho), self.rho - self.cam.roller, np.inf)
+
+    @cached_property
+    def at(self) -> Complexes:
+        """The follower's point in the fixed frame (m)."""
+        turned: Complexes = np.exp(1j * self.cam.turn * self.φ)
+        return self.pitch * turned
+
+    @cached_property
+    def normal(self) -> Complexes:
+        """The outward normal, of length 1: the way in which the follower lifts, turned by the pressure angle."""
+        return self.cam.mirrored(self.cam.lifting(self.s) * np.exp(1j * (self.alpha - self.φ)))
 
 
 def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[float, float]:

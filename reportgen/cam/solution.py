@@ -16,6 +16,7 @@ import numpy as np
 from reportgen.base.units import MM, nice_up
 from reportgen.cam.design import Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
+from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
 from reportgen.cam.laws import Floats, FollowerMotion, Stretch
 from reportgen.cam.profile import Cam, Traced
 from reportgen.formula import (
@@ -27,13 +28,9 @@ from reportgen.formula import (
     Symbol,
     acos,
     as_expression,
-    asin,
-    atan,
     branch,
     cos,
     ids,
-    signed,
-    sin,
     sqrt,
     substitute,
     tan,
@@ -113,10 +110,7 @@ class CamSolution:
         q.enter_motion()
         q.enter_scales()
         q.enter_least()
-        if self.cam.flat:
-            q.enter_flat()
-        else:
-            q.enter_profile()
+        enter_profile(q.q, self.cam.kind)
         if self.cam.flat:
             q.q.set_out("points", "cam.q", "cam.k")
         for name, lines in LINES.items():
@@ -165,7 +159,7 @@ class CamSolution:
     @property
     def moved(self) -> tuple[str, str, str]:
         """s, s′ and s″ as the ledger calls them."""
-        return ("cam.s", "cam.ds", "cam.dds") if self.cam.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
+        return self.cam.kind.moved
 
 
 class CamSheet:
@@ -174,7 +168,7 @@ class CamSheet:
     def __init__(self, of: CamSolution) -> None:
         self.of, self.cam, self.given = of, of.cam, of.given
         self.q = Sheet(len(of.degrees))
-        self.turn, self.σ = of.cam.turn, of.cam.opposite
+        self.σ = of.cam.opposite
 
     # --- what is given and chosen
 
@@ -192,15 +186,7 @@ class CamSheet:
             if given.n is not None:
                 n = q.give("cam.n", given.n.value)
                 q.define("cam.omega", 2 * PI * n / 60)
-            if not cam.translating:
-                q.give("cam.a", cam.a)
-                if not cam.flat:
-                    q.give("cam.l", cam.arm)
-            elif not cam.flat:
-                q.give("cam.e", cam.e)
-            q.give("cam.r0", cam.r0)
-            if cam.roller:
-                q.give("cam.roller", cam.roller)
+            enter_lengths(q, cam.kind, cam.lengths)
 
     # --- the law of motion
 
@@ -228,13 +214,13 @@ class CamSheet:
         written = [self._formulas(one, x) for one in stretches]
         for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
             q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
-        self.s, self.ds, self.dds = (q[id] for id in self.of.moved)
+        _, ds, dds = (q[id] for id in self.of.moved)
         if omega := q.find("cam.omega"):
             rate, acceleration = (
                 ("cam.v", "cam.acceleration") if self.cam.translating else ("cam.omega.f", "cam.epsilon.f")
             )
-            q.define(rate, omega * self.ds, scale=motion.stroke)
-            q.define(acceleration, omega**2 * self.dds, scale=motion.stroke)
+            q.define(rate, omega * ds, scale=motion.stroke)
+            q.define(acceleration, omega**2 * dds, scale=motion.stroke)
 
     def enter_scales(self) -> None:
         """Scales of the diagrams of the motion: μ_s″ is round; with whole pole distances K the others follow."""
@@ -322,7 +308,7 @@ class CamSheet:
         if self.cam.translating:
             if least is not None:
                 self._translating()
-            q.define("cam.s0", sqrt(q["cam.r0"] ** 2 - q["cam.e"] ** 2) if self.cam.e else q["cam.r0"])
+            enter_lowest(q, self.cam.kind)
             return
         if least is not None:
             self._oscillating()
@@ -384,91 +370,12 @@ class CamSheet:
         assert least is not None
         a, arm = q["cam.a"], q["cam.l"]
         found: dict[str, Expression] = {}
-        if least.rise is not None:
-            ψ, dψ = self._touch("rise", least.rise)
-            limit = q["cam.limit.rise"]
-            found["rise"] = limit - acos(arm * self.k(dψ) * cos(limit) / a) - ψ
-        if least.back is not None:
-            ψ, dψ = self._touch("return", least.back)
-            limit = q["cam.limit.return"]
-            found["return"] = acos(arm * self.k(dψ) * cos(limit) / a) - limit - ψ
+        for phase, touch, side in (("rise", least.rise, self.σ), ("return", least.back, -self.σ)):
+            if touch is None:
+                continue
+            ψ, dψ = self._touch(phase, touch)
+            limit = q[ids.cam_limit(phase)]
+            aside = acos(arm * factor(dψ, self.σ) * cos(limit) / a)
+            found[phase] = limit - aside - ψ if side > 0 else aside - limit - ψ
         ψ0 = q.define("cam.least.psi0", found[least.rule])
         q.define("cam.least.r0", sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0)))
-
-    def k(self, dψ: Ref) -> Expression:
-        return 1 + dψ if self.σ > 0 else 1 - dψ
-
-    # --- the profile
-
-    def across(self, of: Expression) -> Expression:
-        """An abscissa in the frame of a cam that turns as this one does."""
-        return signed(self.turn, of)
-
-    def enter_profile(self) -> None:
-        """Pitch curve by inversion, pressure angle, radius of curvature; then the working curve."""
-        q, r0 = self.q, self.cam.r0
-        φ = q["cam.phi"]
-        if self.cam.translating:
-            s0, e, s, ds, dds = q["cam.s0"], q["cam.e"], self.s, self.ds, self.dds
-            x: Expression
-            y: Expression
-            u = q.define("cam.u", s0 + s)
-            if self.cam.e:
-                w = q.define("cam.w", ds - e)
-                x, y = (s0 + s) * sin(φ) + e * cos(φ), (s0 + s) * cos(φ) - e * sin(φ)
-                α = q.define("cam.alpha", atan((ds - e) / (s0 + s)), scale=1.0)
-                ρ = sqrt(u**2 + w**2) ** 3 / (u * (u - dds) + w * (w + ds))
-            else:
-                x, y = (s0 + s) * sin(φ), (s0 + s) * cos(φ)
-                α = q.define("cam.alpha", atan(ds / (s0 + s)), scale=1.0)
-                ρ = sqrt(u**2 + ds**2) ** 3 / (u * (u - dds) + 2 * ds**2)
-            lean: Expression = φ - α
-        else:
-            a, arm, ψ, dψ, ddψ = q["cam.a"], q["cam.l"], self.s, self.ds, self.dds
-            ψ0 = q.define("cam.psi0", acos((a**2 + arm**2 - q["cam.r0"] ** 2) / (2 * a * arm)))
-            at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
-            α = q.define("cam.alpha", atan((arm * k - a * cos(at)) / (a * sin(at))), scale=1.0)
-            x, y = self._inverted(a - arm * cos(at), arm * sin(at))
-            u, w = q.define("cam.u", arm * k * sin(at)), q.define("cam.w", a - arm * k * cos(at))
-            bend = q.define("cam.m.1", arm * (k**2 * sin(at) - ddψ * cos(at)))
-            turn = q.define("cam.m.2", a - arm * (k**2 * cos(at) + ddψ * sin(at)))
-            ρ = sqrt(u**2 + w**2) ** 3 / (u * bend + w * turn)
-            lean = φ + (at - α) if self.σ > 0 else φ - (at - α)
-        x_B = q.define(ids.cam_pitch("x"), self.across(x), scale=r0)
-        y_B = q.define(ids.cam_pitch("y"), y, scale=r0)
-        ρ_B = q.define("cam.rho", ρ)
-        if self.cam.roller:
-            roller = q["cam.roller"]
-            q.define(ids.cam_profile("x"), x_B - signed(self.turn, roller * sin(lean)), scale=r0)
-            q.define(ids.cam_profile("y"), y_B - roller * cos(lean), scale=r0)
-            q.define("cam.rho.working", ρ_B - roller)
-
-    def _inverted(self, across: Expression, up: Expression) -> tuple[Expression, Expression]:
-        """A point of an oscillating follower, so far from the cam's centre towards the pivot and up, turned by −φ."""
-        φ = self.q["cam.phi"]
-        if self.σ > 0:
-            return up * sin(φ) + across * cos(φ), up * cos(φ) - across * sin(φ)
-        return up * sin(φ) - across * cos(φ), up * cos(φ) + across * sin(φ)
-
-    def enter_flat(self) -> None:
-        q, φ, r0 = self.q, self.q["cam.phi"], self.cam.r0
-        x: Expression
-        y: Expression
-        ρ: Expression
-        if self.cam.translating:
-            s, ds, dds = self.s, self.ds, self.dds
-            high = q["cam.r0"] + s
-            x, y = high * sin(φ) + ds * cos(φ), high * cos(φ) - ds * sin(φ)
-            ρ = q["cam.r0"] + s + dds
-        else:
-            a, ψ, dψ, ddψ = q["cam.a"], self.s, self.ds, self.dds
-            ψ0 = q.define("cam.psi0", asin(q["cam.r0"] / a))
-            at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", self.k(dψ))
-            L = q.define("cam.contact", a * cos(at) / k)
-            x, y = self._inverted(a - L * cos(at), L * sin(at))
-            bend = q.define("cam.m.1", cos(at) * ddψ - sin(at) * dψ**2, kind="ratio")
-            turn = q.define("cam.m.2", cos(at) * dψ * ddψ / k, kind="ratio")
-            ρ = a * sin(at) + a * (bend - turn if self.σ > 0 else bend + turn) / k**2
-        q.define(ids.cam_profile("x"), self.across(x), scale=r0)
-        q.define(ids.cam_profile("y"), y, scale=r0)
-        q.define("cam.rho", ρ)

@@ -9,8 +9,8 @@ import numpy as np
 
 from reportgen.cam.file import Parameters
 from reportgen.cam.solution import CamSolution
+from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.rounding import printed
 from reportgen.report.case import Opened
 
 
@@ -31,7 +31,7 @@ class SolvedCam(Opened):
 
     @cached_property
     def printed(self) -> Ledger:
-        return printed(self.ledger)
+        return carried(self.ledger)
 
     @property
     def count(self) -> int:

@@ -11,7 +11,7 @@ from typing import Any
 from reportgen.base.units import MM
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
-from reportgen.cam.file import Judged, exceeded, judged
+from reportgen.cam.file import ALLOWED, Judged, exceeded, judged
 from reportgen.cam.laws import FollowerLaw, Piece
 from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
@@ -29,6 +29,8 @@ ROWS = 16.0
 """The width of the column of positions (mm)."""
 WIDEST = 27.0
 ANGLE = 2
+DUST = 1e-12
+"""What floats leave of a length (m)."""
 NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
 
 
@@ -47,6 +49,17 @@ class ImpactView:
 
     rigid: bool
     angles: Inlines
+
+
+@dataclass(frozen=True)
+class RequirementView:
+    """A requirement by its words' key: what is wanted at most or at least, what there is, and whether it holds."""
+
+    key: str
+    sign: str
+    wanted: Number
+    actual: Number
+    holds: bool
 
 
 @dataclass(frozen=True)
@@ -102,6 +115,7 @@ class CamPage(DesignPage[SolvedCam]):
             "has_limits": found.limits.rise is not None,
             "limited": found.limits.rise is not None and not cam.flat,
             "both_limits": found.limits.back is not None,
+            "usual": found.usual,
             "least": found.least is not None,
             "apex": "cam.apex.s0" in case.ledger,
             "apex_is_least": found.least is not None and found.least.rule == "apex",
@@ -121,7 +135,7 @@ class CamPage(DesignPage[SolvedCam]):
             "extremes": self.judged,
             "exceeded": exceeded,
             "undercut": undercut,
-            "sound": not (exceeded or undercut),
+            "sound": not (exceeded or undercut) and all(one.holds for one in self.required),
             # symbols, numbers, lines, figures
             "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
             "value": lambda id, k=None: Value(case.printed.number(id, k)),
@@ -167,6 +181,8 @@ class CamPage(DesignPage[SolvedCam]):
         """The data with their names, symbols and values; what was found is left out."""
         case, heads, finds = self.case, self.case.words["table"], self.case.solution.given.finds
         hidden = {_id(key) for key in finds}
+        if case.solution.designed.usual:
+            hidden.add(ids.cam_limit("return"))
         rows = []
         for id, name in case.words["given"].items():
             if id in case.printed and id not in hidden:
@@ -312,33 +328,38 @@ class CamPage(DesignPage[SolvedCam]):
         angles = self.case.solution.cam.undercut
         return listed(Value(Number(math.degrees(angle), 1, "°")) for angle in angles)
 
-    @property
-    def checks(self) -> Table:
+    @cached_property
+    def required(self) -> tuple[RequirementView, ...]:
         """What is required, what there is, and whether it holds."""
-        words, found = self.words["checks"], self.case.solution.designed
-        rows: list[tuple[Cell, ...]] = []
+        return tuple(self._required())
 
-        def row(key: str, wanted: Inlines, actual: Number, holds: bool) -> None:
-            verdict = words["yes"] if holds else words["no"]
-            rows.append(
-                (Cell((Text(str(words[key])),)), Cell(wanted), Cell((Value(actual),)), Cell((Text(str(verdict)),)))
-            )
-
-        cam, limits, seen = found.cam, found.limits, self.judged
+    def _required(self) -> Iterator[RequirementView]:
+        found, seen = self.case.solution.designed, self.judged
+        cam, limits = found.cam, found.limits
         for phase, limit, extreme in (("rise", limits.rise, seen.rise), ("return", limits.back, seen.back)):
             if limit is not None and not cam.flat:
                 size = Number(math.degrees(extreme[1]), ANGLE, "°")
-                wanted = (Text("≤ "), Value(Number(float(f"{math.degrees(limit):.6g}"), None, "°")))
-                row(phase, wanted, size, extreme[1] <= limit + 1e-9)
-        if cam.flat or cam.roller:
-            least = Number(float(f"{limits.rho * MM:.6g}"), None, "mm")
-            left = seen.least_working[1]
-            row("rho", (Text("≥ "), Value(least)), Number(left * MM, 3, "mm"), left >= limits.rho - 1e-12)
+                most = Number(float(f"{math.degrees(limit):.6g}"), None, "°")
+                yield RequirementView(phase, "≤ ", most, size, extreme[1] <= limit + ALLOWED)
+        least, left = Number(float(f"{limits.rho * MM:.6g}"), None, "mm"), seen.least_working[1]
+        yield RequirementView("rho", "≥ ", least, Number(left * MM, 3, "mm"), left >= limits.rho - DUST)
         if cam.roller:
-            for key, most in (("roller_rho", 0.8 * seen.least_rho[1]), ("roller_r0", 0.4 * cam.r0)):
-                size_of = Number(float(f"{cam.roller * MM:.6g}"), None, "mm")
-                wanted = (Text("≤ "), Value(Number(most * MM, 3, "mm")))
-                row(key, wanted, size_of, cam.roller <= most + 1e-12)
+            for key, radius in (("roller_rho", 0.8 * seen.least_rho[1]), ("roller_r0", 0.4 * cam.r0)):
+                size = Number(float(f"{cam.roller * MM:.6g}"), None, "mm")
+                yield RequirementView(key, "≤ ", Number(radius * MM, 3, "mm"), size, cam.roller <= radius + DUST)
+
+    @property
+    def checks(self) -> Table:
+        words = self.words["checks"]
+        rows = [
+            (
+                Cell((Text(str(words[one.key])),)),
+                Cell((Text(one.sign), Value(one.wanted))),
+                Cell((Value(one.actual),)),
+                Cell((Text(str(words["yes" if one.holds else "no"])),)),
+            )
+            for one in self.required
+        ]
         head = tuple(Cell((Text(str(one)),)) for one in words["head"])
         widths = (Column(CHECKS[0], "left"), *(Column(one) for one in CHECKS[1:]))
         return Table(widths, (head,), tuple(rows), self.caption("checks"), "tab.checks")

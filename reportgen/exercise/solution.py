@@ -32,9 +32,9 @@ from reportgen.exercise.speeds import (
 )
 from reportgen.exercise.trains import by_rack, by_rims, by_train
 from reportgen.formula import Symbol, ids, refs
+from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.rounding import printed
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.sheet import DUST, Sheet
 
 BELOW_A_TURN = 1e-9
 """An angle this little below a whole turn (degrees) is none."""
@@ -56,11 +56,17 @@ class Worked:
     steps: tuple[Step, ...]
     missing: tuple[str, ...]
     method: Method | None = None
+    named: frozenset[str] = frozenset()
+    """The ids of what comes to the value of a symbol of the file."""
 
     @cached_property
     def printed(self) -> Ledger:
-        """Every number as it is written down."""
-        return printed(self.ledger)
+        """Every number as it is written down; where it is that of a symbol of the file, as the file has it."""
+        families = self.ledger.families
+        told = {id: replace(families[id], definition=None, exact=True) for id in self.named}
+        found = carried(replace(self.ledger, families={**families, **told}))
+        values = {id: replace(family, values=found[id].values) for id, family in families.items()}
+        return replace(found, families=values)
 
     @property
     def by_method(self) -> bool:
@@ -108,7 +114,18 @@ def work_out(
         if id in needed:
             q.enter(family)
     ledger = Ledger(q.families, POSITIONS, units=units).in_language(names)
-    return Worked(ledger, board.layout, steps, tuple(missing), method)
+    return Worked(ledger, board.layout, steps, tuple(missing), method, _named(exercise, ledger))
+
+
+def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
+    """What is worked out and comes to the value of a symbol."""
+    values = [one.given.si for one in exercise.given.symbols.values()]
+    return frozenset(
+        id
+        for id, family in ledger.families.items()
+        if family.definition is not None and not family.is_plane
+        if any(math.isclose(abs(family.at(None)), abs(value), rel_tol=DUST) for value in values)
+    )
 
 
 def _leads_to(board: Board, asked: Asked) -> bool:

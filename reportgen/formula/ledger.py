@@ -12,6 +12,7 @@ What is worked out from a measured length with a scale moves nothing on paper.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -19,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.units import rounded
 from reportgen.formula import (
     Call,
     Chain,
@@ -26,8 +28,10 @@ from reportgen.formula import (
     Fraction,
     Negative,
     Number,
+    Power,
     Product,
     Ref,
+    Root,
     Sum,
     Symbol,
     rebuild,
@@ -160,7 +164,7 @@ class Ledger:
             return Chain((family.symbol, result), note)
         shown = self._signs_out(family.line, position)
         formula = _replace(shown, lambda ref: self.symbol(ref.id))
-        numbers = _replace(shown, lambda ref: self._bare(ref.id, position))
+        numbers = _in_radians(_replace(shown, lambda ref: self._bare(ref.id, position)), result)
         parts: list[Expression] = [family.symbol, formula]
         if numbers != formula and not (isinstance(numbers, Number) and numbers.shown == result.shown):
             parts.append(numbers)
@@ -274,6 +278,63 @@ def _sign_before(term: Expression) -> Expression:
             return replace(number, value=-value)
         case _:
             return term
+
+
+# --- angles outside functions ------------------------------------------------------------------------
+
+
+ARC_DECIMALS = 6
+"""Decimals of an angle in radians, at least."""
+
+
+def _in_radians(numbers: Expression, result: Number) -> Expression:
+    """A line's numbers with angles in radians where it counts with the angle itself, in as many decimals as it takes.
+
+    Functions take degrees; for an angle that comes of angles, and where only their ratios count, either unit will do.
+    """
+    if result.unit == "°" or _power_of_angle(numbers) == 0:
+        return numbers
+    least = max(result.decimals or 0, ARC_DECIMALS)
+    found = (_with_arcs(numbers, decimals) for decimals in range(least, least + ARC_DECIMALS))
+    return next((one for one in found if _comes_to(one, result)), _with_arcs(numbers, least))
+
+
+def _power_of_angle(node: Expression) -> int | None:
+    """In which power an angle that stands outside functions is a factor; None of a sum with several powers."""
+    match node:
+        case Number(unit="°"):
+            return 1
+        case Sum(terms):
+            powers = {_power_of_angle(term) for term in terms}
+            return powers.pop() if len(powers) == 1 else None
+        case Product(factors):
+            each = [_power_of_angle(factor) for factor in factors]
+            return None if None in each else sum(power for power in each if power is not None)
+        case Fraction(top, bottom):
+            above, below = _power_of_angle(top), _power_of_angle(bottom)
+            return None if above is None or below is None else above - below
+        case Negative(of):
+            return _power_of_angle(of)
+        case Power(base) | Root(base):
+            # A power of an angle is one of radians, a ratio of angles has none.
+            return 0 if _power_of_angle(base) == 0 else None
+        case _:
+            return 0
+
+
+def _with_arcs(node: Expression, decimals: int) -> Expression:
+    match node:
+        case Number(unit="°"):
+            return Number(math.radians(node.shown), decimals)
+        case Call():
+            return node
+        case _:
+            return rebuild(node, lambda child: _with_arcs(child, decimals))
+
+
+def _comes_to(numbers: Expression, result: Number) -> bool:
+    value = float(evaluate(numbers))
+    return (value if result.decimals is None else rounded(value, result.decimals)) == result.shown
 
 
 def follow(

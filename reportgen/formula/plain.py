@@ -26,6 +26,7 @@ class Plain(TextSetter):
     """Formulas as letters in a line, indices and exponents behind their marks."""
 
     linear = True
+    APPLIED = "%s %s"
 
     def text(self, text: str) -> str:
         return text

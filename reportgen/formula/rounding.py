@@ -7,7 +7,7 @@ they are written.  What is chosen (senses, arms, branches) and what is nothing i
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -17,11 +17,22 @@ from reportgen.formula import Call, Expression, Negative, Ref, ids
 from reportgen.formula.ledger import Ledger, follow
 from reportgen.formula.sheet import ZERO, Family, is_short, is_typed
 
+Ends = Callable[[Family, np.ndarray], bool]
+"""Whether a value, worked out from what is written above it, has few digits and is written as it is."""
+
 
 def printed(ledger: Ledger) -> Ledger:
     """The ledger with every value as it is written down, and the decimals that each is written with."""
-    decimals = _decimals(ledger)
-    lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
+    found, _ = written(ledger, usual_decimals(ledger), lambda family, values: is_short(values / family.how.scale))
+    return found
+
+
+def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tuple[Ledger, Mapping[str, np.ndarray]]:
+    """The ledger with every value as it is written down with the `given` decimals, or whole where it `ends`.
+
+    And by how much (SI) each value was changed as it was rounded.
+    """
+    decimals, changes = dict(given), dict[str, np.ndarray]()
 
     def enter(id: str, values: dict[str, np.ndarray]) -> None:
         family, again = ledger[id], _named_again(ledger[id])
@@ -32,13 +43,21 @@ def printed(ledger: Ledger) -> Ledger:
             return
         if again and ledger[again].kind == family.kind:
             decimals[id] = decimals[again]
-        elif family.definition is not None and len(values[id]) == 1 and is_short(values[id] / family.how.scale):
+        elif family.definition is not None and len(values[id]) == 1 and ends(family, values[id]):
             decimals[id] = None
-        values[id] = _entered(family, values[id], decimals[id])
+        computed = values[id]
+        values[id] = _entered(family, computed, decimals[id])
+        changes[id] = values[id] - np.real(computed)
 
-    values = follow(replace(ledger, families=lines), {}, entered=enter)
+    values = follow(by_lines(ledger), {}, entered=enter)
     families = {id: replace(family, values=values[id]) for id, family in ledger.families.items()}
-    return replace(ledger, families=families, decimals=decimals)
+    return replace(ledger, families=families, decimals=decimals), changes
+
+
+def by_lines(ledger: Ledger) -> Ledger:
+    """The ledger with the formula of each printed line for a definition."""
+    lines = {id: replace(family, definition=_line(ledger, family)) for id, family in ledger.families.items()}
+    return replace(ledger, families=lines)
 
 
 def _line(ledger: Ledger, family: Family) -> Expression | None:
@@ -70,10 +89,10 @@ def _without_dust(values: np.ndarray) -> np.ndarray:
 # --- decimals ---------------------------------------------------------------------------------------
 
 
-def _decimals(ledger: Ledger) -> dict[str, int | None]:
+def usual_decimals(ledger: Ledger) -> dict[str, int | None]:
     """The decimals of every family, one number for all that prints under one symbol; None for what was typed."""
     together: dict[object, list[Family]] = {}
-    names = _names(ledger)
+    names = names_of(ledger)
     for id, family in ledger.families.items():
         together.setdefault(names[id], []).append(family)
     found = {name: _of_quantity(members) for name, members in together.items()}
@@ -109,7 +128,7 @@ def _named_again(family: Family) -> str:
             return ""
 
 
-def _names(ledger: Ledger) -> dict[str, object]:
+def names_of(ledger: Ledger) -> dict[str, object]:
     """What each family is called as a printed quantity: by its symbol, as what it names again or is the same as."""
     names: dict[str, object] = {id: members[0] for members in ledger.same for id in members}
     for id, family in ledger.families.items():

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import repeat
 from typing import ClassVar, Generic, Literal, TypeVar
 
@@ -115,7 +115,10 @@ class Fence:
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function before its argument, which is in a fence unless it is one letter."""
+    """A function before its argument, which is in a fence unless it is one letter.
+
+    A symbol such as inv α, a function's name and its argument with a blank between, is one, too.
+    """
 
     name: str
     exponent: Part | None
@@ -152,6 +155,9 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
 
     def of(node: Expression) -> Part:
         match node:
+            case Symbol(base) if " " in base:
+                name, _, letters = base.rpartition(" ")
+                return Function(name, None, replace(node, base=letters))
             case Symbol():
                 return node
             case Number(value, decimals, unit) if parts := by_power_of_ten(value, decimals):

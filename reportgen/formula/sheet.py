@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.formula import Call, Expression, Operand, Ref, Symbol, as_expression, vocabulary, walk
+from reportgen.formula import Call, Expression, Operand, Ref, Symbol, as_expression, refs, vocabulary, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKind
 
@@ -126,6 +126,7 @@ class Sheet:
         self.chapter = Chapter.geometry
         """Where a quantity belongs that the vocabulary gives no chapter."""
         self._values: dict[str, np.ndarray] = {}
+        self._inputs: dict[str, tuple[str, ...]] = {}
 
     def copy(self, positions: int = 0) -> Sheet:
         """What is entered so far, to be continued, over another number of positions if one is given."""
@@ -170,6 +171,13 @@ class Sheet:
     def find(self, id: str) -> Ref | None:
         """A quantity as an expression, None if it is not entered."""
         return Ref(id) if id in self.families else None
+
+    def inputs(self, id: str) -> tuple[str, ...]:
+        """The ids that the definition of a quantity names."""
+        if id not in self._inputs:
+            definition = self.families[id].definition
+            self._inputs[id] = () if definition is None else refs(definition)
+        return self._inputs[id]
 
     def value(self, quantity: str | Ref) -> np.ndarray:
         """The SI values of a quantity, one or one per position."""

@@ -51,6 +51,7 @@ KINDS: dict[str, QuantityKind] = {
     "product of lengths": QuantityKind("m²"),
     "segment": QuantityKind("mm", 1e-3, decimals=2),
     "cam length": QuantityKind("mm", 1e-3, decimals=3),
+    "radius of curvature": QuantityKind("mm", 1e-3, decimals=2),
     "reduced velocity": QuantityKind("mm/rad", 1e-3, decimals=3),
     "reduced acceleration": QuantityKind("mm/rad²", 1e-3, decimals=3),
     "angle on paper": QuantityKind("rad/mm", 1e3, digits=6),
@@ -67,7 +68,8 @@ KINDS: dict[str, QuantityKind] = {
     "gear length": QuantityKind("mm", 1e-3, decimals=3),
     "gear number": QuantityKind("", decimals=4),
     "gear angle": QuantityKind("°", math.pi / 180, decimals=4),
-    "involute": QuantityKind("", decimals=7),
+    "gear figure": QuantityKind("", digits=4),
+    "involute": QuantityKind("", decimals=6),
     "velocity on paper": QuantityKind("mm/(s·mm)", digits=6),
     "rotation on paper": QuantityKind("rad/(s·mm)", 1e3, digits=6),
     "length scale": QuantityKind("m/mm", 1e3, digits=6),
@@ -371,8 +373,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name("cam.u"), "u", "cam length", _A),
     VocabularyRow(Name("cam.w"), "w", "cam length", _A),
     VocabularyRow(ids.cam_bend, "m", "cam length", _A, name="cam bend"),
-    VocabularyRow(Name("cam.rho"), "ρ", "cam length", _A),
-    VocabularyRow(Name("cam.rho.working"), "ρ", "cam length", _A, below="K"),
+    VocabularyRow(Name("cam.rho"), "ρ", "radius of curvature", _A),
+    VocabularyRow(Name("cam.rho.working"), "ρ", "radius of curvature", _A, below="K"),
     # gears: all are named on their sheet
     VocabularyRow(ids.gear, name="gear {quantity}"),
     # planetary trains: tooth numbers, ratios, rates; all others are named on their sheet

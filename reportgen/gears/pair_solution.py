@@ -27,8 +27,8 @@ from reportgen.formula import (
     substitute,
     tan,
 )
+from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.pair import Chosen, GearPair
@@ -37,7 +37,7 @@ from reportgen.report.case import Opened, Pitfalls
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
 WHEELS = (1, 2)
-LENGTH, NUMBER, ANGLE, INVOLUTE = "gear length", "gear number", "gear angle", "involute"
+LENGTH, NUMBER, FIGURE, ANGLE, INVOLUTE = "gear length", "gear number", "gear figure", "gear angle", "involute"
 PAIR: Mapping[str, tuple[Symbol, str]] = {
     "m": (Symbol("m"), LENGTH),
     "alpha": (Symbol("α"), "angle"),
@@ -58,7 +58,7 @@ PAIR: Mapping[str, tuple[Symbol, str]] = {
     "h": (Symbol("h"), LENGTH),
     "p": (Symbol("p"), LENGTH),
     "p_b": (Symbol("p", "b"), LENGTH),
-    "epsilon": (Symbol("ε", "α"), NUMBER),
+    "epsilon": (Symbol("ε", "α"), FIGURE),
     "g": (Symbol("g"), LENGTH),
     "g_a": (Symbol("g", "α"), LENGTH),
     "t": (Symbol("t"), NUMBER),
@@ -79,12 +79,12 @@ WHEEL: Mapping[str, tuple[Symbol, str]] = {
     "alpha_a": (Symbol("α", "a"), ANGLE),
     "inv_a": (Symbol("inv α", "a"), INVOLUTE),
     "s_a": (Symbol("s", "a"), LENGTH),
-    "tip": (Symbol("s", "a", "*"), NUMBER),
+    "tip": (Symbol("s", "a", "*"), FIGURE),
     "rho_a": (Symbol("ρ", "a"), LENGTH),
     "rho_p": (Symbol("ρ", "p"), LENGTH),
     "rho_f": (Symbol("ρ", "f"), LENGTH),
     "rho": (Symbol("ρ"), LENGTH),
-    "lambda": (Symbol("λ"), NUMBER),
+    "lambda": (Symbol("λ"), FIGURE),
 }
 """and of what each wheel has."""
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
@@ -120,7 +120,7 @@ class SolvedPair(Opened):
 
     @cached_property
     def printed(self) -> Ledger:
-        return printed(self.ledger)
+        return carried(self.ledger)
 
     @property
     def count(self) -> int:

@@ -64,7 +64,7 @@ def check(given: Parameters) -> Iterator[Finding]:
             yield Finding("train-interference", (*TOP, "z"), about)
             return
         nearest = given.of_input(float(found.nearest.ratio)) if found.nearest.ratio else math.inf
-        off = abs(found.demand.ratio - float(found.nearest.ratio)) / abs(found.demand.ratio)
+        off = float(found.demand.off(float(found.nearest.ratio)))
         about |= {"nearest": f"{nearest:.6g}", "teeth": told(found.nearest), "tolerance": given.tolerance.text}
         if off < 1:
             about |= {"enough": f"{math.ceil(off * 1e5) / 1e5:g}"}

@@ -75,7 +75,10 @@ class Teeth(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """What tooth numbers are sought for: a ratio u₁H within a share, so many satellites, limits, modules m/m₂."""
+    """What tooth numbers are sought for: a ratio u₁H within a share, so many satellites, limits, modules m/m₂.
+
+    The share is one of the ratio from the driving to the driven shaft: of u_H1 = 1/u₁H where the carrier drives.
+    """
 
     scheme: str
     ratio: float
@@ -84,10 +87,18 @@ class Demand:
     least: int
     most: int
     modules: Fraction = Fraction(1)
+    by_carrier: bool = False
 
     @property
     def of(self) -> TrainScheme:
         return SCHEMES[self.scheme]
+
+    def off(self, ratio: NDArray[np.float64] | float) -> NDArray[np.float64]:
+        """By what share of the ratio that is asked for trains with u₁H [...] miss it."""
+        found = np.asarray(ratio, float)
+        with np.errstate(divide="ignore"):
+            missed: NDArray[np.float64] = np.abs((self.ratio / found if self.by_carrier else found / self.ratio) - 1)
+        return missed
 
 
 @dataclass(frozen=True, slots=True)
@@ -197,9 +208,8 @@ def _inv(α: NDArray[np.float64] | float) -> NDArray[np.float64] | float:
 def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
     """Which trains fulfil each of the conditions."""
     scheme, k = demand.of, demand.satellites
-    off = np.abs(ratios(scheme, z) - demand.ratio)
     return {
-        "ratio": off <= (demand.tolerance + DUST) * abs(demand.ratio),
+        "ratio": demand.off(ratios(scheme, z)) <= demand.tolerance + DUST,
         "interference": _interference(scheme, z),
         "neighbours": _neighbours(scheme, z, k, demand.modules),
         "assembly": _assembly(scheme, z, k),
@@ -264,7 +274,7 @@ def sizes(scheme: TrainScheme, z: Wholes, modules: Fraction) -> NDArray[np.float
 def in_order(demand: Demand, sets: Wholes) -> Wholes:
     """By size, then by how far the ratio is off, then by their numbers."""
     z, scheme = sets.T, demand.of
-    off = np.abs(ratios(scheme, z) - demand.ratio)
+    off = demand.off(ratios(scheme, z))
     keys = (z[2], z[1], z[0], np.round(off, 12), np.round(sizes(scheme, z, demand.modules), 9))
     return sets[np.lexsort(keys)]
 
@@ -289,7 +299,7 @@ def choice(demand: Demand) -> TrainChoice:
             rows.append(sets[others & ~holds[name]])
         sound = sets[holds["interference"]]
         if len(sound):
-            off = np.abs(ratios(demand.of, sound.T) - demand.ratio)
+            off = demand.off(ratios(demand.of, sound.T))
             nearest = min(nearest, (float(off.min()), sound[off.argmin()]), key=lambda one: one[0])
     found = in_order(demand, np.concatenate(kept))
     refused = {name: in_order(demand, np.concatenate(rows)) for name, rows in misses.items()}

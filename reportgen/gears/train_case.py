@@ -17,7 +17,7 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.gears import train_drawings
-from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train
+from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
 from reportgen.report import Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
@@ -174,6 +174,7 @@ class TrainPage(DesignPage[SolvedTrain]):
         meshes = tuple(zip(case.scheme.inner, (z.one, z.three), (z.two, z.other), strict=True))
         outer = min(z.two, z.other, *(wheel for inner, wheel, _ in meshes if not inner))
         rows: list[tuple[Any, Any, Any, bool]] = [
+            self._check_of_ratio,
             ("coaxial", (symbol("train.a.1"), " = ", symbol("train.a.2")), value("train.a.1"), True),
             ("neighbours", ("< ", value("train.room")), value("train.gap"), True),
             ("assembly", words["whole"], (symbol("train.N"), " = ", value("train.N")), True),
@@ -186,6 +187,17 @@ class TrainPage(DesignPage[SolvedTrain]):
             rows.append(("unshifted", "–", words["free" if free else "shift"], free))
         told = ((words[name], *parts, words["yes" if holds else "no"]) for name, *parts, holds in rows)
         return self._table("checks", words["head"], told, (62, 34, 40, 24))
+
+    @property
+    def _check_of_ratio(self) -> tuple[str, Any, Any, bool]:
+        """Whether the ratio that is asked for, from the driving to the driven shaft, is met within the tolerance."""
+        ledger, given, Δu = self.case.printed, self.case.given, Symbol("Δu")
+        off, u = abs(float(self.case.ledger["train.off"].at(1))), "train.uH1" if given.by_carrier else "train.u1H"
+        holds = off <= given.tolerance.si + DUST
+        if not given.tolerance.si:
+            symbol = ledger.symbol(u)
+            return "ratio", (symbol, " = ", ledger.number("train.u")), (symbol, " = ", ledger.number(u)), holds
+        return "ratio", ("|", Δu, "| ≤ ", self.tolerance), (Δu, " = ", ledger.number("train.off")), holds
 
     @property
     def rates_table(self) -> Table:

@@ -83,7 +83,8 @@ class Parameters(Part):
     def demand(self) -> Demand:
         modules = Fraction(self.m.si / self.second_module.si).limit_denominator(10_000)
         limits = (self.z.from_, self.z.to)
-        return Demand(self.scheme, self.of_input(self.wanted), self.tolerance.si, self.k, *limits, modules)
+        ratio, share = self.of_input(self.wanted), self.tolerance.si
+        return Demand(self.scheme, ratio, share, self.k, *limits, modules, self.by_carrier)
 
     @property
     def choice(self) -> TrainChoice:

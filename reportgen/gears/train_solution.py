@@ -12,8 +12,8 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, ids, signed, sin
+from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
@@ -74,7 +74,7 @@ class SolvedTrain(Opened):
 
     @cached_property
     def printed(self) -> Ledger:
-        return printed(self.ledger)
+        return carried(self.ledger)
 
     @property
     def speed(self) -> float:

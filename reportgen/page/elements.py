@@ -256,7 +256,8 @@ class Runs(setting.Setter[tuple[Run, ...]]):
             case setting.Fence(left, inner, right):
                 return (*text(left), *of(inner), *text(right))
             case setting.Function(name, exponent, to):
-                return (*text(name), *(_raised(of(exponent)) if exponent else ()), *of(to))
+                function = (*text(name), *(_raised(of(exponent)) if exponent else ()))
+                return (*function, *of(to)) if isinstance(to, setting.Fence) else (*function, *text(" "), *of(to))
             case setting.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
                 return _parted(list(lines), " | ")

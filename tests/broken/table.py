@@ -638,7 +638,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             {
                 "r0: 80 mm": "r0: find",
                 "rise: 40 deg, return: 50 deg": "rise: 5 deg, return: 5 deg",
-                "psi_max: 15 deg": "psi_max: 60 deg",
+                "psi_max: 15 deg": "psi_max: 30 deg",
                 "arm: 132 mm": "arm: 132 mm\n  lifts: with",
             },
             "12:11 cam-no-centre",
@@ -665,9 +665,31 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
                 "  arm: 132 mm\n": "",
                 "  limits: {rise: 40 deg, return: 50 deg}\n": "",
                 "r0: 80 mm\n  roller: 15 mm": "r0: find",
-                "psi_max: 15 deg": "psi_max: 60 deg",
+                "psi_max: 15 deg": "psi_max: 35 deg",
             },
             "10:7 cam-not-convex",
+        ),
+        (
+            "a face that runs off in the return",
+            {
+                "end: roller": "end: flat",
+                "  arm: 132 mm\n": "",
+                "  limits: {rise: 40 deg, return: 50 deg}\n": "",
+                "psi_max: 15 deg": "psi_max: 45 deg",
+                "  roller: 15 mm\n": "",
+            },
+            "8:11 cam-overtakes",
+        ),
+        (
+            "a face that nothing places",
+            {
+                "end: roller": "end: flat",
+                "  arm: 132 mm\n": "",
+                "  limits: {rise: 40 deg, return: 50 deg}\n": "",
+                "a: 180 mm": "a: find",
+                "r0: 80 mm\n  roller: 15 mm": "r0: find",
+            },
+            "7:6 cam-free",
         ),
     ],
 }

@@ -18,7 +18,8 @@ from reportgen.cam.laws import FollowerMotion, law
 from reportgen.cam.profile import Cam
 from reportgen.cam.sheets import CHORD, contour
 from reportgen.cases import open_case
-from reportgen.drawing import Circle, Label
+from reportgen.drawing import Arc, Circle, Label
+from reportgen.drawing.style import arc_with_head
 from reportgen.formula import Chain, Number, Symbol
 from tests.lanes import matrix
 
@@ -79,6 +80,21 @@ def test_the_base_circle_is_true_to_the_scale_that_is_printed(name: str) -> None
     scale = number.value
     radii = [item.radius for item in scene.items if isinstance(item, Circle)]
     assert min(abs(radius * scale - cam_of(name).r0 * MM) for radius in radii) < 1e-9
+
+
+@pytest.mark.parametrize("name", ["roller-01", "flat-01", "shaper-feed"])
+def test_the_arrow_of_the_rotation_has_a_tip(name: str) -> None:
+    """In each drawing the tip is more than twice as wide as the arc that ends in it, and points the cam's way."""
+    for stage in ("displacements", "profile by inversion", "cam"):
+        (arc,) = (
+            one
+            for one in inversion(case_of(name), stage).items
+            if isinstance(one, Arc) and one.head  # type: ignore[arg-type]
+        )
+        _, tip = arc_with_head(arc)
+        assert tip is not None
+        assert abs(tip[1] - tip[2]) > 2 * arc.stroke.width
+        assert np.sign(arc.stop - arc.start) == cam_of(name).turn
 
 
 @pytest.mark.parametrize("name", NAMES)

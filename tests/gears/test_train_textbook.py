@@ -108,6 +108,21 @@ def test_the_ratios_find_something() -> None:
     assert min(found) > 2
 
 
+@pytest.mark.parametrize("scheme", matrix(sorted(RATIOS), ["single"]))
+def test_the_tolerance_is_one_of_the_ratio_that_is_asked_for(scheme: str) -> None:
+    """A carrier drives with u_H1 = 1/u₁H: a train that misses u₁H by 10 % misses u_H1 by 9.1 or by 11.1 %."""
+    tenth, differ = Fraction(1, 10), 0
+    for number, u1H in enumerate(map(Fraction, map(str, RATIOS[scheme][:12]))):
+        wanted, k = 1 / u1H, (2, 3, 4)[number % 3]
+        near = [(tuple(z), u) for *z, u in every(scheme) if u and abs(u - u1H) <= abs(u1H) / 5]
+        trains = [(z, u) for z, u in near if fits(scheme, z, u, k)]  # type: ignore[arg-type]
+        expected = {z for z, u in trains if abs(1 / u - wanted) <= tenth * abs(wanted)}
+        differ += expected != {z for z, u in trains if abs(u - u1H) <= tenth * abs(u1H)}
+        demand = Demand(scheme, float(1 / wanted), 0.1, k, 1, MOST, by_carrier=True)
+        assert set(map(tuple, choice(demand).sets.tolist())) == expected
+    assert differ
+
+
 # --- rules of the field by a second way -------------------------------------------------------------------
 
 

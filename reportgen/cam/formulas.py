@@ -1,0 +1,134 @@
+"""The formulas of a cam, each written once: a sheet evaluates them over arrays, and the report prints them.
+
+The follower's point is the centre of its roller, the edge of a knife or the point of contact of a flat face.  Which
+formula holds is chosen by the kind of follower and end and by the senses of turning, before any number is put in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from reportgen.formula import Expression, acos, asin, atan, cos, ids, signed, sin, sqrt
+from reportgen.formula.sheet import Sheet
+
+
+@dataclass(frozen=True)
+class CamKind:
+    """Which formulas hold for a cam; `opposite` and `turn` are the senses of `Cam`."""
+
+    translating: bool
+    flat: bool
+    offset: bool
+    roller: bool
+    opposite: int
+    turn: int
+
+    @property
+    def moved(self) -> tuple[str, str, str]:
+        """The ids of s, s′ and s″, or of ψ, ψ′ and ψ″."""
+        return ("cam.s", "cam.ds", "cam.dds") if self.translating else ("cam.psi", "cam.dpsi", "cam.ddpsi")
+
+    @property
+    def lengths(self) -> tuple[str, ...]:
+        """The ids of the lengths that such a cam has."""
+        has = {
+            "cam.a": not self.translating,
+            "cam.l": not (self.translating or self.flat),
+            "cam.e": self.translating and not self.flat,
+            "cam.r0": True,
+            "cam.roller": self.roller,
+        }
+        return tuple(id for id, wanted in has.items() if wanted)
+
+
+def enter_lengths(q: Sheet, kind: CamKind, lengths: Mapping[str, float]) -> None:
+    """The lengths (m) that such a cam has, by their ids."""
+    for id in kind.lengths:
+        q.give(id, lengths[id])
+
+
+def enter_lowest(q: Sheet, kind: CamKind) -> None:
+    """s₀ = √(r₀² − e²), the height of the lowest position of a translating follower with a tip."""
+    q.define("cam.s0", sqrt(q["cam.r0"] ** 2 - q["cam.e"] ** 2) if kind.offset else q["cam.r0"])
+
+
+def factor(dψ: Expression, opposite: int) -> Expression:
+    """k = 1 ± ψ′, by which an arm turns against the cam: + where the two turn in opposite senses."""
+    return 1 + dψ if opposite > 0 else 1 - dψ
+
+
+def enter_profile(q: Sheet, kind: CamKind) -> None:
+    """Pitch curve by inversion, pressure angle, radius of curvature and profile from the motion at angles φ."""
+    (_enter_under_face if kind.flat else _enter_under_tip)(q, kind)
+
+
+def _enter_under_tip(q: Sheet, kind: CamKind) -> None:
+    φ, r0 = q["cam.phi"], q.si("cam.r0")
+    if kind.translating:
+        s0, e, (s, ds, dds) = q["cam.s0"], q["cam.e"], (q[id] for id in kind.moved)
+        x: Expression
+        y: Expression
+        u = q.define("cam.u", s0 + s)
+        if kind.offset:
+            w = q.define("cam.w", ds - e)
+            x, y = (s0 + s) * sin(φ) + e * cos(φ), (s0 + s) * cos(φ) - e * sin(φ)
+            α = q.define("cam.alpha", atan((ds - e) / (s0 + s)), scale=1.0)
+            ρ = sqrt(u**2 + w**2) ** 3 / (u * (u - dds) + w * (w + ds))
+        else:
+            x, y = (s0 + s) * sin(φ), (s0 + s) * cos(φ)
+            α = q.define("cam.alpha", atan(ds / (s0 + s)), scale=1.0)
+            ρ = sqrt(u**2 + ds**2) ** 3 / (u * (u - dds) + 2 * ds**2)
+        lean: Expression = φ - α
+    else:
+        a, arm, (ψ, dψ, ddψ) = q["cam.a"], q["cam.l"], (q[id] for id in kind.moved)
+        ψ0 = q.define("cam.psi0", acos((a**2 + arm**2 - q["cam.r0"] ** 2) / (2 * a * arm)))
+        at, k = q.define("cam.q", ψ0 + ψ), q.define("cam.k", factor(dψ, kind.opposite))
+        # Signed from the way in which the arm lifts: N = F + iF′ leans by l k − a cos q, mirrored in the same sense.
+        aside = arm * k - a * cos(at) if kind.opposite > 0 else a * cos(at) - arm * k
+        α = q.define("cam.alpha", atan(aside / (a * sin(at))), scale=1.0)
+        x, y = _inverted(q, kind, a - arm * cos(at), arm * sin(at))
+        u, w = q.define("cam.u", arm * k * sin(at)), q.define("cam.w", a - arm * k * cos(at))
+        bend = q.define("cam.m.1", arm * (k**2 * sin(at) - ddψ * cos(at)))
+        turn = q.define("cam.m.2", a - arm * (k**2 * cos(at) + ddψ * sin(at)))
+        ρ = sqrt(u**2 + w**2) ** 3 / (u * bend + w * turn)
+        lean = φ + at - α if kind.opposite > 0 else φ - at - α
+    x_B = q.define(ids.cam_pitch("x"), signed(kind.turn, x), scale=r0)
+    y_B = q.define(ids.cam_pitch("y"), y, scale=r0)
+    ρ_B = q.define("cam.rho", ρ)
+    if kind.roller:
+        roller = q["cam.roller"]
+        q.define(ids.cam_profile("x"), x_B - signed(kind.turn, roller * sin(lean)), scale=r0)
+        q.define(ids.cam_profile("y"), y_B - roller * cos(lean), scale=r0)
+        q.define("cam.rho.working", ρ_B - roller)
+
+
+def _enter_under_face(q: Sheet, kind: CamKind) -> None:
+    φ, r0, (s, ds, dds) = q["cam.phi"], q["cam.r0"], (q[id] for id in kind.moved)
+    x: Expression
+    y: Expression
+    ρ: Expression
+    if kind.translating:
+        high = r0 + s
+        x, y = high * sin(φ) + ds * cos(φ), high * cos(φ) - ds * sin(φ)
+        ρ = r0 + s + dds
+    else:
+        a = q["cam.a"]
+        ψ0 = q.define("cam.psi0", asin(r0 / a))
+        at, k = q.define("cam.q", ψ0 + s), q.define("cam.k", factor(ds, kind.opposite))
+        L = q.define("cam.contact", a * cos(at) / k)
+        x, y = _inverted(q, kind, a - L * cos(at), L * sin(at))
+        bend = q.define("cam.m.1", cos(at) * dds - sin(at) * ds**2, kind="ratio")
+        turn = q.define("cam.m.2", cos(at) * ds * dds / k, kind="ratio")
+        ρ = a * sin(at) + a * (bend - turn if kind.opposite > 0 else bend + turn) / k**2
+    q.define(ids.cam_profile("x"), signed(kind.turn, x), scale=q.si(r0))
+    q.define(ids.cam_profile("y"), y, scale=q.si(r0))
+    q.define("cam.rho", ρ)
+
+
+def _inverted(q: Sheet, kind: CamKind, across: Expression, up: Expression) -> tuple[Expression, Expression]:
+    """A point of an oscillating follower, so far from the cam's centre towards the pivot and up, turned by −φ."""
+    φ = q["cam.phi"]
+    if kind.opposite > 0:
+        return up * sin(φ) + across * cos(φ), up * cos(φ) - across * sin(φ)
+    return up * sin(φ) - across * cos(φ), up * cos(φ) + across * sin(φ)

@@ -1,0 +1,131 @@
+"""The figures that a computed design carries, so that what is printed is right to one unit of its last decimal.
+
+A line goes on from the values above it as they are written, and its result bears their rounding:
+
+    r − r₀ = Σ (∂r/∂q) Δq,  Δq the rounding of each value q that r stands on, its own among them
+
+Where a printed value would be more than a unit of its last decimal off, the value above it whose rounding does most to
+that is carried with one decimal more, and all is written anew.  So each line still follows on a calculator, angles and
+the like have as many decimals as the results need, and nothing has more than usual that does not need them.
+
+Roundings are taken as they are: to hold for the worst of them at once, a chain of twelve lines would have to begin with
+16 decimals.  What is measured on a drawing is as exact as that, and what stands on it has the figures that this gives.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from collections.abc import Set as AbstractSet
+
+import numpy as np
+
+from reportgen.formula import vocabulary
+from reportgen.formula.ledger import Ledger, follow
+from reportgen.formula.rounding import by_lines, names_of, usual_decimals, written
+from reportgen.formula.sheet import DUST, ZERO, Family, is_short
+
+UNIT = 1 + 1e-6
+"""Units of its last decimal that a printed value may be off, with the dust of floats."""
+MEASURED = "segment"
+"""The kind of what is laid off and measured on paper."""
+
+MOST = 10
+"""Decimals that anything is carried with at most."""
+
+Derivatives = Mapping[str, Mapping[str, np.ndarray]]
+"""Of each value ∂r/∂q (SI) by those that it stands on, one or one per position."""
+
+
+def carried(ledger: Ledger) -> Ledger:
+    """The ledger as it is written down when every computed value carries the figures that others need of it."""
+    decimals = dict(usual_decimals(ledger))
+    measured = {id for id, family in ledger.families.items() if family.kind == MEASURED and decimals[id] is not None}
+    drawn = _standing_on(ledger, measured)
+    names = {id: (name, id in drawn) for id, name in names_of(ledger).items()}
+    derivatives = _derivatives(ledger, decimals)
+    for id in drawn & derivatives.keys():
+        by = {one: derivative for one, derivative in derivatives[id].items() if one in measured}
+        decimals[id] = min(decimals[id] or 0, _as_drawn(ledger, id, by))
+    claimed = {id: by for id, by in derivatives.items() if id not in drawn | measured}
+    while True:
+        found, roundings = written(ledger, decimals, _ends)
+        finer = {names[cause] for cause in _causes(ledger, found, claimed, roundings)}
+        if not finer:
+            return found
+        for id, own in decimals.items():
+            if own is not None and names[id] in finer:
+                decimals[id] = own + 1
+
+
+def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
+    """What is worked out from some quantities."""
+    found = set[str]()
+    for id, inputs in ledger.inputs.items():
+        if id not in some and not {*inputs}.isdisjoint(found | some):
+            found.add(id)
+    return found
+
+
+def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> int:
+    """The decimals that what is measured leaves a value: in the last of them it is right to one unit."""
+    off = sum(_half_unit(ledger[one]) * float(np.max(np.abs(by))) for one, by in measured.items())
+    return max(math.floor(-math.log10(2 * off / ledger[id].how.scale)), 0) if off else MOST
+
+
+def _half_unit(family: Family, decimals: int | None = None) -> float:
+    """Half a unit (SI) of the last of so many decimals, else of those of its kind."""
+    return 0.5 * 10.0 ** -(family.how.decimals or 0 if decimals is None else decimals) * family.how.scale
+
+
+def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivatives:
+    """Each value is moved by half a unit of its last decimal, in a world of its own: [values, positions]."""
+    # What is nothing is written as 0, whatever stands above it.
+    nothing = {id for id, family in ledger.families.items() if np.all(np.abs(family.values) <= ZERO * family.scale)}
+    rounded = [id for id, own in decimals.items() if own is not None and id not in nothing]
+    steps = {id: _half_unit(ledger[id], decimals[id]) for id in rounded}
+    one_each = np.eye(len(rounded) + 1)
+
+    def moved(at: int, id: str) -> Callable[[np.ndarray, object], np.ndarray]:
+        return lambda value, _: value + steps[id] * one_each[:, at : at + 1]
+
+    held = {id: ledger[id].values for id in nothing}
+    worlds = follow(by_lines(ledger), {**held, **{id: moved(at, id) for at, id in enumerate(rounded)}})
+    found: dict[str, Mapping[str, np.ndarray]] = {}
+    for id in rounded:
+        values, family = worlds[id], ledger[id]
+        if family.residue:
+            continue
+        by = np.real(values) - np.real(values[-1:])
+        by[~np.isfinite(by)] = 0.0
+        least = DUST * np.max(np.abs(family.values), initial=0.0)
+        standing = np.nonzero(np.max(np.abs(by), axis=-1) > least)[0]
+        found[id] = {rounded[at]: by[at] / steps[rounded[at]] for at in standing if rounded[at] != id}
+    return found
+
+
+def _causes(ledger: Ledger, found: Ledger, derivatives: Derivatives, roundings: Mapping[str, np.ndarray]) -> set[str]:
+    """Of each value that is too far off what does most to it; none of a value below one that will be finer."""
+    causes = set[str]()
+    for id, by in derivatives.items():
+        decimals, how = found.decimals[id], ledger[id].how
+        apart = np.real(found[id].values) - np.real(ledger[id].values)
+        size = np.nan_to_num(np.asarray(vocabulary.distance(id, found[id].values, ledger[id].values)))
+        if decimals is None or np.max(size) * 10.0**decimals <= UNIT * how.scale or causes & {id, *by}:
+            continue
+        at = int(np.argmax(size))
+        shares = {
+            other: float((derivative * roundings[other] * np.ones(len(size)))[at] * np.sign(apart[at]))
+            for other, derivative in by.items()
+        }
+        cause = max(shares, key=lambda other: shares[other], default="")
+        if cause and (found.decimals[cause] or 0) < MOST:
+            causes.add(cause)
+    return causes
+
+
+def _ends(family: Family, values: np.ndarray) -> bool:
+    """Whether a value has few digits because it is exactly that, and not for being made of rounded ones."""
+    exact = np.real(family.values)
+    same = np.abs(np.real(values) - exact) <= DUST * np.abs(exact)
+    return is_short(exact / family.how.scale) and bool(np.all(same))

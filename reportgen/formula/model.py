@@ -1,0 +1,31 @@
+"""A sheet as a model: its own definitions evaluated over arrays, so that no formula is written a second time."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from reportgen.formula.constructions import Value
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.sheet import Sheet
+
+
+def model(sheet: Sheet, wanted: Iterable[str], **known: Value) -> dict[str, Value]:
+    """The values (SI) of some ids of a sheet with others in place of its own, over arrays of any shape.
+
+    Only what the wanted ones stand on is evaluated; what is not defined at some place is nan or infinite there, as on
+    the sheet.  Raises `KeyError` for an id that is not on the sheet.
+    """
+    wanted, values = tuple(wanted), dict(known)
+    needed = {*wanted} - {*known}
+    for id in reversed(sheet.families):
+        if id in needed:
+            needed |= {*sheet.inputs(id)} - {*known}
+    with np.errstate(all="ignore"):
+        for id, family in sheet.families.items():
+            if id in needed and family.definition is None:
+                values[id] = family.values if len(family.values) > 1 else family.values[0]
+            elif id in needed and family.definition is not None:
+                values[id] = evaluate(family.definition, values)
+    return {id: values[id] for id in wanted}
