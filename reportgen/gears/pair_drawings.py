@@ -102,7 +102,7 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
         )
         requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), gap=1.0, prefer=(0.0, math.pi)))
     note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM / enlarged:.6g}"), None, "mm/mm")))
-    a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.number("gears.a_w")))
+    a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.result("gears.a_w")))
     notes: list[Content] = [note, a_w]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
