@@ -16,13 +16,15 @@ from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework.booklet import PartReport, booklet, task_of
 from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.film import Film
+from reportgen.drawing.plates import DrawingPlate
+from reportgen.drawing.plates import changed as with_change
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.marking.key import phrase
 from reportgen.report import Document, Equation, InlineMath, Paragraph, Text, listed
-from reportgen.report.case import Case, Key, PartOfKey, Pitfalls, capitalised
+from reportgen.report.case import Case, Key, Opened, PartOfKey, Pitfalls, capitalised
 
 MACHINE = "machine"
 """The name of the part that the others follow."""
@@ -293,18 +295,48 @@ class Coursework:
         )
         return (*self.first.films, *parts)
 
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Those of the machine's `sets`, then those of all parts together."""
+        return {**self.machine.plates(sets, every), **self._plates_of_parts()}
+
+    def _plates_of_parts(self) -> Mapping[str, Sequence[DrawingPlate]]:
+        """One set, called by what it shows; of several parts of a kind each plate says which it is of."""
+        titles: list[str] = []
+        found: list[DrawingPlate] = []
+        for member in self.members:
+            alike = sum(one.part.head == member.part.head for one in self.members)
+            for name, plates in member.case.plates().items():
+                title = str(member.case.words["plates"]["sets"][name])
+                titles.append(title[:1].lower() + title[1:])
+                found += [self._of_part(plate, member, alike > 1) for plate in plates]
+        return {capitalised("; ".join(dict.fromkeys(titles))): found}
+
+    def _of_part(self, plate: DrawingPlate, member: PartCase, named: bool) -> DrawingPlate:
+        lines = (member.title,) if named else ()
+        letters = self.letters[member.name]
+        return with_change(plate, lambda one: replace(relettered(one, letters), lines=(*lines, *one.lines)))
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        return [relettered(one, self.letters[member.name]) for member in self.members for one in member.case.true_sizes()]
+
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
     ) -> list[DrawingSheet]:
-        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have."""
+        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have.
+
+        The parts stand on sheets as large as those of the machine, on no larger ones than A1 if these hold them.
+        """
+        from reportgen.sheets import BY_SIZE, USUAL, on_sheets
         from reportgen.sheets.frame import DEFAULT, blocks, numbered, read_block
 
         language = self.assignment.language
         found = self.machine.sheets(size, sets, block, every)
-        for member in self.members:
-            found += relettered(member.case.sheets(size, (), block, every), self.letters[member.name])
+        least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
+        assert isinstance(self.machine, Opened), "an assignment that was opened"
+        found += on_sheets(self.machine, self._plates_of_parts(), size, block, least=least)
         own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
-        return numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+        framed = numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+        return [*framed, *self.true_sizes()]
 
 
 def _names_a_point(symbol: Symbol) -> bool:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.film import Film
+from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
 from reportgen.formula.sheet import Family
@@ -23,6 +24,8 @@ from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, 
 from reportgen.report import Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.case import Key
 from reportgen.report.design import DesignPage
+from reportgen.sheets import on_sheets
+from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6
 """So many of the tooth numbers found stand in the table."""
@@ -281,11 +284,17 @@ class TrainCase(SolvedTrain):
     def films(self) -> tuple[Film, ...]:
         return (train_drawings.film(self),)
 
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Its scheme, its triangles and its tables; there are no sets of them to choose from."""
+        page, captions = TrainPage(self), self.words["train"]["captions"]
+        tables = [(name, getattr(page, f"{name}_table" if name == "rates" else name)) for name in ("checks", "rates")]
+        told = [DrawingPlate(captions[name], (), "tables", (drawn(one, self.assignment.language),)) for name, one in tables]
+        return {"train": [*train_drawings.plates(self), *(replace(one, spare=True) for one in told)]}
+
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
     ) -> list[DrawingSheet]:
-        """Its scheme and its triangles on a sheet; there are no sets of them to choose from."""
-        return train_drawings.drawing_sheets(self, size, block)
+        return on_sheets(self, self.plates(), size, block)
 
 
 def _told(train: Train) -> dict[str, Any]:

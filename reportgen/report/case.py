@@ -33,6 +33,8 @@ if TYPE_CHECKING:
     import numpy as np
 
     from reportgen.drawing.film import Film
+    from reportgen.drawing.plates import DrawingPlate
+    from reportgen.drawing.scales import FigureSize
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
@@ -131,6 +133,12 @@ class Case(Protocol):
 
     def films(self) -> tuple[Film, ...]:
         """What moves on its page, a film a part; none where nothing does."""
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """What its drawing sheets show, by the names of the sets."""
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        """What is drawn 1:1 on paper of its own, without a frame."""
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
@@ -242,6 +250,17 @@ class Opened:
     def used(self) -> Collection[Symbol] | None:
         """Nobody knows before its report is composed."""
         return None
+
+    def on_sheet(self, steps: int) -> FigureSize:
+        """How large a drawing sheet shows a figure, by so many standard scales larger than a report."""
+        from reportgen.drawing.scales import FigureSize
+        from reportgen.drawing.sheet import ENLARGED
+
+        return FigureSize(steps, ENLARGED, self.words["plates"]["report"], self.assignment.language)
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        """It has nothing that is made."""
+        return ()
 
     @property
     def variant_line(self) -> str:
