@@ -22,7 +22,7 @@ from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
 from reportgen.report import Document
-from reportgen.report.case import Calculation, Case, Key, Pitfalls
+from reportgen.report.case import Calculation, Case, Key, Pitfalls, Shaft
 
 if TYPE_CHECKING:
     from reportgen.drawing.film import Film
@@ -153,6 +153,14 @@ class MachineCase(Calculation):
         from reportgen.page.sampling import film
 
         return (film(self),)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """The driver's, if it turns."""
+        if self.analysis.machine.span:
+            return ()
+        turn = self.assignment.positions.sign
+        return (Shaft(self.words["coursework"]["driver"], abs(self.speed), turn, fixed=True, datum="n"),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         from reportgen.sheets import plates_by_set

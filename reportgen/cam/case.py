@@ -19,8 +19,8 @@ from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import vocabulary
 from reportgen.formula.sheet import Family
-from reportgen.report import Document
-from reportgen.report.case import Key, Pitfalls, Span
+from reportgen.report import Block, Document
+from reportgen.report.case import Key, Pitfalls, Shaft, Span
 from reportgen.sheets import on_sheets
 
 
@@ -52,6 +52,13 @@ class CamCase(SolvedCam):
 
     def document(self) -> Document:
         return self.bounded(views.CamPage.report)
+
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(views.CamPage.summary)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        return (Shaft(self.words["cam"]["shaft"], self.speed, self.solution.cam.turn, fixed=True, datum="n"),)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key

@@ -48,8 +48,8 @@ from reportgen.gears.pair_drawings import (
     turned,
 )
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import Document
-from reportgen.report.case import Key, Span
+from reportgen.report import Block, Document
+from reportgen.report.case import Key, Shaft, Span
 from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn
 
@@ -79,6 +79,16 @@ class PairCase(SolvedPair):
 
     def document(self) -> Document:
         return self.bounded(views.PairPage.report)
+
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(views.PairPage.summary)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """It has no speed: wheels of an outer mesh turn against each other."""
+        return tuple(
+            Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True)
+        )
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -21,8 +22,8 @@ from reportgen.gears import train_drawings
 from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
-from reportgen.report import Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.report.case import Key
+from reportgen.report import Block, Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report.case import Key, Shaft
 from reportgen.report.design import DesignPage
 from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn
@@ -250,6 +251,17 @@ class TrainCase(SolvedTrain):
 
     def document(self) -> Document:
         return self.bounded(TrainPage.report)
+
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(TrainPage.summary)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        driving, driven = self.words["train"]["shafts"]
+        reached = float(self.ledger["train.n.reached"].values[0])
+        speed = abs(reached / float(self.ledger["train.n.in"].values[0])) * self.speed
+        turn, share = round(math.copysign(1, reached)), self.given.tolerance.si
+        return Shaft(driving, self.speed, 1, datum="n_in"), Shaft(driven, speed, turn, share=share)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key

@@ -27,7 +27,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report import Cover, Document
+from reportgen.report import Block, Cover, Document
 
 if TYPE_CHECKING:
     import numpy as np
@@ -58,6 +58,22 @@ class Pitfalls:
     readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
     whole: Mapping[str, str] = field(default_factory=dict)
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Shaft:
+    """A shaft of a work: what it is called, its speed (rad/s) if it is known, and its sense, 1 or −1.
+
+    A `fixed` sense is counted anticlockwise as the machine is drawn, any other one from shaft to shaft of the same
+    work.  `datum` is the key of the parameters that gives its speed; what is chosen may miss the speed by a `share`.
+    """
+
+    name: str
+    speed: float | None
+    turn: int
+    fixed: bool = False
+    datum: str = ""
+    share: float = 0.0
 
 
 class Case(Protocol):
@@ -139,6 +155,13 @@ class Case(Protocol):
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         """What is drawn 1:1 on paper of its own, without a frame."""
+
+    def summary(self) -> Sequence[Block]:
+        """Its main results, for the summary of a coursework that it is a part of."""
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """Its shafts, that which drives it first; none of a work in which nothing turns."""
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
@@ -260,6 +283,15 @@ class Opened:
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         """It has nothing that is made."""
+        return ()
+
+    def summary(self) -> Sequence[Block]:
+        """Its own report has one."""
+        return ()
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """Nothing turns."""
         return ()
 
     @property
