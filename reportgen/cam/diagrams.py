@@ -80,7 +80,7 @@ def usual_scales(case: SolvedCam) -> LawScales:
 
 
 def standard_scales(case: SolvedCam, steps: int) -> LawScales:
-    """Those of a drawing sheet: standard ones, about as high for its length as in a report; poles are where they must be."""
+    """Those of a drawing sheet: standard ones, for its length about as high as in a report; the poles follow."""
     turn = 360 / DEGREES_PER_MM[steps]
     traced, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
     height = HEIGHT * MM * turn / TURN

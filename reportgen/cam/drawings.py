@@ -226,9 +226,7 @@ def _arm(cam: Cam, ψ: float) -> complex:
 # --- the profile by inversion -------------------------------------------------------------------------
 
 
-def inversion(
-    case: SolvedCam, stage: Stage = "profile by inversion", size: FigureSize = IN_REPORT
-) -> Scene:
+def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: FigureSize = IN_REPORT) -> Scene:
     """The profile in the cam's frame, the follower carried round it against its rotation, with numbered positions.
 
     First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` stands with its follower

@@ -21,6 +21,7 @@ from reportgen.drawing.charts import Area
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
+from reportgen.sheets.plates import on_sheet
 
 CHORD = 1e-6
 """How far the polyline of the profile may lie from the curve (m)."""
@@ -55,7 +56,7 @@ def _plate(
     case: SolvedCam, name: str, layer: str, draw: Callable[[SolvedCam, FigureSize], Scene], steps: int
 ) -> DrawingPlate:
     """A figure as sheets show it, by so many standard scales larger than the report; its name is the caption there."""
-    scene = lettered(draw(case, case.on_sheet(steps)))
+    scene = lettered(draw(case, on_sheet(case, steps)))
     return DrawingPlate(str(case.words["cam"]["captions"][f"figure-{name}"]), (), layer, (scene,))
 
 

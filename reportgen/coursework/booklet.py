@@ -77,9 +77,7 @@ class PartReport:
                 yield tuple(map(lowered, renamed(group, self.name)))
 
 
-def booklet(
-    machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any], senses: Blocks = ()
-) -> Document:
+def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any], senses: Blocks = ()) -> Document:
     """One numbered document; `words` are those of the machine, `senses` say which way the shafts turn."""
     found = list(groups(machine.blocks))
     # A short report has no summary.
@@ -162,14 +160,16 @@ def renamed(blocks: Blocks, name: str) -> Blocks:
     return changed(changed(blocks, Reference, own), tuple(kind for kind in NAMED if kind is not Reference), own)
 
 
-def with_parts_named(foreword: Sequence[Block], parts: Sequence[PartReport], words: Mapping[str, Any]) -> Iterator[Block]:
+def with_parts_named(
+    foreword: Sequence[Block], parts: Sequence[PartReport], words: Mapping[str, Any]
+) -> Iterator[Block]:
     """The foreword of the machine with a sentence about the parts, before its last paragraph."""
     own = words["coursework"]
     titles = [str(own["title"]).format(title=part.title) for part in parts]
     plain = [n for n, block in enumerate(foreword) if isinstance(block, Paragraph) and not block.align]
     text = str(own["foreword"] if len(titles) > 1 else own["foreword_one"]).format(titles=", ".join(titles))
-    for number, block in enumerate(foreword):
-        if number == plain[-1]:
+    for place, block in enumerate(foreword):
+        if place == plain[-1]:
             yield Paragraph((Text(text),))
         yield block
 

@@ -27,8 +27,9 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.marking.key import phrase
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, Key, Opened, PartOfKey, Pitfalls, Shaft, capitalised
+from reportgen.report.case import Case, Key, Opened, PartOfKey, Pitfalls, capitalised
 from reportgen.report.occurring import explained, is_explained, occurring
+from reportgen.report.shafts import Shaft
 
 _NUMBER = re.compile(r"\b\d\b")
 """The number of a wheel in what a quantity is called."""
@@ -224,7 +225,9 @@ class Coursework:
         """Which way the shafts turn, where the machine's driver does."""
         unit = str(self.machine.printed.units.get("rpm", "rpm"))
         parts = [
-            PartShafts(one.title, one.case.shafts, {datum.key: datum.of for datum in one.part.taken if datum.times == "1"})
+            PartShafts(
+                one.title, one.case.shafts, {datum.key: datum.of for datum in one.part.taken if datum.times == "1"}
+            )
             for one in self.members
         ]
         for driver in self.machine.shafts[:1]:
@@ -244,7 +247,8 @@ class Coursework:
         rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
         lettered = tuple(self._said(letters, member))
         summary = tuple(relettered(member.case.summary(), letters))
-        return PartReport(member.name, member.title, document, tuple(self._taken(member)), lettered, rows, summary)
+        taken = tuple(self._taken(member))
+        return PartReport(member.name, member.title, document, taken, lettered, symbols=rows, summary=summary)
 
     def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
         """Which symbols of a part have its index, and which points are others than those of the same name before."""
@@ -350,7 +354,9 @@ class Coursework:
         return with_change(plate, lambda one: replace(relettered(one, letters), lines=(*lines, *one.lines)))
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
-        return [relettered(one, self.letters[member.name]) for member in self.members for one in member.case.true_sizes()]
+        return [
+            relettered(one, self.letters[member.name]) for member in self.members for one in member.case.true_sizes()
+        ]
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

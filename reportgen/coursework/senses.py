@@ -11,7 +11,8 @@ from typing import Any
 from reportgen.formula import Number
 from reportgen.marking.feedback import sentence
 from reportgen.report import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
-from reportgen.report.case import Shaft, capitalised
+from reportgen.report.case import capitalised
+from reportgen.report.shafts import Shaft
 
 KEY = "tab.shafts"
 WIDTHS = (76.0, 26.0, 58.0)
@@ -32,7 +33,7 @@ class PartShafts:
 
 @dataclass(frozen=True)
 class TurningShaft:
-    """A shaft with its sense: 1 anticlockwise, −1 clockwise, 0 where only that against the `first` of its part is known.
+    """A shaft with its sense: 1 anticlockwise, −1 clockwise, 0 where it is known against the `first` of its part only.
 
     `driving` says that it is the driver's own.
     """
@@ -48,11 +49,8 @@ def turning(part: PartShafts, driver: Shaft) -> Iterator[TurningShaft]:
     first = part.shafts[0]
     driving = next((one for one in part.shafts if _is_driver(one, part.taken, driver)), None)
     for one in part.shafts:
-        if one.fixed:
-            sense = one.turn
-        else:
-            sense = driver.turn * driving.turn * one.turn if driving else 0
-        yield TurningShaft(one, sense, first, one is driving)
+        seen = driver.turn * driving.turn * one.turn if driving else 0
+        yield TurningShaft(one, one.turn if one.fixed else seen, first, one is driving)
 
 
 def _is_driver(shaft: Shaft, taken: Mapping[str, str], driver: Shaft) -> bool:
@@ -76,7 +74,12 @@ def told(driver: Shaft, parts: Sequence[PartShafts], words: Mapping[str, Any], u
             rows.append(_row(one, words, part.title if names[one.shaft.name] > 1 else ""))
             if one.driving and not one.shaft.fixed and one.shaft is not one.first:
                 name = "same" if one.shaft.turn > 0 else "against"
-                named = {"shaft": one.shaft.name, "Shaft": capitalised(one.shaft.name), "first": one.first.name, "title": part.title}
+                named = {
+                    "shaft": one.shaft.name,
+                    "Shaft": capitalised(one.shaft.name),
+                    "first": one.first.name,
+                    "title": part.title,
+                }
                 signs.append(Paragraph(sentence(own[name], **named, table=Reference(KEY))))
     head = tuple(Cell((Text(text.format(unit=unit)),)) for text in own["head"])
     columns = (Column(WIDTHS[0], "left"), *(Column(width) for width in WIDTHS[1:]))

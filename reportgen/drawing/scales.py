@@ -19,7 +19,7 @@ NEXT = 1 - 1e-9
 
 @dataclass(frozen=True, slots=True)
 class FigureSize:
-    """How large a figure is drawn: by so many standard scales larger than in a report, then `enlarged` with its letters.
+    """How large a figure is drawn: so many standard scales larger than in a report, then `enlarged` with its letters.
 
     `beside` says the report's scale on a sheet, as "report: {scale}"; in a report there is nothing to say.
     """

@@ -49,9 +49,10 @@ from reportgen.gears.pair_drawings import (
 )
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
 from reportgen.report import Block, Document
-from reportgen.report.case import Key, Shaft, Span
+from reportgen.report.case import Key, Span
+from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
-from reportgen.sheets.plates import drawn
+from reportgen.sheets.plates import drawn, on_sheet
 
 
 @dataclass(frozen=True)
@@ -86,9 +87,7 @@ class PairCase(SolvedPair):
     @property
     def shafts(self) -> Sequence[Shaft]:
         """It has no speed: wheels of an outer mesh turn against each other."""
-        return tuple(
-            Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True)
-        )
+        return tuple(Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True))
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -238,7 +237,7 @@ def _plates(case: PairCase) -> Iterator[DrawingPlate]:
         return lambda case, size: draw(case, Area(*AREAS[size.steps], size.enlarged))
 
     def plate(name: str, layer: str, draw: Draw, steps: int) -> DrawingPlate:
-        return DrawingPlate(str(captions[f"figure-{name}"]), (), layer, (lettered(draw(case, case.on_sheet(steps))),))
+        return DrawingPlate(str(captions[f"figure-{name}"]), (), layer, (lettered(draw(case, on_sheet(case, steps))),))
 
     shown: list[tuple[str, str, Draw, int]] = [
         ("mesh", "profile", mesh, _mesh_steps(case)),
@@ -255,7 +254,7 @@ def _plates(case: PairCase) -> Iterator[DrawingPlate]:
 def _mesh_steps(case: PairCase) -> int:
     """By how many standard scales the mesh may be larger than in the report: teeth are no higher than `HIGHEST`."""
     usual, _ = mesh_scale(case)
-    sizes = (case.on_sheet(steps).scale(usual) for steps in range(1, MOST_STEPS + 1))
+    sizes = (on_sheet(case, steps).scale(usual) for steps in range(1, MOST_STEPS + 1))
     return sum(tooth(case) / scale <= HIGHEST for scale in sizes)
 
 

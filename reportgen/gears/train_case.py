@@ -23,8 +23,9 @@ from reportgen.gears.train import LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
 from reportgen.report import Block, Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.report.case import Key, Shaft
+from reportgen.report.case import Key
 from reportgen.report.design import DesignPage
+from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn
 
@@ -300,7 +301,9 @@ class TrainCase(SolvedTrain):
         """Its scheme, its triangles and its tables; there are no sets of them to choose from."""
         page, captions = TrainPage(self), self.words["train"]["captions"]
         tables = [(name, getattr(page, f"{name}_table" if name == "rates" else name)) for name in ("checks", "rates")]
-        told = [DrawingPlate(captions[name], (), "tables", (drawn(one, self.assignment.language),)) for name, one in tables]
+        told = [
+            DrawingPlate(captions[name], (), "tables", (drawn(one, self.assignment.language),)) for name, one in tables
+        ]
         return {"train": [*train_drawings.plates(self), *(replace(one, spare=True) for one in told)]}
 
     def sheets(

@@ -22,6 +22,7 @@ from reportgen.formula import Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears.train import ALPHA, turned
 from reportgen.gears.train_solution import OTHER, SolvedTrain, pole_distance
+from reportgen.sheets.plates import on_sheet
 
 FRONT = 80.0
 """What the scheme seen along its axis may fill on a page (mm)."""
@@ -314,6 +315,6 @@ def plates(case: SolvedTrain) -> list[DrawingPlate]:
     drawn = (("scheme", "scheme", scheme_views), ("triangles", "plans", velocity_triangles))
 
     def plate(name: str, layer: str, draw: Callable[[SolvedTrain, FigureSize], Scene], steps: int) -> DrawingPlate:
-        return DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(draw(case, case.on_sheet(steps))),))
+        return DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(draw(case, on_sheet(case, steps))),))
 
     return [enlargeable(partial(plate, *one)) for one in drawn]

@@ -34,13 +34,13 @@ if TYPE_CHECKING:
 
     from reportgen.drawing.film import Film
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.drawing.scales import FigureSize
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
     from reportgen.machine.flywheel import RegulatedCycle
     from reportgen.plans import PlannedLedger
     from reportgen.plans.loads import Polygon
+    from reportgen.report.shafts import Shaft
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,22 +58,6 @@ class Pitfalls:
     readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
     whole: Mapping[str, str] = field(default_factory=dict)
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class Shaft:
-    """A shaft of a work: what it is called, its speed (rad/s) if it is known, and its sense, 1 or −1.
-
-    A `fixed` sense is counted anticlockwise as the machine is drawn, any other one from shaft to shaft of the same
-    work.  `datum` is the key of the parameters that gives its speed; what is chosen may miss the speed by a `share`.
-    """
-
-    name: str
-    speed: float | None
-    turn: int
-    fixed: bool = False
-    datum: str = ""
-    share: float = 0.0
 
 
 class Case(Protocol):
@@ -273,13 +257,6 @@ class Opened:
     def used(self) -> Collection[Symbol] | None:
         """Nobody knows before its report is composed."""
         return None
-
-    def on_sheet(self, steps: int) -> FigureSize:
-        """How large a drawing sheet shows a figure, by so many standard scales larger than a report."""
-        from reportgen.drawing.scales import FigureSize
-        from reportgen.drawing.sheet import ENLARGED
-
-        return FigureSize(steps, ENLARGED, self.words["plates"]["report"], self.assignment.language)
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         """It has nothing that is made."""

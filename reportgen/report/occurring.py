@@ -7,7 +7,20 @@ from dataclasses import replace
 
 from reportgen.drawing import Label, Scene
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, children
-from reportgen.report import Block, Emph, Equation, Figure, Inline, InlineMath, List, Paragraph, Plate, Strong, Table, Text
+from reportgen.report import (
+    Block,
+    Emph,
+    Equation,
+    Figure,
+    Inline,
+    InlineMath,
+    List,
+    Paragraph,
+    Plate,
+    Strong,
+    Table,
+    Text,
+)
 
 LEAST_WORD = 4
 """A text of so many letters is no unit and no verdict."""

@@ -1,13 +1,13 @@
 """Where plates stand on drawing sheets: in columns, in the order of the work, with heads in line and even gutters.
 
-A column is rows of plates: beside one that leaves room stands the next.  Columns begin at the top, with one distance between rows and one between
-columns all over the sheet; those above the title block are so much shorter.
+A column is rows of plates: beside one that leaves room stands the next.  Columns begin at the top, with one distance
+between rows and one between columns all over the sheet; those above the title block are so much shorter.
 """
 
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property

@@ -17,13 +17,14 @@ from reportgen.drawing import Content, Scene
 from reportgen.drawing.geometry import unit
 from reportgen.drawing.plan import Plan, plan
 from reportgen.drawing.plates import DrawingPlate
+from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import ENLARGED, grid, lettered, widths
 from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
-from reportgen.report.case import Calculation
+from reportgen.report.case import Calculation, Opened
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
@@ -313,6 +314,11 @@ def _quantities(
         ["", *(_unit(report, id) for id in quantities)],
     ]
     return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in quantities)] for k in positions]
+
+
+def on_sheet(case: Opened, steps: int) -> FigureSize:
+    """How large a sheet shows a figure of a report, by so many standard scales larger."""
+    return FigureSize(steps, ENLARGED, case.words["plates"]["report"], case.assignment.language)
 
 
 def drawn(table: Table, language: Language) -> Scene:
