@@ -5,7 +5,7 @@ A kind's module gives either `machine`, which makes a `Machine` of an assignment
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, partial
 from itertools import takewhile
@@ -23,9 +23,11 @@ from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
 from reportgen.report import Document
 from reportgen.report.case import Calculation, Case, Key, Pitfalls
+from reportgen.report.shafts import Shaft
 
 if TYPE_CHECKING:
     from reportgen.drawing.film import Film
+    from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
 
 
@@ -152,6 +154,19 @@ class MachineCase(Calculation):
         from reportgen.page.sampling import film
 
         return (film(self),)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """The driver's, if it turns."""
+        if self.analysis.machine.span:
+            return ()
+        turn = self.assignment.positions.sign
+        return (Shaft(self.words["coursework"]["driver"], abs(self.speed), turn, fixed=True, datum="n"),)
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        from reportgen.sheets import plates_by_set
+
+        return plates_by_set(self, sets, every)
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False

@@ -24,6 +24,10 @@ ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
 UNUSED = ("report",)
 """The section of a part that the coursework's own stands for."""
+ON_SHAFT = "n", "n", "1"
+"""What is taken by a part that turns with the driver: its speed is the driver's, once."""
+DIRECTION, ANTICLOCKWISE = "direction", "anticlockwise"
+SENSES = (ANTICLOCKWISE, "clockwise")
 _TYPED = re.compile(rf"\s*({NUMBER})(.*)")
 
 Assess = Callable[[Source, Path], tuple[Assignment | None, list[Fault]]]
@@ -47,6 +51,8 @@ def read(
         )
         if source.top is not None and not own:
             source, own = _with_taken(source, top, index, taken, one)
+            if not own and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
+                source, own = _with_direction(source, top, find)
         own = own or list(_no_part(source, find))
         assignment, wrong = (None, own) if own else assess(source, Path(source.file))
         if assignment is None:
@@ -167,6 +173,21 @@ def _with_taken(
             text = value.text if times is None else scaled(value.text, times.si)
             node = put(node, ("parameters", datum.key), Scalar(text, wanted.mark))
     return replace(source, top=node), faults
+
+
+def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind]) -> tuple[Source, list[Fault]]:
+    """A part that sits on the driver's shaft, with the driver's sense of rotation if its kind has one of its own."""
+    node, name = source.top, at(source.top, ("kind",))
+    if node is None or not isinstance(name, Scalar) or name.text not in kinds():
+        return source, []
+    if DIRECTION not in find(name.text).parameters.model_fields:
+        return source, []
+    of_machine, own = at(top, ("positions", DIRECTION)), at(node, ("parameters", DIRECTION))
+    sense = of_machine.text if isinstance(of_machine, Scalar) and not of_machine.null else ANTICLOCKWISE
+    if isinstance(own, Scalar) and not own.null:
+        against = own.text in SENSES and sense in SENSES and own.text != sense
+        return source, [Fault("shaft-sense", own.mark, {"text": own.text, "of": sense})] if against else []
+    return replace(source, top=put(node, ("parameters", DIRECTION), Scalar(sense, name.mark))), []
 
 
 def place_of(name: str) -> Where:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -15,11 +15,14 @@ from reportgen.cam import sheets as sheet_of_cam
 from reportgen.cam.file import exceeded
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing.film import Film
+from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import vocabulary
 from reportgen.formula.sheet import Family
-from reportgen.report import Document
+from reportgen.report import Block, Document
 from reportgen.report.case import Key, Pitfalls, Span
+from reportgen.report.shafts import Shaft
+from reportgen.sheets import on_sheets
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,13 @@ class CamCase(SolvedCam):
 
     def document(self) -> Document:
         return self.bounded(views.CamPage.report)
+
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(views.CamPage.summary)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        return (Shaft(self.words["cam"]["shaft"], self.speed, self.solution.cam.turn, fixed=True, datum="n"),)
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -99,8 +109,14 @@ class CamCase(SolvedCam):
     def films(self) -> tuple[Film, ...]:
         return (film.film(self),)
 
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """There are no sets of them to choose from."""
+        return {"cam": list(sheet_of_cam.plates(self))}
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        return (sheet_of_cam.true_size(self.solution.cam),)
+
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
     ) -> list[DrawingSheet]:
-        """Its plates on a sheet, and the profile alone; there are no sets of them to choose from."""
-        return sheet_of_cam.drawing_sheets(self, size, block)
+        return [*on_sheets(self, self.plates(), size, block), *self.true_sizes()]

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.base.units import MM
+from reportgen.base.units import MM, nice_up
 from reportgen.cam.laws import PHASES, Floats
-from reportgen.cam.solution import TURN_ON_PAPER
+from reportgen.cam.solution import HEIGHT, LEAST_POLE, TURN_ON_PAPER
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Plotted, PlottedCurve, plotted
+from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
+from reportgen.drawing.geometry import box
 from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 
@@ -24,6 +26,10 @@ GAP = 16.0
 """White between two of the diagrams (mm)."""
 TURN = TURN_ON_PAPER * MM
 """The length of a turn of the report's diagrams (mm)."""
+BESIDE = 0.4
+"""White between the numbers of positions at least (mm)."""
+DEGREES_PER_MM = (2.5, 2.0, 1.0)
+"""Scales of the angle on drawing sheets, the least first."""
 BEYOND = 6.0
 """How far an axis goes on (mm)."""
 RAY, CHORD = Pen(0.1, style.GRAY), Pen(0.2, style.RED)
@@ -40,47 +46,81 @@ class Graph:
     symbol: Symbol
     up: Floats
     zero: float
-    scale: Chain
 
     def at(self, y: Floats) -> Floats:
         return self.zero + y
 
 
-def scale_of(case: SolvedCam, id: str) -> float:
-    """A scale of the diagrams (SI per m of paper)."""
-    return float(case.printed[id].values[0])
+@dataclass(frozen=True)
+class LawScales:
+    """A turn of the diagrams on paper (mm), their scales (SI per mm), and the pole distances (mm) of the lower two.
 
-
-def law_diagrams(case: SolvedCam, larger: float = 1.0, enlarged: float = 1.0) -> Scene:
-    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below.
-
-    They are so many times `larger` than in a report, with the scales that they have once they are `enlarged`, too.
+    K₁ = μ_s′/(μ_s″ μ_φ) is that of s″, K₂ = μ_s/(μ_s′ μ_φ) that of s′.
     """
+
+    turn: float
+    per_mm: tuple[float, float, float]
+    poles: tuple[float, float]
+
+    def shrunk(self, times: float) -> LawScales:
+        """Those of diagrams so many times smaller."""
+        (s, ds, dds), (one, two) = self.per_mm, self.poles
+        return LawScales(self.turn / times, (s * times, ds * times, dds * times), (one / times, two / times))
+
+    def across(self, φ: Floats) -> Floats:
+        return φ / (2 * math.pi) * self.turn
+
+
+def usual_scales(case: SolvedCam) -> LawScales:
+    """Those of a report."""
+    ids_of = (ids.cam_scale(id.removeprefix("cam.")) for id in case.solution.moved)
+    first, second, third = (float(case.printed[id].values[0]) / MM for id in ids_of)
+    turn, *poles = (float(case.printed[ids.cam_diagram(name)].values[0]) * MM for name in ("L", 1, 2))
+    return LawScales(turn, (first, second, third), (poles[0], poles[1]))
+
+
+def standard_scales(case: SolvedCam, steps: int) -> LawScales:
+    """Those of a drawing sheet: standard ones, for its length about as high as in a report; the poles follow."""
+    turn = 360 / DEGREES_PER_MM[steps]
+    traced, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
+    height = HEIGHT * MM * turn / TURN
+    first, second, third = (float(np.ptp(part)) / height for part in (traced.s, traced.ds, traced.dds))
+    lowest = nice_up(third or second / μ_φ / height)
+    middle = nice_up(max(second, lowest * μ_φ * LEAST_POLE))
+    highest = nice_up(max(first, middle * μ_φ * LEAST_POLE))
+    return LawScales(turn, (highest, middle, lowest), (middle / lowest / μ_φ, highest / middle / μ_φ))
+
+
+def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
+    """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
     traced = case.solution.cam.sampled(1440)
     names = case.solution.moved
+    scales = standard_scales(case, size.steps) if size.beside else usual_scales(case)
+    notes = list(_notes(case, scales, size))
+    scales = scales.shrunk(size.enlarged)
     graphs: list[Graph] = []
     zero = 0.0
-    for id, values in zip(names, (traced.s, traced.ds, traced.dds), strict=True):
-        short = id.removeprefix("cam.")
-        up = values / scale_of(case, ids.cam_scale(short)) * MM * larger
+    for id, values, per_mm in zip(names, (traced.s, traced.ds, traced.dds), scales.per_mm, strict=True):
+        up = values / per_mm
         if graphs:
             # Below the lowest of the one before.
             zero -= up.max() + GAP - min(float(graphs[-1].up.min()), 0.0)
-        chain = Chain(
-            (case.printed.symbol(ids.cam_scale(short)), shrunk(case, ids.cam_scale(short), larger * enlarged))
-        )
-        graphs.append(Graph(case.ledger.symbol(id), up, zero, chain))
-    poles = [float(case.printed[ids.cam_diagram(number)].values[0]) * MM * larger for number in (1, 2)]
-    width = float(case.printed[ids.cam_diagram("L")].values[0]) * MM * larger
+        graphs.append(Graph(case.ledger.symbol(id), up, zero))
+    poles, width = scales.poles, scales.turn
     items: list[Item] = []
     requests: list[Request] = []
-    across = traced.φ / (2 * math.pi) * width
+    across = scales.across(traced.φ)
+    taken = -math.inf
     for φ, k in zip(case.solution.φ, range(1, case.count + 1), strict=True):
         x = φ / (2 * math.pi) * width
         low = min(float(graphs[-1].at(graphs[-1].up).min()), graphs[-1].zero)
         items.append(Line(complex(x, low), complex(x, graphs[0].zero + graphs[0].up.max()), DIVISION))
-        items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL))
-    items += _integrated(case, graphs, width, poles)
+        half = box(str(k), style.SMALL).width / 2
+        # Of positions close to each other not every one has room for its number.
+        if x - half > taken:
+            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL))
+            taken = x + half + BESIDE
+    items += _integrated(case, graphs, scales)
     for number, graph in enumerate(graphs):
         requests += _axes(graph, width, poles[2 - number] if number else 0.0, 3 - number, items)
         points = tuple(complex(x, y) for x, y in zip(across, graph.at(graph.up), strict=True))
@@ -95,15 +135,34 @@ def law_diagrams(case: SolvedCam, larger: float = 1.0, enlarged: float = 1.0) ->
                 complex((start + stop) / 2, y), case.ledger.symbol(ids.cam_phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
-    μ_φ = Chain((case.printed.symbol(ids.cam_scale("phi")), shrunk(case, ids.cam_scale("phi"), larger * enlarged)))
-    notes: list[Content] = [μ_φ, *(graph.scale for graph in graphs)]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
-def shrunk(case: SolvedCam, id: str, larger: float) -> Number:
-    """A scale as a diagram has it that is so many times as large."""
+def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Content]:
+    """The scales, on a sheet with those of the report and the pole distances."""
+    phi = ids.cam_scale("phi")
+    shown = _shown(case, phi, 2 * math.pi / scales.turn)
+    note = size.told(case.printed.symbol(phi), shown, case.printed.number(phi))
+    if size.beside:
+        degrees = Number(DEGREES_PER_MM[size.steps], unit="°/mm")
+        note = replace(note, parts=(note.parts[0], degrees, shown))
+    yield note
+    for id, per_mm in zip(case.solution.moved, scales.per_mm, strict=True):
+        of = ids.cam_scale(id.removeprefix("cam."))
+        yield size.told(case.printed.symbol(of), _shown(case, of, per_mm), case.printed.number(of))
+    if size.beside:
+        for number, pole in enumerate(scales.poles, start=1):
+            K = ids.cam_diagram(number)
+            yield size.told(case.printed.symbol(K), Number(pole, 2, "mm"), case.printed.number(K))
+
+
+def _shown(case: SolvedCam, id: str, per_mm: float) -> Number:
+    """A scale (SI per mm) as the report would print it."""
     number = case.printed.number(id)
-    return number if larger == 1 else Number(float(f"{number.shown / larger:.6g}"), None, number.unit)
+    usual = float(case.printed[id].values[0]) / MM
+    if math.isclose(per_mm, usual, rel_tol=1e-12):
+        return number
+    return Number(float(f"{number.value * per_mm / usual:.6g}"), None, number.unit)
 
 
 def _phase_ends(case: SolvedCam) -> Iterator[tuple[str, tuple[float, float]]]:
@@ -134,19 +193,19 @@ def _axes(graph: Graph, width: float, pole: float, order: int, items: list[Item]
         yield label(below + pole / 2, Symbol("K", str(number)), gap=0.8, prefer=(-math.pi / 2,))
 
 
-def _integrated(case: SolvedCam, graphs: Sequence[Graph], width: float, poles: Sequence[float]) -> Iterator[Item]:
+def _integrated(case: SolvedCam, graphs: Sequence[Graph], scales: LawScales) -> Iterator[Item]:
     """Rays from the poles to mean ordinates, and the chords parallel to them, step by step of each moving phase.
 
     The mean ordinate of a step, at which the eye makes two areas equal, is what the diagram above rises by in it.
     """
-    motion, scales = case.solution.motion, [ids.cam_scale(id.removeprefix("cam.")) for id in case.solution.moved]
-    for number, K in zip((2, 1), poles, strict=True):
+    motion = case.solution.motion
+    for number, K in zip((2, 1), scales.poles, strict=True):
         lower, upper = graphs[number], graphs[number - 1]
         for phase in ("rise", "return"):
             start = motion.starts[phase]
             φ = np.linspace(start, start + motion.phases[PHASES.index(phase)], STEPS + 1)
-            x = φ / (2 * math.pi) * width
-            up = motion(φ)[number - 1] / scale_of(case, scales[number - 1]) * MM * width / TURN
+            x = scales.across(φ)
+            up = motion(φ)[number - 1] / scales.per_mm[number - 1]
             mean = np.diff(up) / np.diff(x) * K
             corners = x + 1j * upper.at(up)
             for step in range(STEPS):
@@ -167,7 +226,7 @@ def angle_axis(case: SolvedCam) -> Chain:
     return axis(Symbol("φ"), str(case.words["cam"]["angle"]))
 
 
-def pressure_chart(case: SolvedCam, half: bool = False) -> Plotted:
+def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None) -> Plotted:
     """The pressure angle over a turn, with its limits."""
     traced, limits = case.solution.cam.sampled(), case.solution.designed.limits
     levels = [
@@ -179,7 +238,7 @@ def pressure_chart(case: SolvedCam, half: bool = False) -> Plotted:
         if limit is not None
     ]
     shown = PlottedCurve(Symbol("α"), np.degrees(traced.φ), np.degrees(traced.alpha))
-    return plotted((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=levels, half=half)
+    return plotted((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=levels, half=half, area=area)
 
 
 def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:

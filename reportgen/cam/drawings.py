@@ -9,13 +9,14 @@ from typing import Literal
 
 import numpy as np
 
-from reportgen.base.units import MM, nice_up
+from reportgen.base.units import MM
 from reportgen.cam.profile import Cam, Traced
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Canvas, Request, finish, label
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.drawing.scales import IN_REPORT, FigureSize
+from reportgen.formula import Symbol, ids
 
 DIAGRAM_ROOM = 118 + 128j
 """What the S–S′ diagram may fill on a page (mm)."""
@@ -41,31 +42,25 @@ GUIDE = 1.6
 LINES = 7
 """So many limit lines of an oscillating follower are drawn for each phase."""
 Stage = Literal["displacements", "profile by inversion", "cam"]
-SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
+SCALE = Symbol("μ", "l")
 
 
-def scale_note(scale: float) -> Chain:
-    """The scale of a drawing: what a millimetre of paper stands for (mm)."""
-    return Chain((Symbol("μ", "l"), Number(float(f"{scale:.6g}"), None, "mm/mm")))
-
-
-def fitting(points: Sequence[complex], room: complex, enlarged: float = 1.0) -> float:
-    """The scale (m of the cam per mm of paper) at which points (m) fit a room (mm), round once it is enlarged."""
-    array = np.array(points)
-    size = complex(np.ptp(array.real), np.ptp(array.imag)) * MM
-    return nice_up(max(size.real / room.real, size.imag / room.imag) / enlarged, SCALES) * enlarged / MM
+def fitting(points: Sequence[complex], room: complex, size: FigureSize = IN_REPORT) -> tuple[float, float]:
+    """The report's scale (mm/mm) at which points (m) fit a room, and how many mm of the figure stand for a metre."""
+    usual, at = size.fitting([point * MM for point in points], room)
+    return usual, at * MM
 
 
 # --- the S–S′ diagram -------------------------------------------------------------------------------
 
 
-def limit_diagram(case: SolvedCam, room: complex = DIAGRAM_ROOM, enlarged: float = 1.0) -> Scene:
+def limit_diagram(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
     """The region of the cam's centres that keeps both limits of the pressure angle."""
     cam = case.solution.cam
-    return (_of_translating if cam.translating else _of_oscillating)(case, room, enlarged)
+    return (_of_translating if cam.translating else _of_oscillating)(case, size)
 
 
-def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
+def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     """s upwards over s′, both at one scale; the centre at e to the right and s₀ below."""
     found, cam = case.solution.designed, case.solution.cam
     traced = cam.sampled()
@@ -75,8 +70,7 @@ def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     least = found.least
     if least is not None:
         places += [complex(least.e, -least.s0)] + ([least.apex.conjugate()] if least.apex is not None else [])
-    scale = fitting(places, room, enlarged)
-    at = 1 / scale
+    usual, at = fitting(places, DIAGRAM_ROOM, size)
     low = min(place.imag for place in places) * at - 10
     high = float(traced.s.max()) * at
     left, right = float(min(p.real for p in places)) * at - 14, float(max(p.real for p in places)) * at + 14
@@ -144,7 +138,7 @@ def _of_translating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
     items.append(Line(0j, centre * at, style.VISIBLE))
     requests.append(label(centre * at, Symbol("O"), gap=1.6))
     requests.append(label([centre * at * share for share in (0.5, 0.4, 0.6, 0.7)], case.ledger.symbol("cam.r0")))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(size.note(SCALE, usual),), margin=2.0)
 
 
 def _within(end: complex, start: complex, left: float, right: float) -> complex:
@@ -164,7 +158,7 @@ def _centre(at: complex) -> tuple[Item, ...]:
     return Circle(at, 1.4, style.VISIBLE, style.PAPER), Circle(at, 0.4, None, style.BLACK)
 
 
-def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
+def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     """On each position of the arm l k is laid off along it; a line at 90° − [α] to the arm through its end bounds."""
     found, cam = case.solution.designed, case.solution.cam
     σ, pivot = cam.opposite, pivot_of(cam)
@@ -189,8 +183,7 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
                 if index % (160 // (LINES - 1)) == 0:
                     shown.append((pivot + arm * cam.arm, end, plane))
     places = [pivot, 0j, *(one[0] for one in shown), *(one[1] for one in shown), 0.6 * -1j * cam.r0]
-    scale = fitting(places, room, enlarged)
-    at = 1 / scale
+    usual, at = fitting(places, DIAGRAM_ROOM, size)
     array = np.array(places) * at
     left, right, low, high = array.real.min() - 12, array.real.max() + 12, array.imag.min() - 22, array.imag.max() + 8
     box = [complex(left, low), complex(right, low), complex(right, high), complex(left, high)]
@@ -222,7 +215,7 @@ def _of_oscillating(case: SolvedCam, room: complex, enlarged: float) -> Scene:
         label(start * at / 2, case.ledger.symbol("cam.r0")),
         label(pivot * at / 2, case.ledger.symbol("cam.a"), prefer=(-math.pi / 2,)),
     ]
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(size.note(SCALE, usual),), margin=2.0)
 
 
 def _arm(cam: Cam, ψ: float) -> complex:
@@ -234,9 +227,7 @@ def _arm(cam: Cam, ψ: float) -> complex:
 # --- the profile by inversion -------------------------------------------------------------------------
 
 
-def inversion(
-    case: SolvedCam, stage: Stage = "profile by inversion", room: complex = PROFILE_ROOM, enlarged: float = 1.0
-) -> Scene:
+def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: FigureSize = IN_REPORT) -> Scene:
     """The profile in the cam's frame, the follower carried round it against its rotation, with numbered positions.
 
     First its `displacements` are laid off, then the `profile by inversion` is drawn; the `cam` stands with its follower
@@ -248,8 +239,7 @@ def inversion(
     places = [*outline, *((float(np.abs(outline).max()) + cam.roller) * ring)]
     if not cam.translating:
         places += [pivot_of(cam)] if stage == "cam" else list(cam.a * ring)
-    scale = fitting(places, room - 6 * (1 + 1j), enlarged)
-    at = 1 / scale
+    usual, at = fitting(places, PROFILE_ROOM - 6 * (1 + 1j), size)
     items: list[Item] = []
     requests: list[Request] = []
     if stage == "cam":
@@ -272,7 +262,7 @@ def inversion(
     begin = math.pi / 2 + 0.5
     items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, Pen(0.25), style.HEAD))
     requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(scale_note(scale * MM / enlarged),), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=(size.note(SCALE, usual),), margin=2.0)
 
 
 def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:

@@ -83,7 +83,7 @@ def _scale(case: SolvedCam) -> float:
     cam = case.solution.cam
     reach = float(np.abs(cam.outline()).max())
     ring = reach * np.exp(1j * np.linspace(0, 2 * math.pi, 24))
-    return fitting([*ring, *([] if cam.translating else [pivot_of(cam)])], ROOM)
+    return 1 / fitting([*ring, *([] if cam.translating else [pivot_of(cam)])], ROOM)[1]
 
 
 def _stage(case: SolvedCam, traced: Traced) -> Stage:

@@ -6,52 +6,58 @@ The second sheet has nothing but the profile 1:1 on layers of its own, as a mach
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.cam.diagrams import law_diagrams, pressure_chart
+from reportgen.cam.diagrams import DEGREES_PER_MM, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.profile import Cam
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.sheet import ENLARGED, DrawingSheet, PlacedScene, lettered
-from reportgen.sheets import on_sheets
-from reportgen.sheets.packing import DrawingPlate
+from reportgen.drawing.charts import Area
+from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
+from reportgen.drawing.scales import FigureSize
+from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
+from reportgen.sheets.plates import on_sheet
 
 CHORD = 1e-6
 """How far the polyline of the profile may lie from the curve (m)."""
 MARGIN = 15.0
 """White around the profile that is cut (mm)."""
-TURN = 1.2
-"""A turn of the diagrams is so many times as long as in a report,"""
-LIMITS_ROOM, PROFILE_ROOM = 58 + 50j, 86 + 92j
-"""and diagrams of limits and profiles fill no more than this (mm) before they are enlarged as all figures of sheets."""
+AREAS = ((90.0, 45.0), (144.0, 64.0), (180.0, 80.0))
+"""What the curve of the pressure angle may fill (mm), the least first."""
 AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
 
 
-def drawing_sheets(case: SolvedCam, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
-    """The sheet of its plates, and the profile alone; raises `AssignmentError` as `on_sheets` does."""
-    return [*on_sheets(case, {"cam": list(_plates(case))}, size, block), _true_size(case.solution.cam)]
-
-
-def _plates(case: SolvedCam) -> Iterator[DrawingPlate]:
+def plates(case: SolvedCam) -> Iterator[DrawingPlate]:
     """Diagrams of the motion, of the limits and of the pressure angle, the construction of the profile, the cam."""
     found = case.solution.designed
-    yield _plate(case, "law", "curves", law_diagrams(case, TURN / ENLARGED, ENLARGED))
-    if found.least is not None and not found.cam.flat:
-        yield _plate(case, "limits", "scheme", limit_diagram(case, LIMITS_ROOM, ENLARGED))
-    yield _plate(case, "inversion", "positions", inversion(case, "profile by inversion", PROFILE_ROOM, ENLARGED))
-    yield _plate(case, "profile", "profile", inversion(case, "cam", PROFILE_ROOM, ENLARGED))
-    if not found.cam.flat:
-        yield _plate(case, "pressure", "curves", pressure_chart(case, half=True).scene)
+
+    def pressure(case: SolvedCam, size: FigureSize) -> Scene:
+        return pressure_chart(case, area=Area(*AREAS[size.steps], size.enlarged)).scene
+
+    drawn: list[tuple[str, str, Callable[[SolvedCam, FigureSize], Scene], int]] = [
+        ("law", "curves", law_diagrams, len(DEGREES_PER_MM) - 1),
+        ("limits", "scheme", limit_diagram, MOST_STEPS),
+        ("inversion", "positions", lambda case, size: inversion(case, "profile by inversion", size), MOST_STEPS),
+        ("profile", "profile", lambda case, size: inversion(case, "cam", size), MOST_STEPS),
+        ("pressure", "curves", pressure, len(AREAS) - 1),
+    ]
+    left_out = {"limits", "pressure"} if found.cam.flat else {"limits"} if found.least is None else set()
+    for name, layer, draw, most in drawn:
+        if name not in left_out:
+            yield enlargeable(partial(_plate, case, name, layer, draw), most)
 
 
-def _plate(case: SolvedCam, name: str, layer: str, scene: Scene) -> DrawingPlate:
-    """A figure as sheets show it, scales round once it is enlarged; its name is the caption in the report."""
-    return DrawingPlate(str(case.words["cam"]["captions"][f"figure-{name}"]), (), layer, (lettered(scene),))
+def _plate(
+    case: SolvedCam, name: str, layer: str, draw: Callable[[SolvedCam, FigureSize], Scene], steps: int
+) -> DrawingPlate:
+    """A figure as sheets show it, by so many standard scales larger than the report; its name is the caption there."""
+    scene = lettered(draw(case, on_sheet(case, steps)))
+    return DrawingPlate(str(case.words["cam"]["captions"][f"figure-{name}"]), (), layer, (scene,))
 
 
 # --- the profile that is cut ------------------------------------------------------------------------
@@ -76,7 +82,7 @@ def _sagitta(points: np.ndarray) -> float:
     return float((np.abs(chords) * np.tan(turned / 4) / 2)[smooth].max(initial=0.0))
 
 
-def _true_size(cam: Cam) -> DrawingSheet:
+def true_size(cam: Cam) -> DrawingSheet:
     """The profile 1:1 with its axes, on paper as large as it needs."""
     points = contour(cam) * MM
     low = complex(points.real.min(), points.imag.min()) - MARGIN * (1 + 1j)

@@ -36,7 +36,7 @@ from reportgen.report.numbering import number
 RUN_IN = 4
 """The level of a heading that stands in its paragraph."""
 SYMBOLS = (34.0, 96.0, 30.0)
-"""Widths (mm) of the columns of a part's symbols."""
+"""Widths (mm) of the columns of the parts' symbols."""
 NAMED = (Section, Equation, Table, Figure, Plate, Reference)
 """What has a key or refers to one."""
 
@@ -47,8 +47,8 @@ Blocks = tuple[Block, ...]
 class PartReport:
     """The report of a part: its `name` among the parts, its title, its finished tree.
 
-    `taken` says what it has from the machine, `lettered` which letters have its index; `symbols` are rows of its
-    quantities: symbol, meaning, unit.
+    `taken` says what it has from the machine, `lettered` which letters have its index; `symbols` are rows of those of
+    its quantities that nothing explains where they stand: symbols, meaning, unit; `summary` are its main results.
     """
 
     name: str
@@ -57,6 +57,7 @@ class PartReport:
     taken: Blocks = ()
     lettered: Blocks = ()
     symbols: tuple[tuple[Inlines, Inlines, Inlines], ...] = ()
+    summary: Blocks = ()
 
     def group(self, what: str) -> Blocks:
         """What stands below the heading that opens a section, "" for the chapters, their headings included."""
@@ -76,22 +77,29 @@ class PartReport:
                 yield tuple(map(lowered, renamed(group, self.name)))
 
 
-def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any]) -> Document:
-    """One numbered document; `words` are those of the machine."""
+def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any], senses: Blocks = ()) -> Document:
+    """One numbered document; `words` are those of the machine, `senses` say which way the shafts turn."""
     found = list(groups(machine.blocks))
+    # A short report has no summary.
+    last_told = "overview" if any(told(head) == "overview" for head, *_ in found) else "conclusion"
     counted = [index for index, (head, *_) in enumerate(found) if isinstance(head, Section) and head.numbered]
     last = counted[-1] if counted else len(found) - 1
     blocks: list[Block] = []
     for index, (head, *below) in enumerate(found):
+        below = list(with_parts_named(below, parts, words)) if told(head) == "foreword" else below
         blocks += (with_titles(head, parts) if isinstance(head, Cover) else head, *below)
+        if told(head) == "symbols":
+            blocks += symbols(parts, words)
         for part in parts:
             match told(head):
                 case "given":
                     blocks += (heading(part.title, 2), *part.group("given"), *part.taken)
-                case "symbols" if part.symbols:
-                    blocks += symbols(part, words)
+                case "overview":
+                    blocks += (heading(f"{part.title}.", RUN_IN), *part.summary)
                 case "conclusion":
                     blocks += (heading(f"{part.title}.", RUN_IN), *part.group("conclusion"))
+        if told(head) == last_told:
+            blocks += senses
         if index == last:
             for part in parts:
                 blocks += (Section(1, (Text(part.title),)), *part.lettered, *part.group(""))
@@ -152,11 +160,26 @@ def renamed(blocks: Blocks, name: str) -> Blocks:
     return changed(changed(blocks, Reference, own), tuple(kind for kind in NAMED if kind is not Reference), own)
 
 
-def symbols(part: PartReport, words: Mapping[str, Any]) -> Iterator[Block]:
-    """The quantities of a part in a table, and what says so."""
-    own, key = words["coursework"], f"{part.name}.tab.symbols"
-    yield Paragraph(sentence(own["symbols"], title=part.title, table=Reference(key)))
-    head = tuple(Cell((Text(str(text)),)) for text in words["tables"]["symbols"]["head"])
-    columns = (Column(SYMBOLS[0]), Column(SYMBOLS[1], "left"), Column(SYMBOLS[2]))
-    rows = tuple(tuple(map(Cell, row)) for row in part.symbols)
-    yield Table(columns, (head,), rows, sentence(own["caption"], title=part.title), key)
+def with_parts_named(
+    foreword: Sequence[Block], parts: Sequence[PartReport], words: Mapping[str, Any]
+) -> Iterator[Block]:
+    """The foreword of the machine with a sentence about the parts, before its last paragraph."""
+    own = words["coursework"]
+    titles = [str(own["title"]).format(title=part.title) for part in parts]
+    plain = [n for n, block in enumerate(foreword) if isinstance(block, Paragraph) and not block.align]
+    text = str(own["foreword"] if len(titles) > 1 else own["foreword_one"]).format(titles=", ".join(titles))
+    for place, block in enumerate(foreword):
+        if place == plain[-1]:
+            yield Paragraph((Text(text),))
+        yield block
+
+
+def symbols(parts: Sequence[PartReport], words: Mapping[str, Any]) -> Iterator[Block]:
+    """The quantities of all parts that have to be explained, in one table."""
+    own, key = words["coursework"], "tab.symbols.parts"
+    rows = tuple(tuple(map(Cell, row)) for part in parts for row in part.symbols)
+    if rows:
+        head = tuple(Cell((Text(str(text)),)) for text in words["tables"]["symbols"]["head"])
+        columns = (Column(SYMBOLS[0]), Column(SYMBOLS[1], "left"), Column(SYMBOLS[2]))
+        yield Paragraph(sentence(own["symbols"], table=Reference(key)))
+        yield Table(columns, (head,), rows, (Text(str(own["caption"])),), key)

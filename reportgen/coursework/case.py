@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,17 +14,25 @@ from typing import Any, Self
 import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
+from reportgen.coursework import senses
 from reportgen.coursework.booklet import PartReport, booklet, task_of
 from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
+from reportgen.coursework.senses import PartShafts
 from reportgen.drawing.film import Film
+from reportgen.drawing.plates import DrawingPlate
+from reportgen.drawing.plates import changed as with_change
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.marking.key import phrase
-from reportgen.report import Document, Equation, InlineMath, Paragraph, Text, listed
-from reportgen.report.case import Case, Key, PartOfKey, Pitfalls, capitalised
+from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
+from reportgen.report.case import Case, Key, Opened, PartOfKey, Pitfalls, capitalised
+from reportgen.report.occurring import explained, is_explained, occurring
+from reportgen.report.shafts import Shaft
 
+_NUMBER = re.compile(r"\b\d\b")
+"""The number of a wheel in what a quantity is called."""
 MACHINE = "machine"
 """The name of the part that the others follow."""
 
@@ -209,14 +218,37 @@ class Coursework:
     # --- papers
 
     def document(self) -> Document:
-        return booklet(self.documents[MACHINE], [self._report(member) for member in self.members], self.words)
+        parts = [self._report(member) for member in self.members]
+        return booklet(self.documents[MACHINE], parts, self.words, tuple(self._senses()))
+
+    def _senses(self) -> Iterator[Block]:
+        """Which way the shafts turn, where the machine's driver does."""
+        unit = str(self.machine.printed.units.get("rpm", "rpm"))
+        parts = [
+            PartShafts(
+                one.title, one.case.shafts, {datum.key: datum.of for datum in one.part.taken if datum.times == "1"}
+            )
+            for one in self.members
+        ]
+        for driver in self.machine.shafts[:1]:
+            yield from senses.told(driver, parts, self.words, unit)
+
+    def summary(self) -> Sequence[Block]:
+        """Its own report has one."""
+        return ()
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        return [shaft for case in self.parts.values() for shaft in case.shafts]
 
     def _report(self, member: PartCase) -> PartReport:
         letters = self.letters[member.name]
         document = relettered(self.documents[member.name], letters)
         rows = tuple(self._symbols(member)) if self.assignment.report.extent == "full" else ()
         lettered = tuple(self._said(letters, member))
-        return PartReport(member.name, member.title, document, tuple(self._taken(member)), lettered, rows)
+        summary = tuple(relettered(member.case.summary(), letters))
+        taken = tuple(self._taken(member))
+        return PartReport(member.name, member.title, document, taken, lettered, symbols=rows, summary=summary)
 
     def _said(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
         """Which symbols of a part have its index, and which points are others than those of the same name before."""
@@ -248,16 +280,23 @@ class Coursework:
             self.machine.printed.symbol(of) if of else Symbol(datum.of.rpartition(".")[2]),
         )
 
-    def _symbols(self, member: PartCase) -> Iterator[tuple[Any, Any, Any]]:
-        """A row for each symbol of the part that has a meaning in words."""
-        ledger, letters, met = member.case.printed, self.letters[member.name], set[Symbol]()
+    def _symbols(self, member: PartCase) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
+        """A row for the symbols of one meaning that the part's report uses and does not explain where they stand."""
+        ledger, letters = member.case.printed, self.letters[member.name]
+        blocks = member.document.blocks
+        used, known = occurring(blocks), explained(blocks)
+        alike: dict[tuple[str, str], dict[Symbol, str]] = {}
         for id, family in ledger.families.items():
             meaning = "" if family.hidden or family.is_plane else phrase(id, ledger, member.case.words)
-            if meaning and family.symbol not in met:
-                met.add(family.symbol)
+            if meaning and family.symbol in used and not is_explained(family.symbol, known):
                 unit = ledger.units.get(family.how.unit, family.how.unit)
                 shown = letters.get(family.symbol, family.symbol)
-                yield (InlineMath(shown),), (Text(capitalised(meaning)),), (Text(unit or "–"),)
+                alike.setdefault((_NUMBER.sub("", meaning), unit), {}).setdefault(shown, meaning)
+        for (_, unit), found in alike.items():
+            meanings = list(dict.fromkeys(found.values()))
+            numbers = ", ".join(number[0] for one in meanings if (number := _NUMBER.search(one)))
+            meaning = _NUMBER.sub(numbers, meanings[0]) if len(meanings) > 1 else meanings[0]
+            yield listed(map(InlineMath, found)), (Text(capitalised(meaning)),), (Text(unit or "–"),)
 
     def key(self) -> Key:
         machine = self.machine.key()
@@ -293,18 +332,50 @@ class Coursework:
         )
         return (*self.first.films, *parts)
 
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Those of the machine's `sets`, then those of all parts together."""
+        return {**self.machine.plates(sets, every), **self._plates_of_parts()}
+
+    def _plates_of_parts(self) -> Mapping[str, Sequence[DrawingPlate]]:
+        """One set, called by what it shows; of several parts of a kind each plate says which it is of."""
+        titles: list[str] = []
+        found: list[DrawingPlate] = []
+        for member in self.members:
+            alike = sum(one.part.head == member.part.head for one in self.members)
+            for name, plates in member.case.plates().items():
+                title = str(member.case.words["plates"]["sets"][name])
+                titles.append(title[:1].lower() + title[1:])
+                found += [self._of_part(plate, member, alike > 1) for plate in plates]
+        return {capitalised("; ".join(dict.fromkeys(titles))): found}
+
+    def _of_part(self, plate: DrawingPlate, member: PartCase, named: bool) -> DrawingPlate:
+        lines = (member.title,) if named else ()
+        letters = self.letters[member.name]
+        return with_change(plate, lambda one: replace(relettered(one, letters), lines=(*lines, *one.lines)))
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        return [
+            relettered(one, self.letters[member.name]) for member in self.members for one in member.case.true_sizes()
+        ]
+
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
     ) -> list[DrawingSheet]:
-        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have."""
+        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have.
+
+        The parts stand on sheets as large as those of the machine, on no larger ones than A1 if these hold them.
+        """
+        from reportgen.sheets import BY_SIZE, USUAL, on_sheets
         from reportgen.sheets.frame import DEFAULT, blocks, numbered, read_block
 
         language = self.assignment.language
         found = self.machine.sheets(size, sets, block, every)
-        for member in self.members:
-            found += relettered(member.case.sheets(size, (), block, every), self.letters[member.name])
+        least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
+        assert isinstance(self.machine, Opened), "an assignment that was opened"
+        found += on_sheets(self.machine, self._plates_of_parts(), size, block, least=least)
         own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
-        return numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+        framed = numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
+        return [*framed, *self.true_sizes()]
 
 
 def _names_a_point(symbol: Symbol) -> bool:

@@ -38,6 +38,7 @@ from reportgen.report.prose import NamedPoint, Prose
 
 if TYPE_CHECKING:
     from reportgen.drawing.film import Film
+    from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
 
@@ -118,13 +119,10 @@ class ExerciseCase(SolvedExercise):
         """Nothing moves at one instant."""
         return ()
 
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        """Its figures on a sheet; there are no sets of them to choose from."""
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Its figures; there are no sets of them to choose from."""
+        from reportgen.drawing.plates import DrawingPlate
         from reportgen.drawing.sheet import ENLARGED, lettered
-        from reportgen.sheets import on_sheets
-        from reportgen.sheets.packing import DrawingPlate
 
         words = self.words["instant"]
         drawn = {what: FIGURES[what](self, ENLARGED) for what in ("velocity", "acceleration")}
@@ -133,7 +131,14 @@ class ExerciseCase(SolvedExercise):
             for what, found in drawn.items()
             if found
         ]
-        return on_sheets(self, {"motion": plates}, size, block)
+        return {"motion": plates}
+
+    def sheets(
+        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    ) -> list[DrawingSheet]:
+        from reportgen.sheets import on_sheets
+
+        return on_sheets(self, self.plates(), size, block)
 
 
 def _task(case: SolvedExercise, key: Key, by_section: bool) -> Document:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.drawing import Circle, Content, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import Circle, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.charts import Area
 from reportgen.drawing.film import (
     BarScale,
     Carried,
@@ -26,19 +27,32 @@ from reportgen.drawing.film import (
     Track,
     extent,
 )
-from reportgen.drawing.sheet import ENLARGED, DrawingSheet, PlacedScene, grid, lettered
+from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
+from reportgen.drawing.scales import FigureSize
+from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.formula import Symbol, ids, vocabulary
-from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
 from reportgen.gears import pair_views as views
 from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
-from reportgen.gears.pair_drawings import FLANK, centre, mesh, on_line, region, sliding, turned
+from reportgen.gears.pair_drawings import (
+    FLANK,
+    HIGHEST,
+    centre,
+    mesh,
+    mesh_scale,
+    on_line,
+    region,
+    sliding,
+    tooth,
+    turned,
+)
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import Document, InlineMath, Inlines, Value
+from reportgen.report import Block, Document
 from reportgen.report.case import Key, Span
+from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
-from reportgen.sheets.packing import DrawingPlate
+from reportgen.sheets.plates import drawn, on_sheet
 
 
 @dataclass(frozen=True)
@@ -66,6 +80,14 @@ class PairCase(SolvedPair):
 
     def document(self) -> Document:
         return self.bounded(views.PairPage.report)
+
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(views.PairPage.summary)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """It has no speed: wheels of an outer mesh turn against each other."""
+        return tuple(Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True))
 
     def key(self) -> Key:
         from reportgen.marking.key import make_key
@@ -106,11 +128,17 @@ class PairCase(SolvedPair):
     def films(self) -> tuple[Film, ...]:
         return (_film(self),)
 
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """There are no sets of them to choose from."""
+        return {"pair": list(_plates(self))}
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        return [_true_size(self, number) for number in (0, 1)]
+
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
     ) -> list[DrawingSheet]:
-        """Its plates on a sheet, and each wheel in true size; there are no sets of them to choose from."""
-        return [*on_sheets(self, {"pair": list(_plates(self))}, size, block), *(_true_size(self, i) for i in (0, 1))]
+        return [*on_sheets(self, self.plates(), size, block), *self.true_sizes()]
 
 
 # --- the page on which it turns ---------------------------------------------------------------------
@@ -189,12 +217,13 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
     return items, touching
 
 
+Draw = Callable[[PairCase, FigureSize], Scene]
+
+
 # --- drawing sheets ---------------------------------------------------------------------------------
 
-SHEET_ROOM = 180 + 150j
-"""What the mesh may fill before it is enlarged as all figures of sheets (mm)."""
-SHIFTS = 72 + 64j
-"""The diagram of shifts, likewise."""
+AREAS = ((90.0, 80.0), (120.0, 110.0), (180.0, 150.0))
+"""What the curves of sliding and the diagram of shifts may fill (mm), the least first."""
 MARGIN = 15.0
 """White around a wheel in true size (mm)."""
 AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))
@@ -203,16 +232,30 @@ AXES = Pen(0.18, style.GRAY, (5.0, 1.0, 0.8, 1.0))
 def _plates(case: PairCase) -> Iterator[DrawingPlate]:
     """The mesh, the curves, the tables."""
     captions, page = case.words["pair"]["captions"], views.PairPage(case)
-    scenes = (
-        ("figure-mesh", "profile", mesh(case, SHEET_ROOM, ENLARGED)),
-        ("figure-sliding", "curves", sliding(case, half=True).scene),
-        ("figure-region", "scheme", region(case, SHIFTS)),
-    )
-    for name, layer, scene in scenes:
-        yield DrawingPlate(str(captions[name]), (), layer, (lettered(scene),))
-    for name, table in (("pair", page.pair_table), ("checks", page.checks)):
-        cells = [[_content(case, cell.inlines) for cell in row] for row in (*table.head, *table.rows)]
-        yield DrawingPlate(str(captions[name]), (), "tables", (lettered(grid(cells[:1], cells[1:])),))
+
+    def of_area(draw: Callable[[PairCase, Area], Scene]) -> Draw:
+        return lambda case, size: draw(case, Area(*AREAS[size.steps], size.enlarged))
+
+    def plate(name: str, layer: str, draw: Draw, steps: int) -> DrawingPlate:
+        return DrawingPlate(str(captions[f"figure-{name}"]), (), layer, (lettered(draw(case, on_sheet(case, steps))),))
+
+    shown: list[tuple[str, str, Draw, int]] = [
+        ("mesh", "profile", mesh, _mesh_steps(case)),
+        ("sliding", "curves", of_area(lambda case, area: sliding(case, area).scene), len(AREAS) - 1),
+        ("region", "scheme", of_area(region), len(AREAS) - 1),
+    ]
+    for name, layer, draw, most in shown:
+        yield enlargeable(partial(plate, name, layer, draw), most)
+    for name, table, spare in (("pair", page.pair_table, False), ("checks", page.checks, True)):
+        scene = drawn(table, case.assignment.language)
+        yield DrawingPlate(str(captions[name]), (), "tables", (scene,), spare=spare)
+
+
+def _mesh_steps(case: PairCase) -> int:
+    """By how many standard scales the mesh may be larger than in the report: teeth are no higher than `HIGHEST`."""
+    usual, _ = mesh_scale(case)
+    sizes = (on_sheet(case, steps).scale(usual) for steps in range(1, MOST_STEPS + 1))
+    return sum(tooth(case) / scale <= HIGHEST for scale in sizes)
 
 
 def _true_size(case: PairCase, number: int) -> DrawingSheet:
@@ -227,17 +270,3 @@ def _true_size(case: PairCase, number: int) -> DrawingSheet:
         PlacedScene("profile", "profile", Scene(size, size, (profile,))),
     )
     return DrawingSheet(f"1:1 ({WHEELS[number]})", size, size, parts)
-
-
-def _content(case: PairCase, inlines: Inlines) -> Content:
-    """What stands in a cell, as a label has it."""
-    match inlines:
-        case (InlineMath(expression),):
-            return expression
-        case (Value(number),):
-            return number
-        case _:
-            return "".join(
-                formula(one.number, case.assignment.language) if isinstance(one, Value) else getattr(one, "text", "")
-                for one in inlines
-            )

@@ -9,9 +9,10 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Plotted, PlottedCurve, plotted
+from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.gears.involute import Complexes, Floats
 from reportgen.gears.pair import GearPair
@@ -19,7 +20,6 @@ from reportgen.gears.pair_solution import WHEELS, SolvedPair
 
 MESH_ROOM = 150 + 168j
 """What the drawing of the mesh may fill on a page (mm)."""
-SCALES = (1.0, 2.0, 2.5, 4.0, 5.0)
 HIGHEST, LEAST_WITH_ENDS = 50.0, 20.0
 """A tooth is no higher on paper (mm), and both ends of the line of action are shown where it is at least so high."""
 SHOWN = (-1, 0, 1)
@@ -70,20 +70,37 @@ def on_line(pair: GearPair, rolled: float) -> complex:
     return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair.alpha_w))))
 
 
-def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> Scene:
+def mesh_scale(case: SolvedPair) -> tuple[float, bool]:
+    """The scale of the mesh in a report (mm/mm), and whether both ends of the line of action are shown."""
+    pair = case.gears
+    paper = [point * MM for point in (*_shown(pair)[1], on_line(pair, 0.0), on_line(pair, float(pair.path)))]
+    usual, _ = IN_REPORT.fitting(paper, MESH_ROOM)
+    with_ends = tooth(case) / usual >= LEAST_WITH_ENDS
+    if not with_ends:
+        usual, _ = IN_REPORT.fitting(paper[:-2], MESH_ROOM)
+    return max(usual, nice_up(tooth(case) / HIGHEST)), with_ends
+
+
+def tooth(case: SolvedPair) -> float:
+    """The height of a tooth (mm)."""
+    return float(case.ledger["gears.h"].values[0]) * MM
+
+
+def _shown(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
+    """The teeth of each wheel that are drawn, and all their points (m)."""
+    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
+    return outlines, np.concatenate([points for teeth in outlines for points in teeth])
+
+
+def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
     """Three teeth of each wheel touching at the pitch point, built as by hand."""
     pair = case.gears
     ends = [on_line(pair, 0.0), on_line(pair, float(pair.path))]
     at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
-    outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
-    drawn = np.concatenate([points for teeth in outlines for points in teeth])
-    height = float(case.ledger["gears.h"].values[0])
-    scale = _fitting([*drawn, *ends], room, enlarged)
-    with_ends = height / scale * enlarged >= LEAST_WITH_ENDS
-    if not with_ends:
-        scale = _fitting(list(drawn), room, enlarged)
-    scale = max(scale, nice_up(height * MM / HIGHEST, SCALES) * enlarged / MM)
-    at = 1 / scale
+    outlines, drawn = _shown(pair)
+    usual, with_ends = mesh_scale(case)
+    at = size.per_unit(usual) * MM
     low, high = _corners(np.append(drawn, ends) * at if with_ends else drawn * at)
     items: list[Item] = []
     requests: list[Request] = []
@@ -101,17 +118,10 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
             Circle(o, 0.7, None, style.BLACK) if abs(o) <= abs(end) else Arrow(end * 0.9, end, style.DIMENSION)
         )
         requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), gap=1.0, prefer=(0.0, math.pi)))
-    note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM / enlarged:.6g}"), None, "mm/mm")))
+    note = size.note(Symbol("μ", "l"), usual)
     a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.result("gears.a_w")))
     notes: list[Content] = [note, a_w]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
-
-
-def _fitting(points: Sequence[complex], room: complex, enlarged: float) -> float:
-    """The scale (m per mm of paper) at which points (m) fit a room (mm), round once it is enlarged."""
-    low, high = _corners(np.array(points) * MM)
-    size = high - low
-    return nice_up(max(size.real / room.real, size.imag / room.imag) / enlarged, SCALES) * enlarged / MM
 
 
 def _corners(points: Complexes) -> tuple[complex, complex]:
@@ -228,6 +238,8 @@ FRAME = 112 + 100j
 """The diagram without its text (mm)."""
 LONG = 15.0
 """A line of a limit is named from this length on (mm)."""
+APART = 8.0
+"""Figures on an axis stand no nearer (mm)."""
 AROUND = 0.15
 """White around the region (modules)."""
 OUTER = (-1.5, 3.0)
@@ -236,18 +248,26 @@ HARD, SOFT = Pen(0.45), Pen(0.25, style.BLUE, style.DASHED)
 ALIKE = Pen(0.25, style.RED, style.CHAIN)
 
 
-def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
-    """The shifts of both wheels that the limits leave, with the chosen ones."""
+def region(case: SolvedPair, area: Area | None = None) -> Scene:
+    """The shifts of both wheels that the limits leave, with the chosen ones; in an `area` its scales are printed."""
     pair, limits = case.gears, case.chosen.limits
     axes = np.linspace(*OUTER, 451)
     allowed = _bounds(_at(pair, axes, axes)).min(axis=0) >= 0
-    wide = [axes[allowed.any(axis=side)] if allowed.any() else np.zeros(1) for side in (1, 0)]
+    inner = [axes[allowed.any(axis=side)] if allowed.any() else np.zeros(1) for side in (1, 0)]
     low, high = (
-        [float(pick(np.append(inside, x))) + side * AROUND for inside, x in zip(wide, pair.x, strict=True)]
+        [float(pick(np.append(inside, x))) + side * AROUND for inside, x in zip(inner, pair.x, strict=True)]
         for pick, side in ((np.min, -1), (np.max, 1))
     )
     x1, x2 = (np.linspace(start, stop, GRID) for start, stop in zip(low, high, strict=True))
-    per = (frame.real / (high[0] - low[0]), frame.imag / (high[1] - low[1]))
+    wide, tall = high[0] - low[0], high[1] - low[1]
+    notes: list[Content] = []
+    per = (FRAME.real / wide, FRAME.imag / tall)
+    if area:
+        # Both axes have one scale.
+        scale = max(area.per_mm(wide, area.width), area.per_mm(tall, area.height))
+        per = (1 / scale / area.enlarged, 1 / scale / area.enlarged)
+        notes = [Chain((Symbol("μ", "x"), Number(scale, unit="1/mm")))]
+    frame = complex(wide * per[0], tall * per[1])
     grid = _at(pair, x1, x2)
 
     def paper(place: Complexes) -> Complexes:
@@ -291,7 +311,7 @@ def region(case: SolvedPair, frame: complex = FRAME) -> Scene:
     requests.append(label(chosen, "(", Symbol("x", "1"), "; ", Symbol("x", "2"), ")", gap=1.2))
     items.append(Label(complex(frame.real, -6), Symbol("x", "1"), "top-right"))
     items.append(Label(complex(-9, frame.imag), Symbol("x", "2"), "top-right"))
-    return finish(Canvas(tuple(items), tuple(requests)), margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
 def level_lines(x: Floats, y: Floats, values: Floats, level: float) -> list[Complexes]:
@@ -321,7 +341,7 @@ def _bounds(grid: GearPair) -> Floats:
 
 def _ticks(low: Sequence[float], high: Sequence[float], per: tuple[float, float]) -> Iterator[Item]:
     for side in (0, 1):
-        step = nice_up((high[side] - low[side]) / 9, (1.0, 2.0, 5.0))
+        step = nice_up(max((high[side] - low[side]) / 9, APART / per[side]), (1.0, 2.0, 5.0))
         for k in range(math.ceil(low[side] / step), math.floor(high[side] / step) + 1):
             along = (k * step - low[side]) * per[side]
             start, way = (complex(along, 0), 1j) if side == 0 else (complex(0, along), 1 + 0j)
@@ -337,7 +357,7 @@ DEEPEST = 4.0
 """λ is drawn down to so much below 0."""
 
 
-def sliding(case: SolvedPair, half: bool = False) -> Plotted:
+def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
     """λ₁ and λ₂ over the distance from N₁; the marks are the ends of the active path."""
     pair = case.gears
     g, start, end = float(pair.path), float(pair.rho_p[0]), float(pair.rho_a[0])
@@ -350,4 +370,4 @@ def sliding(case: SolvedPair, half: bool = False) -> Plotted:
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
         curves.append(PlottedCurve(case.ledger.symbol(ids.gear("lambda", wheel)), ρ1 * MM, shown, marks))
     across = Chain((case.ledger.symbol(ids.gear("rho", 1)),), "mm")
-    return plotted(curves, across, Chain((Symbol("λ"),), ""), turn=False, half=half)
+    return plotted(curves, across, Chain((Symbol("λ"),), ""), turn=False, area=area)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.film import Film
+from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
 from reportgen.formula.sheet import Family
@@ -20,9 +22,12 @@ from reportgen.gears import train_drawings
 from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
-from reportgen.report import Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report import Block, Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.case import Key
 from reportgen.report.design import DesignPage
+from reportgen.report.shafts import Shaft
+from reportgen.sheets import on_sheets
+from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6
 """So many of the tooth numbers found stand in the table."""
@@ -260,6 +265,17 @@ class TrainCase(SolvedTrain):
     def document(self) -> Document:
         return self.bounded(TrainPage.report)
 
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(TrainPage.summary)
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        driving, driven = self.words["train"]["shafts"]
+        reached = float(self.ledger["train.n.reached"].values[0])
+        speed = abs(reached / float(self.ledger["train.n.in"].values[0])) * self.speed
+        turn, share = round(math.copysign(1, reached)), self.given.tolerance.si
+        return Shaft(driving, self.speed, 1, datum="n_in"), Shaft(driven, speed, turn, share=share)
+
     def key(self) -> Key:
         from reportgen.marking.key import make_key
 
@@ -293,11 +309,19 @@ class TrainCase(SolvedTrain):
     def films(self) -> tuple[Film, ...]:
         return (train_drawings.film(self),)
 
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Its scheme, its triangles and its tables; there are no sets of them to choose from."""
+        page, captions = TrainPage(self), self.words["train"]["captions"]
+        tables = [(name, getattr(page, f"{name}_table" if name == "rates" else name)) for name in ("checks", "rates")]
+        told = [
+            DrawingPlate(captions[name], (), "tables", (drawn(one, self.assignment.language),)) for name, one in tables
+        ]
+        return {"train": [*train_drawings.plates(self), *(replace(one, spare=True) for one in told)]}
+
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
     ) -> list[DrawingSheet]:
-        """Its scheme and its triangles on a sheet; there are no sets of them to choose from."""
-        return train_drawings.drawing_sheets(self, size, block)
+        return on_sheets(self, self.plates(), size, block)
 
 
 def _told(train: Train) -> dict[str, Any]:

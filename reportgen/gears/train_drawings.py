@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
@@ -14,13 +15,14 @@ from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arrow, Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
 from reportgen.drawing.labels import Canvas, Request, finish, label
-from reportgen.drawing.sheet import ENLARGED, DrawingSheet, lettered
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.drawing.plates import DrawingPlate, enlargeable
+from reportgen.drawing.scales import IN_REPORT, FigureSize
+from reportgen.drawing.sheet import lettered
+from reportgen.formula import Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears.train import ALPHA, turned
-from reportgen.gears.train_solution import OTHER, STEPS, SolvedTrain
-from reportgen.sheets import on_sheets
-from reportgen.sheets.packing import DrawingPlate
+from reportgen.gears.train_solution import OTHER, SolvedTrain, pole_distance
+from reportgen.sheets.plates import on_sheet
 
 FRONT = 80.0
 """What the scheme seen along its axis may fill on a page (mm)."""
@@ -37,8 +39,6 @@ BEYOND = 6.0
 """What lines of the triangles go on beyond their ends (mm)."""
 APART = 16.0
 """White between the triangles and the plan of angular velocities (mm)."""
-ON_SHEETS = 1.5
-"""On sheets the scheme may be so many times as large, before it is enlarged as all figures there; triangles are 2:1."""
 SAMPLES = 360
 FILMED = 110.0
 """What the wheels may fill on a page (mm)."""
@@ -58,22 +58,16 @@ def outermost(r: dict[str, float]) -> float:
     return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
 
 
-def scale_note(scale: float, sub: str = "l", unit: str = "mm/mm") -> Chain:
-    """The scale of a drawing: what a millimetre of paper stands for."""
-    return Chain((Symbol("μ", sub), Number(float(f"{scale:.6g}"), None, unit)))
-
-
 # --- two views of the scheme ------------------------------------------------------------------------------
 
 
-def scheme_views(case: SolvedTrain, room: float = FRONT, enlarged: float = 1.0) -> Scene:
+def scheme_views(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene:
     """Along the axis and from the side, on one height."""
-    # The scale is round once the drawing is enlarged.
-    scale = nice_up(2 * outermost(radii(case)) * MM / room / enlarged, STEPS) * enlarged
-    r = {wheel: size * MM / scale for wheel, size in radii(case).items()}
+    usual = nice_up(2 * outermost(radii(case)) * MM / FRONT)
+    r = {wheel: radius * MM * size.per_unit(usual) for wheel, radius in radii(case).items()}
     front, named = _along(case, r)
     side, beside = _from_side(case, r, complex(outermost(r) + 36.0, 0))
-    return finish(Canvas((*front, *side), (*named, *beside)), notes=(scale_note(scale / enlarged),), margin=2.0)
+    return finish(Canvas((*front, *side), (*named, *beside)), notes=(size.note(Symbol("μ", "l"), usual),), margin=2.0)
 
 
 def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
@@ -169,22 +163,29 @@ def _held(rim: complex, up: complex = -1j) -> Iterator[Item]:
 # --- triangles of velocities --------------------------------------------------------------------------------
 
 
-def velocity_triangles(case: SolvedTrain, times: float = 1.0, enlarged: float = 1.0) -> Scene:
+def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene:
     """Velocities at the distances of their points from the axis; below, the plan of angular velocities.
-
-    All is so many `times` as large as the ledger has it once it is enlarged.
 
     A velocity in the sense of the driving shaft points to the right.  In the plan each ray from the pole K is parallel
     to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
     """
     ledger = case.ledger
+    symbols = {of: ledger.symbol(ids.train_scale(of)) for of in ("l", "v", "omega")}
+    usual = {of: case.printed.number(ids.train_scale(of)) for of in symbols}
+    larger = {of: usual[of].value / size.scale(usual[of].value) for of in ("l", "v")}
 
-    def mm(id: str) -> float:
-        return float(ledger[id].values[0]) * MM * times / enlarged
+    def mm(id: str, of: str) -> float:
+        return float(ledger[id].values[0]) * MM * larger[of] / size.enlarged
 
-    p1, p3, pH = (mm(ids.train_line(line)) for line in ("OA", "OP", "OB"))
-    Aa, Bb, h = mm(ids.train_line("A")), mm(ids.train_line("B")), mm("train.pole")
+    p1, p3, pH = (mm(ids.train_line(line), "l") for line in ("OA", "OP", "OB"))
+    Aa, Bb = (mm(ids.train_line(line), "v") for line in ("A", "B"))
     slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
+    h = float(ledger["train.pole"].values[0]) * MM
+    if size.steps:
+        rate = size.scale(usual["v"].value) / size.scale(usual["l"].value)
+        h = pole_distance(rate, max(*slopes.values(), 0.0) - min(*slopes.values(), 0.0), larger["l"])
+    μ_ω = usual["omega"].value * float(ledger["train.pole"].values[0]) * MM / h * larger["l"] / larger["v"]
+    h /= size.enlarged
     A, P, B = complex(0, p1), complex(0, p3), complex(0, pH)
     a, b = A + Aa, B + Bb
     ends = sorted((a, b, P), key=lambda one: one.imag)
@@ -219,9 +220,9 @@ def velocity_triangles(case: SolvedTrain, times: float = 1.0, enlarged: float = 
         label(K, Symbol("K"), gap=1.0, prefer=(-math.pi / 2,)),
         label([K + 0.5j * h, K + 0.35j * h, K + 0.7j * h], Symbol("h"), gap=0.6, prefer=(math.pi, 0.0)),
     ]
-    units = {"l": "mm/mm", "v": "mm/(s·mm)", "omega": "rad/(s·mm)"}
-    scales = {of: case.printed.number(ids.train_scale(of)).value / times for of in units}
-    notes = tuple(scale_note(scales[of], case.ledger.symbol(ids.train_scale(of)).sub, units[of]) for of in units)
+    notes = [size.note(symbols[of], usual[of].value, usual[of].unit) for of in ("l", "v")]
+    rates = replace(usual["omega"], value=float(f"{μ_ω:.6g}"), decimals=None)
+    notes.append(size.told(symbols["omega"], rates, usual["omega"]))
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
 
@@ -308,12 +309,12 @@ def _values(case: SolvedTrain) -> Iterator[MomentValue]:
 # --- the drawing sheet ------------------------------------------------------------------------------------
 
 
-def drawing_sheets(case: SolvedTrain, size: str = "", block: Path | None = None) -> list[DrawingSheet]:
-    """The sheet of scheme and triangles, scales round once they are enlarged; raises as `on_sheets` does."""
-    drawn = (
-        ("scheme", "scheme", scheme_views(case, ON_SHEETS * FRONT, ENLARGED)),
-        ("triangles", "plans", velocity_triangles(case, 2.0, ENLARGED)),
-    )
+def plates(case: SolvedTrain) -> list[DrawingPlate]:
+    """The scheme and the triangles, at standard scales."""
     captions = case.words["train"]["captions"]
-    plates = [DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(one),)) for name, layer, one in drawn]
-    return on_sheets(case, {"train": plates}, size, block)
+    drawn = (("scheme", "scheme", scheme_views), ("triangles", "plans", velocity_triangles))
+
+    def plate(name: str, layer: str, draw: Callable[[SolvedTrain, FigureSize], Scene], steps: int) -> DrawingPlate:
+        return DrawingPlate(captions[f"figure-{name}"], (), layer, (lettered(draw(case, on_sheet(case, steps))),))
+
+    return [enlargeable(partial(plate, *one)) for one in drawn]

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.units import MM, nice_up
+from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, ids, signed, sin
 from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
@@ -26,9 +26,8 @@ FIRST_ROW_WHEEL = 4
 """Wheels of ordinary rows are numbered from here."""
 PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
 """What radii, velocities and the plan of angular velocities may take on paper (mm)."""
-POLES = (2, 5, 10, 15, 20, 25, 30, 40)
-"""Distances of the pole of the plan of angular velocities (mm)."""
-STEPS = (1.0, 2.0, 2.5, 4.0, 5.0)
+NEAREST_POLE, FARTHEST_POLE = 2.0, 40.0
+"""The pole of the plan of angular velocities is no nearer and no farther if it can be (mm)."""
 LINES: Mapping[str, tuple[str, ...]] = {
     "wanted": ("train.u",),
     "factors": ("train.factor.e", "train.factor.f"),
@@ -279,8 +278,8 @@ class TrainSheet:
             "B": q.define(ids.train_velocity("B"), q[ids.train_omega("H")] * a),
         }
         far, fast = max(q.si(r1), q.si(r3), q.si(a)), max(abs(q.si(one)) for one in v.values())
-        μl = self._scale("l", nice_up(far * MM / PLAN_HEIGHT, STEPS), "length on paper")
-        μv = self._scale("v", nice_up(fast * MM / PLAN_WIDTH, STEPS), "velocity on paper")
+        μl = self._scale("l", nice_up(far * MM / PLAN_HEIGHT), "length on paper")
+        μv = self._scale("v", nice_up(fast * MM / PLAN_WIDTH), "velocity on paper")
         at = {
             place: q.si(q.define(ids.train_line(f"O{place}"), size / μl, over(f"O{place}"), "segment", optional=True))
             for place, size in (("A", r1), ("B", a), ("P", r3))
@@ -296,7 +295,7 @@ class TrainSheet:
         self._measured(ids.train_line(read), length[read], over(f"{read}{read.lower()}"))
         slopes = {"1": length["A"] / at["A"], "2": length["A"] / (at["A"] - at["P"]), "H": length["B"] / at["B"]}
         wide = max(*slopes.values(), 0.0) - min(*slopes.values(), 0.0)
-        pole = max(pole for pole in POLES if pole * wide <= RATES_WIDTH or pole == POLES[0]) / MM
+        pole = pole_distance(q.si(μv) / q.si(μl), wide) / MM
         h = q.give("train.pole", pole, "h", "segment", optional=True)
         μω = self._scale("omega", μv / (μl * h), "rotation on paper")
         for wheel, slope in slopes.items():
@@ -338,6 +337,17 @@ class TrainSheet:
         if self.rows:
             ηr = give("row", given.efficiency.outer, Symbol("η", "r"))
             q.define(ids.train_efficiency("total"), η * ηr ** len(self.rows), Symbol("η", "tot"))
+
+
+def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:
+    """The distance h of the pole (mm) at which μ_ω = μ_v/(μ_l h) is a standard scale; `rate` is μ_v/μ_l.
+
+    The plan, `wide` times as wide as h, has a room so many times `larger` than in a report.  Of the distances that
+    differ by less than ten times, one of whole half millimetres is taken if there is one.
+    """
+    most = larger * min(max(RATES_WIDTH / wide, NEAREST_POLE), FARTHEST_POLE)
+    found = [rate / nice_up(rate / most * share) for share in SERIES]
+    return next((h for h in found if math.isclose(2 * h, round(2 * h), rel_tol=1e-9)), found[0])
 
 
 def over(points: str) -> Symbol:

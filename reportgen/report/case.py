@@ -27,18 +27,20 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report import Cover, Document
+from reportgen.report import Block, Cover, Document
 
 if TYPE_CHECKING:
     import numpy as np
 
     from reportgen.drawing.film import Film
+    from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
     from reportgen.machine.flywheel import RegulatedCycle
     from reportgen.plans import PlannedLedger
     from reportgen.plans.loads import Polygon
+    from reportgen.report.shafts import Shaft
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +133,19 @@ class Case(Protocol):
 
     def films(self) -> tuple[Film, ...]:
         """What moves on its page, a film a part; none where nothing does."""
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """What its drawing sheets show, by the names of the sets."""
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        """What is drawn 1:1 on paper of its own, without a frame."""
+
+    def summary(self) -> Sequence[Block]:
+        """Its main results, for the summary of a coursework that it is a part of."""
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """Its shafts, that which drives it first; none of a work in which nothing turns."""
 
     def sheets(
         self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
@@ -242,6 +257,19 @@ class Opened:
     def used(self) -> Collection[Symbol] | None:
         """Nobody knows before its report is composed."""
         return None
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        """It has nothing that is made."""
+        return ()
+
+    def summary(self) -> Sequence[Block]:
+        """Its own report has one."""
+        return ()
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        """Nothing turns."""
+        return ()
 
     @property
     def variant_line(self) -> str:

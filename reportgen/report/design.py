@@ -76,6 +76,12 @@ class DesignPage(ABC, Generic[Designed]):
         return Table(tuple(columns), head, body, self.caption(name), f"tab.{name}")
 
     @classmethod
+    def summary(cls, case: Designed) -> tuple[Block, ...]:
+        """Its main results in a few sentences."""
+        page = cls(case)
+        return page.section(f"{cls.NAME}-summary", page.names())
+
+    @classmethod
     def report(cls, case: Designed) -> Document:
         """The finished, numbered report of a design."""
         page = cls(case)

@@ -6,8 +6,24 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from reportgen.drawing import Label, Scene
-from reportgen.formula import Expression, Number, Symbol, VectorEquation, children
-from reportgen.report import Block, Emph, Equation, Figure, Inline, InlineMath, List, Paragraph, Plate, Strong, Table
+from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, children
+from reportgen.report import (
+    Block,
+    Emph,
+    Equation,
+    Figure,
+    Inline,
+    InlineMath,
+    List,
+    Paragraph,
+    Plate,
+    Strong,
+    Table,
+    Text,
+)
+
+LEAST_WORD = 4
+"""A text of so many letters is no unit and no verdict."""
 
 
 def occurring(blocks: Iterable[Block]) -> frozenset[Symbol]:
@@ -25,6 +41,46 @@ def occurring(blocks: Iterable[Block]) -> frozenset[Symbol]:
             known = (entry for side in node.sides for term in side for entry in term.known)
             rest += (entry for entry in known if entry is not None and not isinstance(entry, str))
     return frozenset(replace(one, over="") if one.over == "vector" else one for one in set(found.values()))
+
+
+def explained(blocks: Iterable[Block]) -> frozenset[Symbol]:
+    """The symbols that are named where they stand: in a sentence, or in a row of a table that has words.
+
+    Of one that is named for both wheels, without their numbers, both are.
+    """
+    return frozenset(_named(blocks))
+
+
+def is_explained(symbol: Symbol, known: frozenset[Symbol]) -> bool:
+    """Whether it is among the symbols explained, itself or without the number of its wheel."""
+    return symbol in known or replace(symbol, sub=symbol.sub.rstrip("0123456789")) in known
+
+
+def _named(blocks: Iterable[Block]) -> Iterator[Symbol]:
+    for block in blocks:
+        match block:
+            case Paragraph(inlines=inlines):
+                yield from filter(None, map(_symbol, _of(inlines)))
+            case Table(rows=rows):
+                for row in rows:
+                    texts = [one.text for cell in row for one in cell.inlines if isinstance(one, Text)]
+                    if any(map(_is_word, texts)):
+                        for cell in row:
+                            if len(cell.inlines) == 1:
+                                yield from filter(None, map(_symbol, _of(cell.inlines)))
+            case List(items=items):
+                for item in items:
+                    yield from _named(item)
+
+
+def _symbol(expression: Expression) -> Symbol | None:
+    """What an expression is about: a symbol by itself, or that of which a value is told."""
+    first = expression.parts[0] if isinstance(expression, Chain) else expression
+    return first if isinstance(first, Symbol) else None
+
+
+def _is_word(text: str) -> bool:
+    return sum(letter.isalpha() for letter in text) >= LEAST_WORD
 
 
 def _expressions(blocks: Iterable[Block]) -> Iterator[Expression]:

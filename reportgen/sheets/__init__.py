@@ -13,11 +13,12 @@ from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
 from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
+from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.report.case import Calculation, Opened
 from reportgen.report.report import Report
 from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, read_block, room
-from reportgen.sheets.packing import DrawingPlate, Packing
+from reportgen.sheets.packing import Packing
 from reportgen.sheets.plates import Set, Sources, plates_of
 
 Plates = Mapping[str, Sequence[DrawingPlate]]
@@ -64,20 +65,52 @@ def on_sheets(
     size: str = "",
     block: Path | None = None,
     redrawn: tuple[float, Callable[[float], Plates]] | None = None,
+    least: str = BY_SIZE[0],
 ) -> list[DrawingSheet]:
     """The sheets of some sets, each of which begins one: of a `size`, else of the smallest that holds each set as one.
 
-    The title `block` is a file, else that of the language.  Raises `AssignmentError` for a faulty block and for a plate
-    that is too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
+    That is not smaller than the `least`.  Plates that may be larger are drawn as large as their sheets hold.  The title
+    `block` is a file, else that of the language.  Raises `AssignmentError` for a faulty block and for a plate that is
+    too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
     """
     language = case.assignment.language
     form = read_block(block or blocks(case.assignment.school or "")[DEFAULT[language]], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
-        paper, found = _chosen(plates, form, wanted)
+        paper, found = _chosen(plates, form, wanted, least)
     except TooLargeError as error:
         raise _fault(case, error, plates, form, wanted or USUAL[-1], redrawn) from error
+    if any(plate.larger for some in plates.values() for plate in some):
+        found = laid({name: enlarged(some, paper, form) for name, some in plates.items()}, paper, form)
     return [_sheet(case, form, paper, number, found) for number in range(1, len(found) + 1)]
+
+
+def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> list[DrawingPlate]:
+    """The plates of a set, each at the largest standard scale at which no more sheets hold them than before.
+
+    The next to grow is the one that has then grown least.  Spare plates fill what is left.
+    """
+
+    def sheets(some: Sequence[DrawingPlate]) -> float:
+        try:
+            return len(list(_packing(paper, form).sheets([plate for plate in some if not plate.spare])))
+        except TooLargeError:
+            return math.inf
+
+    def larger(plate: DrawingPlate) -> DrawingPlate | None:
+        return plate.larger() if plate.larger else None
+
+    found, most = list(plates), sheets(plates)
+    growing = {number: one for number, plate in enumerate(plates) if (one := larger(plate))}
+    while growing:
+        number = min(growing, key=lambda one: (growing[one].area / plates[one].area, one))
+        tried = growing.pop(number)
+        with_it = [*found[:number], tried, *found[number + 1 :]]
+        if sheets(with_it) <= most:
+            found = with_it
+            if after := larger(tried):
+                growing[number] = after
+    return found
 
 
 def _fault(
@@ -113,15 +146,18 @@ def _holds(plates: Plates, paper: str, form: TitleBlock) -> bool:
 
 def laid(plates: Plates, paper: str, form: TitleBlock) -> list[Laid]:
     """The plates on sheets of a size; raises `TooLargeError`."""
-    packing = Packing(room(paper, form), room(paper, form.following or form))
+    packing = _packing(paper, form)
     return [(name, parts) for name, some in plates.items() for parts in packing.sheets(some)]
 
 
-def _chosen(plates: Plates, form: TitleBlock, wanted: str) -> tuple[str, list[Laid]]:
+def _packing(paper: str, form: TitleBlock) -> Packing:
+    return Packing(room(paper, form), room(paper, form.following or form))
+
+
+def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[str, list[Laid]]:
     """A size and what is on its sheets; of sets that no sheet holds as a whole the first of the usual sizes."""
-    sizes = (
-        [(wanted, False)] if wanted else [*((paper, True) for paper in BY_SIZE), *((paper, False) for paper in USUAL)]
-    )
+    sizes = [(wanted, False)] if wanted else [(paper, True) for paper in BY_SIZE[BY_SIZE.index(least) :]]
+    sizes += [] if wanted else [(paper, False) for paper in USUAL]
     too_large: TooLargeError | None = None
     for paper, whole in sizes:
         try:
@@ -139,7 +175,8 @@ def _sheet(case: Opened, form: TitleBlock, paper: str, number: int, found: Seque
     """One of the sheets with its frame and its title block."""
     shown, parts = found[number - 1]
     fields = fields_of(case, form, number) | {
-        "title": case.words["plates"]["sets"][shown],
+        # A set of several works is called by its title itself.
+        "title": case.words["plates"]["sets"].get(shown, shown),
         "sheet": str(number),
         "sheets": str(len(found)),
         "format": paper,

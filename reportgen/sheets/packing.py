@@ -1,21 +1,20 @@
 """Where plates stand on drawing sheets: in columns, in the order of the work, with heads in line and even gutters.
 
-A plate is one drawing, or several that belong together and stand in rows below one head.  A column is rows of plates:
-beside one that leaves room stands the next.  Columns begin at the top, with one distance between rows and one between
-columns all over the sheet; those above the title block are so much shorter.
+A column is rows of plates: beside one that leaves room stands the next.  Columns begin at the top, with one distance
+between rows and one between columns all over the sheet; those above the title block are so much shorter.
 """
 
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import accumulate
 
-from reportgen.drawing import Content, Scene
-from reportgen.drawing.sheet import GAP, PlacedScene, Room, TooLargeError, headed
+from reportgen.drawing.plates import DUST, Arranged, DrawingPlate
+from reportgen.drawing.sheet import GAP, PlacedScene, Room, TooLargeError
 
 MOST = 20.0
 """Rows stand no farther apart than this, mm."""
@@ -23,92 +22,6 @@ SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)
 """Columns are tried this share as high as a sheet."""
 STEP = 4.0
 """In such steps widths of columns are tried, mm."""
-DUST = 1e-6
-"""Rounding of places, mm."""
-
-
-@dataclass(frozen=True, slots=True)
-class Arranged:
-    """The scenes of a plate in rows, by their numbers, with the width and height of all below its head."""
-
-    width: float
-    height: float
-    rows: tuple[tuple[int, ...], ...]
-
-
-@dataclass(frozen=True, eq=False)
-class DrawingPlate:
-    """Drawings of one name on paper, the lines below the name, and the layer that they are on.
-
-    Plates of one `family` belong together; `spare` ones only fill what is left of a sheet.  They are numbered on the
-    sheets; one that no sheet holds is divided, and says `further` where it goes on.
-    """
-
-    title: str
-    lines: tuple[Content, ...]
-    layer: str
-    scenes: tuple[Scene, ...]
-    family: str = ""
-    spare: bool = False
-    further: str = ""
-    number: int = 0
-    first: int = 1
-    """The number of the first scene: others may stand on the sheet before."""
-
-    @cached_property
-    def top(self) -> Scene:
-        """Its head by itself."""
-        return headed(f"{self.number}. {self.title}", *self.lines)
-
-    @cached_property
-    def arrangements(self) -> list[Arranged]:
-        """Ways to arrange the scenes, each wider and lower than the one before."""
-        widths = [scene.width + GAP for scene in self.scenes]
-        ends = list(accumulate(widths, initial=0.0))
-        sums = {end - start - GAP for at, end in enumerate(ends) for start in ends[:at]}
-        least = max(*(scene.width for scene in self.scenes), self.top.width)
-        found: list[Arranged] = []
-        for width in sorted({least, *(one for one in sums if one > least)}):
-            arranged = self._arranged(width)
-            if not found or arranged.height < found[-1].height - DUST:
-                found.append(arranged)
-        return found
-
-    def _arranged(self, width: float) -> Arranged:
-        rows: list[list[int]] = []
-        used = math.inf
-        for number, scene in enumerate(self.scenes):
-            used += GAP + scene.width
-            if used > width + DUST:
-                rows.append([])
-                used = scene.width
-            rows[-1].append(number)
-        heights = [max(self.scenes[number].height for number in row) for row in rows]
-        return Arranged(width, self.top.height + sum(heights) + GAP * (len(rows) - 1), tuple(map(tuple, rows)))
-
-    def within(self, width: float) -> int:
-        """How many of the arrangements are not wider; the last of them is the lowest."""
-        return bisect_right(self.arrangements, width + DUST, key=lambda one: one.width)
-
-    def divided(self, count: int) -> tuple[DrawingPlate, DrawingPlate]:
-        """So many of its scenes, and the others."""
-        lines = (self.further, *(line for line in self.lines if line != self.further))
-        rest = replace(self, lines=lines, scenes=self.scenes[count:], first=self.first + count)
-        return replace(self, scenes=self.scenes[:count]), rest
-
-    def placed(self, how: Arranged, corner: complex) -> Iterator[PlacedScene]:
-        """Its parts, the upper left corner of its box at a place: the head, then the rows, each spread evenly."""
-        top = corner - 1j * self.top.height
-        yield PlacedScene(f"{self.number}", self.layer, self.top, top + (how.width - self.top.width) / 2)
-        for row in how.rows:
-            scenes = [self.scenes[number] for number in row]
-            top -= 1j * max(scene.height for scene in scenes)
-            space = (how.width - sum(scene.width for scene in scenes)) / (len(scenes) + 1)
-            left = space
-            for number, scene in zip(row, scenes, strict=True):
-                yield PlacedScene(f"{self.number}.{self.first + number}", self.layer, scene, top + left)
-                left += scene.width + space
-            top -= 1j * GAP
 
 
 Row = list[tuple[DrawingPlate, Arranged]]

@@ -9,17 +9,22 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal
 
+from reportgen.base.units import Language
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.geometry import unit
 from reportgen.drawing.plan import Plan, plan
+from reportgen.drawing.plates import DrawingPlate
+from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import ENLARGED, grid, lettered, widths
-from reportgen.formula import Number, ids
+from reportgen.formula import Chain, Number, ids
+from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import curves
-from reportgen.report.case import Calculation
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
+from reportgen.report.case import Calculation, Opened
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
@@ -43,7 +48,6 @@ from reportgen.report.result_tables import (
     velocities,
     velocity_segments,
 )
-from reportgen.sheets.packing import DrawingPlate
 
 Set = Literal["kinematics", "forces"]
 WIDEST, MOST_ROWS = 180.0, 24
@@ -310,6 +314,40 @@ def _quantities(
         ["", *(_unit(report, id) for id in quantities)],
     ]
     return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in quantities)] for k in positions]
+
+
+def on_sheet(case: Opened, steps: int) -> FigureSize:
+    """How large a sheet shows a figure of a report, by so many standard scales larger."""
+    return FigureSize(steps, ENLARGED, case.words["plates"]["report"], case.assignment.language)
+
+
+def drawn(table: Table, language: Language) -> Scene:
+    """A table of a report as a sheet shows it."""
+    rows = [[_content(cell.inlines, language) for cell in row] for row in (*table.head, *table.rows)]
+    return lettered(grid(rows[: len(table.head)], rows[len(table.head) :]))
+
+
+def _content(inlines: Inlines, language: Language) -> Content:
+    """What stands in a cell, as a label has it."""
+    match inlines:
+        case (InlineMath(expression),):
+            return expression
+        case (Value(number),):
+            return number
+        case (InlineMath(expression), Text(" = "), InlineMath(of) | Value(of)):
+            return Chain((expression, of))
+        case _:
+            return "".join(map(partial(_plain, language=language), inlines))
+
+
+def _plain(inline: Inline, language: Language) -> str:
+    match inline:
+        case InlineMath(expression):
+            return formula(expression, language)
+        case Value(number):
+            return quantity(number, language)
+        case _:
+            return str(getattr(inline, "text", ""))
 
 
 def _unit(report: Report, id: str) -> str:

@@ -325,6 +325,11 @@ FAULTS = {
         CAM.replace("  end:", "  n: 9 rpm\n  end:"),
         "part.yaml:5:6 datum-twice",
     ),
+    "against the shaft that it sits on": (
+        f"{PARTS}    from: {{n: {{of: n}}}}\n",
+        CAM.replace("  end:", "  direction: clockwise\n  end:"),
+        "part.yaml:5:14 shaft-sense",
+    ),
     "of another kind": (f"{PARTS}    from: {{n: {{of: H}}}}\n", CAM, f"whole.yaml:{LINE + 3}:20 wrong-unit"),
     "unknown key": (f"{PARTS}    form: {{}}\n", CAM, f"whole.yaml:{LINE + 3}:5 unknown-key"),
 }

@@ -11,7 +11,7 @@ import pytest
 from reportgen import api
 from reportgen import report as tree
 from reportgen.cases import open_case, opened
-from reportgen.drawing import Arrow, Line
+from reportgen.drawing import Arrow, Label, Line
 from reportgen.formula import Chain, Number, Symbol, ids, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.gears.train import turned
@@ -156,10 +156,16 @@ def test_words_page_sheet_and_results(name: str) -> None:
     (film,) = case.films()
     assert math.isclose(film.knots[-1], 360)
     (sheet,) = case.sheets()
-    # On the sheet, too, a length is what its scale says: triangles are drawn twice as large.
-    lines = [item for part in sheet.parts for item in part.scene.items if isinstance(item, Arrow) and item.name == "Aa"]
-    drawn = (lines[0].end - lines[0].start).real
-    assert drawn == pytest.approx(2 * MM * case.ledger[ids.train_line("A")].at(1))
+    # On the sheet, too, a length is what the scale below it says, whatever that is in the report.
+    plan = next(part.scene for part in sheet.parts for item in part.scene.items if getattr(item, "name", "") == "Aa")
+    (drawn,) = (item.end - item.start for item in plan.items if getattr(item, "name", "") == "Aa")
+    notes = [item.content.parts for item in plan.items if isinstance(item, Label) and isinstance(item.content, Chain)]
+    scale = {symbol.base + symbol.sub[:1]: number.value for symbol, number in notes}
+    assert drawn.real * scale["μv"] == pytest.approx(MM * case.ledger[ids.train_velocity("A")].at(1), rel=1e-3)
+    segments = {item.name: (item.end - item.start).real for item in plan.items if getattr(item, "name", "")[:1] == "s"}
+    for wheel in ("1", "2", "H"):
+        ω = case.ledger[ids.train_omega(wheel)].at(1)
+        assert segments[f"s{wheel}"] * scale["μω"] == pytest.approx(ω, rel=5e-3, abs=1e-9)
     for part in sheet.parts:
         low, high = part.box
         assert low.real >= 0

@@ -9,11 +9,12 @@ import pytest
 
 from reportgen.base.errors import AssignmentError
 from reportgen.drawing import Label, Line, Scene
+from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import GAP, Room, TooLargeError
 from reportgen.sheets import laid as divided
 from reportgen.sheets import plates_by_set
 from reportgen.sheets.frame import SIZES as PAPER
-from reportgen.sheets.packing import DrawingPlate, Packing
+from reportgen.sheets.packing import Packing
 from tests.lanes import matrix
 from tests.sheets.handed_in import check
 from tests.sheets.laid import EVERY, EXERCISES, block_of, laid, numbers, opened, plates

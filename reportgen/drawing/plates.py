@@ -1,0 +1,130 @@
+"""A plate of a drawing sheet: one drawing, or several that belong together and stand in rows below one head."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import accumulate
+
+from reportgen.drawing import Content, Scene
+from reportgen.drawing.sheet import GAP, PlacedScene, headed
+
+DUST = 1e-6
+"""Rounding of places, mm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Arranged:
+    """The scenes of a plate in rows, by their numbers, with the width and height of all below its head."""
+
+    width: float
+    height: float
+    rows: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class DrawingPlate:
+    """Drawings of one name on paper, the lines below the name, and the layer that they are on.
+
+    Plates of one `family` belong together; `spare` ones only fill what is left of a sheet.  They are numbered on the
+    sheets; one that no sheet holds is divided, and says `further` where it goes on.
+    """
+
+    title: str
+    lines: tuple[Content, ...]
+    layer: str
+    scenes: tuple[Scene, ...]
+    family: str = ""
+    spare: bool = False
+    further: str = ""
+    number: int = 0
+    first: int = 1
+    """The number of the first scene: others may stand on the sheet before."""
+    larger: Callable[[], DrawingPlate | None] | None = None
+    """The same plate at the next larger standard scale, if it may be drawn at one."""
+
+    @cached_property
+    def top(self) -> Scene:
+        """Its head by itself."""
+        return headed(f"{self.number}. {self.title}", *self.lines)
+
+    @property
+    def area(self) -> float:
+        """Of its scenes, mm²."""
+        return sum(scene.width * scene.height for scene in self.scenes)
+
+    @cached_property
+    def arrangements(self) -> list[Arranged]:
+        """Ways to arrange the scenes, each wider and lower than the one before."""
+        widths = [scene.width + GAP for scene in self.scenes]
+        ends = list(accumulate(widths, initial=0.0))
+        sums = {end - start - GAP for at, end in enumerate(ends) for start in ends[:at]}
+        least = max(*(scene.width for scene in self.scenes), self.top.width)
+        found: list[Arranged] = []
+        for width in sorted({least, *(one for one in sums if one > least)}):
+            arranged = self._arranged(width)
+            if not found or arranged.height < found[-1].height - DUST:
+                found.append(arranged)
+        return found
+
+    def _arranged(self, width: float) -> Arranged:
+        rows: list[list[int]] = []
+        used = math.inf
+        for number, scene in enumerate(self.scenes):
+            used += GAP + scene.width
+            if used > width + DUST:
+                rows.append([])
+                used = scene.width
+            rows[-1].append(number)
+        heights = [max(self.scenes[number].height for number in row) for row in rows]
+        return Arranged(width, self.top.height + sum(heights) + GAP * (len(rows) - 1), tuple(map(tuple, rows)))
+
+    def within(self, width: float) -> int:
+        """How many of the arrangements are not wider; the last of them is the lowest."""
+        return bisect_right(self.arrangements, width + DUST, key=lambda one: one.width)
+
+    def divided(self, count: int) -> tuple[DrawingPlate, DrawingPlate]:
+        """So many of its scenes, and the others."""
+        lines = (self.further, *(line for line in self.lines if line != self.further))
+        rest = replace(self, lines=lines, scenes=self.scenes[count:], first=self.first + count)
+        return replace(self, scenes=self.scenes[:count]), rest
+
+    def placed(self, how: Arranged, corner: complex) -> Iterator[PlacedScene]:
+        """Its parts, the upper left corner of its box at a place: the head, then the rows, each spread evenly."""
+        top = corner - 1j * self.top.height
+        yield PlacedScene(f"{self.number}", self.layer, self.top, top + (how.width - self.top.width) / 2)
+        for row in how.rows:
+            scenes = [self.scenes[number] for number in row]
+            top -= 1j * max(scene.height for scene in scenes)
+            space = (how.width - sum(scene.width for scene in scenes)) / (len(scenes) + 1)
+            left = space
+            for number, scene in zip(row, scenes, strict=True):
+                yield PlacedScene(f"{self.number}.{self.first + number}", self.layer, scene, top + left)
+                left += scene.width + space
+            top -= 1j * GAP
+
+
+MOST_STEPS = 5
+"""A plate is drawn by no more standard scales larger than in the report."""
+
+
+def enlargeable(draw: Callable[[int], DrawingPlate], most: int = MOST_STEPS, steps: int = 0) -> DrawingPlate:
+    """A plate that is drawn by so many standard scales larger than in the report, and may be drawn larger still."""
+    larger = None if steps == most else lambda: enlargeable(draw, most, steps + 1)
+    return replace(draw(steps), larger=larger)
+
+
+def changed(plate: DrawingPlate, change: Callable[[DrawingPlate], DrawingPlate]) -> DrawingPlate:
+    """A plate with a change that any larger one has, too."""
+    larger = plate.larger
+    if larger is None:
+        return change(plate)
+
+    def next_one() -> DrawingPlate | None:
+        found = larger()
+        return found and changed(found, change)
+
+    return replace(change(plate), larger=next_one)

@@ -1,0 +1,74 @@
+"""The scale of a figure: the report's own, or on a drawing sheet a larger standard one with the report's beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.base.units import Language, nice_down, nice_up
+from reportgen.formula import Chain, Expression, Number
+from reportgen.formula.plain import formula, quantity
+
+RATIO = "mm/mm"
+"""The unit of a scale that is a ratio of lengths."""
+NEXT = 1 - 1e-9
+"""A scale below this share of a standard one is a finer one."""
+
+
+@dataclass(frozen=True, slots=True)
+class FigureSize:
+    """How large a figure is drawn: so many standard scales larger than in a report, then `enlarged` with its letters.
+
+    `beside` says the report's scale on a sheet, as "report: {scale}"; in a report there is nothing to say.
+    """
+
+    steps: int = 0
+    enlarged: float = 1.0
+    beside: str = ""
+    language: Language = "en"
+
+    def scale(self, usual: float) -> float:
+        """The scale, per mm of the finished paper, that a report has as `usual`."""
+        for _ in range(self.steps):
+            usual = nice_down(usual * NEXT)
+        return usual
+
+    def fitting(self, points: Sequence[complex], room: complex) -> tuple[float, float]:
+        """The scale at which points fit a room (mm) of a report, and how many mm of the figure stand for a unit."""
+        array = np.array(points)
+        size = complex(np.ptp(array.real), np.ptp(array.imag))
+        usual = nice_up(max(size.real / room.real, size.imag / room.imag))
+        return usual, self.per_unit(usual)
+
+    def per_unit(self, usual: float) -> float:
+        """Millimetres of the figure, before it is enlarged, for a unit of what is drawn."""
+        return 1 / (self.scale(usual) * self.enlarged)
+
+    def note(self, symbol: Expression, usual: float, unit: str = RATIO) -> Chain:
+        """The scale as it stands below the figure; on a sheet also as a ratio of lengths, and what the report has."""
+        shown = self.scale(usual)
+        return self.told(symbol, _number(shown, unit), _number(usual, unit), _ratio(shown) if unit == RATIO else 0)
+
+    def told(self, symbol: Expression, shown: Number, usual: Number, ratio: float = 0) -> Chain:
+        """A scale as it is `shown`, with what the report has."""
+        if not self.beside:
+            return Chain((symbol, shown))
+        parts = [self.beside.format(scale=quantity(usual, self.language))]
+        if ratio:
+            above, below = (formula(_number(max(one, 1.0)), self.language) for one in (ratio, 1 / ratio))
+            parts.insert(0, f"{above}:{below}")
+        return Chain((symbol, shown), "; ".join(parts))
+
+
+IN_REPORT = FigureSize()
+
+
+def _number(value: float, unit: str = "") -> Number:
+    return Number(float(f"{value:.6g}"), None, unit)
+
+
+def _ratio(scale: float) -> float:
+    """Of paper to what is drawn, without the dust of floats."""
+    return float(f"{1 / scale:.9g}")
