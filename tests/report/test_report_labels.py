@@ -72,15 +72,6 @@ def test_labels_of_a_variant_stand_at_their_own_points(name: str, tmp_path: Path
     well_labelled(api.load(file))
 
 
-def test_what_finds_no_room_and_has_nothing_shorter_shares_the_label_of_its_neighbour() -> None:
-    """Two points in a gap between walls where one name has room: one label for both."""
-    walls = tuple(Line(complex(x, -20), complex(x, 20)) for x in (*range(-40, 0, 2), *range(8, 41, 2)))
-    points = (2 + 0j, -3 + 0j)
-    draft = Canvas(walls, tuple(label(at, Symbol(name)) for at, name in zip(points, "AB", strict=True)))
-    written = [item.content for item in finish(draft).items if isinstance(item, Label)]
-    assert written == [Symbol("A"), ", ", Symbol("B")]
-
-
 @pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
 def test_small_plans_name_points_only_and_print_their_scale_once(path: Path) -> None:
     """The scale stands behind the caption, or once on a sheet; no panel repeats it."""
