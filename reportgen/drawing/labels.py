@@ -36,7 +36,7 @@ from reportgen.drawing.geometry import (
 from reportgen.drawing.spots import (
     CLEAR,
     FINE,
-    NEAR,
+    LEADERLESS,
     Indices,
     around,
     beyond,
@@ -220,6 +220,7 @@ class _Spots:
     centres: Complexes
     first: Flags
     far: dict[complex, tuple[Complexes, Complexes]] = dataclasses.field(default_factory=dict)
+    over: dict[bool, tuple[Complexes, Complexes, Flags]] = dataclasses.field(default_factory=dict)
 
     @property
     def room(self) -> int:
@@ -258,34 +259,39 @@ class _Spots:
         return self.far[at]
 
     def breaking(self, taken: _Taken, led: bool) -> tuple[complex, Segment | None] | None:
-        """Where it hides least of gray lines and touches no other stroke, and the leader if it is far; None if nowhere.
+        """The best spot, clear of labels, that hides gray lines, and the leader if it is far; None if there is none."""
+        if led not in self.over:
+            self.over[led] = self._over(led)
+        centres, leaders, near = self.over[led]
+        some = np.flatnonzero(taken.clear(centres, self.half))
+        some = some[near[some] | ~taken.crossed(leaders[some])]
+        if not some.size:
+            return None
+        first, last = leaders[some[0]]
+        return complex(centres[some[0]]), None if near[some[0]] else (complex(first), complex(last))
+
+    def _over(self, led: bool) -> tuple[Complexes, Complexes, Flags]:
+        """Spots that touch gray lines alone, those that hide least first, their leaders [K, 2], which need none.
 
         One that is `led` stands nearer to another's point, but clear of it, and no other point is near its leader.
         """
         field, half, points = self.field, self.half, self.request.points
         offsets, cost, ways = around(half, self.request.gap, self.request.prefer)
         centres = np.concatenate([at + offsets for at in points])
-        leaders = np.concatenate([at + ways for at in points])
-        near = np.tile(np.arange(len(offsets)) < len(FINE) * len(NEAR), len(points))
-        free: Flags = ~field.firm.touches(centres, np.array(half + CLEAR * (1 + 1j)))
+        free = np.flatnonzero(~field.firm.touches(centres, np.array(half + CLEAR * (1 + 1j))))
+        leaders, centres = np.concatenate([at + ways for at in points])[free], centres[free]
+        near = free % len(offsets) < len(FINE) * LEADERLESS
         if led:
-            free &= ~near
             others = field.points[field.owners != self.number]
-            free[free] = field.away(centres[free], np.array([half]), np.array([self.number]))[1] > ASIDE
-            free[free] = distances(leaders[free], others).min(axis=1, initial=np.inf) > BY
+            fit = ~near & (field.away(centres, np.array([half]), np.array([self.number]))[1] > ASIDE)
+            fit[fit] = distances(leaders[fit], others).min(axis=1, initial=np.inf) > BY
         else:
-            free[free] = self.nearest(centres[free])
-        free[free] = taken.clear(centres[free], half)
-        far = np.flatnonzero(free & ~near)
-        free[far] = ~taken.crossed(leaders[far])
-        if not free.any():
-            return None
-        costs = np.tile(cost, len(points)) + HIDING * field.ink.covered(centres, np.array(half))
+            fit = self.nearest(centres)
+        centres, leaders, near, costs = centres[fit], leaders[fit], near[fit], cost[free[fit] % len(offsets)]
         # A leader along a line is taken for a part of it.
-        costs[far] += 0.1 * inked(field.ink, leaders[far]) ** 2
-        best = int(np.argmin(np.where(free, costs, np.inf)))
-        first, last = leaders[best]
-        return complex(centres[best]), None if near[best] else (complex(first), complex(last))
+        costs = costs + np.where(near, 0.0, 0.1 * inked(field.ink, leaders) ** 2)
+        order = np.argsort(costs + HIDING * field.ink.covered(centres, np.array(half)), kind="stable")
+        return centres[order], leaders[order], near[order]
 
 
 def _breakable(item: Item) -> bool:

@@ -13,12 +13,13 @@ from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, overlap
 Indices = NDArray[np.intp]
 
 DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
-FINE = np.exp(2j * np.pi * np.arange(72) / 72)
+FINE = np.exp(2j * np.pi * np.arange(120) / 120)
 NEAR = (0.0, 0.7, 1.6)
 """Extra distances (mm) at which a label still reads as belonging to its point."""
 FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
-ALL = (*NEAR, *np.arange(2.4, 12.0, 0.8))
-"""Where a label is tried that breaks lines, in `FINE` directions."""
+ALL = (0.0, 0.4, 0.8, 1.2, 1.6, *np.arange(2.0, 12.0, 0.4))
+"""Where a label is tried that breaks lines, in `FINE` directions, the first `LEADERLESS` of them without a leader."""
+LEADERLESS = 5
 LONGEST = 12.0
 """A longer leader (mm) is not followed."""
 CLEAR = 0.55
