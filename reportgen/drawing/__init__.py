@@ -124,3 +124,5 @@ class Scene:
     """A short plain title printed below one of several scenes of a figure, e.g. "a)"."""
     margin: float = 0.0
     """The white around what is drawn, mm each side."""
+    crowded: bool = False
+    """Whether its labels want more room than so small a drawing has."""

@@ -217,6 +217,19 @@ def clusters(parts: Iterable[Part], reach: float, at: Callable[[Part], complex])
     return [[part for part, g in zip(parts, group, strict=True) if g == key] for key in sorted(set(group))]
 
 
+def coincident(parts: Iterable[Part], reach: float, at: Callable[[Part], complex]) -> list[list[Part]]:
+    """Parts of a figure grouped, in order, so that all places `at` of a group are within `reach` mm of one another."""
+    groups: list[list[Part]] = []
+    for part in parts:
+        one = at(part)
+        own = next((group for group in groups if all(abs(at(other) - one) <= reach for other in group)), None)
+        if own is None:
+            groups.append([part])
+        else:
+            own.append(part)
+    return groups
+
+
 def on_one_line(one: tuple[complex, complex], other: tuple[complex, complex], apart: float, least: float) -> bool:
     """Whether two segments lie within `apart` mm of the longer one's line and cover more than `least` mm of it."""
     one, other = sorted((one, other), key=lambda ends: -abs(ends[1] - ends[0]))
@@ -288,11 +301,15 @@ class Ink:
 
     def touches(self, centres: Complexes, half: Complexes) -> Flags:
         """Which boxes touch a stroke, to half a cell."""
+        return np.asarray(self.covered(centres, half) != 0)
+
+    def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
+        """How many inked cells each box covers."""
         low, high = (centres - half - self.low) / CELL, (centres + half - self.low) / CELL
         x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
         y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))
         inked = self.inked
-        return np.asarray(inked[x1, y1] - inked[x0, y1] - inked[x1, y0] + inked[x0, y0] != 0)
+        return np.asarray(inked[x1, y1] - inked[x0, y1] - inked[x1, y0] + inked[x0, y0])
 
 
 # --- how much paper a label takes, from a table of glyph sizes ------------------------------------

@@ -3,22 +3,22 @@
 Each label tries spots around its point, the preferred directions first, nearest first, and never one that is nearer
 to a point that another label names.  The label with the fewest free spots chooses first.  If no spot nearby is free,
 the label moves out and a short leader, which crosses no other, ties it to its point.  One that finds no room so
-chooses first in a new attempt, said shorter if it can be; one that did so already shares the label of its neighbour.
+chooses first in a new attempt, said shorter if it can be; if that is not enough it breaks gray lines of construction,
+as a dimension's figure does, where it hides least of them.  No two labels ever become one.
 The same figure always gets the same labels.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import math
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache, reduce
+from functools import cached_property, lru_cache, reduce
 
 import numpy as np
-from numpy.typing import NDArray
 
-from reportgen.drawing import Circle, Content, Item, Label, Line, Scene, style
+from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import (
     Box,
     Complexes,
@@ -33,28 +33,33 @@ from reportgen.drawing.geometry import (
     overlap,
     segments,
 )
+from reportgen.drawing.spots import (
+    CLEAR,
+    FINE,
+    LEADERLESS,
+    Indices,
+    around,
+    beyond,
+    crossings,
+    distances,
+    inked,
+    nearby,
+    ranking,
+    touched,
+)
 
-Indices = NDArray[np.intp]
 Segment = tuple[complex, complex]
 
-DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
-CORNERS = np.clip(DIRECTIONS.real * math.sqrt(2), -1, 1) + 1j * np.clip(DIRECTIONS.imag * math.sqrt(2), -1, 1)
-"""Where a box of half size 1 has its middle when the box stands off its point in each direction."""
-NEAR = (0.0, 0.7, 1.6)
-"""Extra distances (mm) at which a label still reads as belonging to its point."""
-FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
-LONGEST = 12.0
-"""A longer leader (mm) is not followed."""
-CLEAR = 0.55
-"""White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
 FIRST = 72
 """This many spots are tested at once; the others only if none of these is free."""
-KEPT = 1024
-"""For so many sizes of labels and sets of preferred directions the spots are cached."""
 FIGURES = 16
 """Of so many figures the labels are kept: some are drawn once to see whether they fit and then again."""
-PLACES = np.linspace(0.15, 0.95, 9)
-"""Where on a leader it is seen whether it meets strokes, in shares of its length."""
+HIDING = 0.05
+"""What it costs to hide a cell of gray lines: four of them as much as to stand a millimetre farther off."""
+ASIDE, BY = 1.6, 0.9
+"""What a label that only its leader ties to its point keeps from points of others, and its leader does (mm)."""
+LED = 2
+"""So often a label finds no room before its leader alone ties it to its point."""
 APART = 0.7
 """White kept between two labels."""
 
@@ -153,14 +158,14 @@ class _Taken:
         apart, room = centres[:, None] - self.centres, self.halves + (half + APART * (1 + 1j))
         free: Flags = np.asarray(((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1))
         if self.leaders:
-            free &= ~_touched(centres, half, np.array(self.leaders))
+            free &= ~touched(centres, half, np.array(self.leaders))
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
         """Which leaders run through a label or another leader."""
         through: Flags = np.asarray(overlap(self.centres, self.halves, leaders, 0.2).any(axis=0))
         if self.leaders:
-            through |= _crossings(leaders, np.array(self.leaders)) > 0
+            through |= crossings(leaders, np.array(self.leaders)) > 0
         return through
 
 
@@ -168,9 +173,15 @@ class _Field:
     """What is on paper before labels are placed: strokes, and the points that labels name, each with its label."""
 
     def __init__(self, items: Sequence[Item], requests: Sequence[Request]) -> None:
+        self.items = items
         self.ink = Ink(segments(items))
         self.points = np.array([point for request in requests for point in request.named], dtype=np.complex128)
         self.owners = np.repeat(np.arange(len(requests)), [len(request.named) for request in requests])
+
+    @cached_property
+    def firm(self) -> Ink:
+        """The strokes that no label breaks: all but gray lines."""
+        return Ink(segments(item for item in self.items if not _breakable(item)))
 
     def spots(self, requests: Mapping[int, Request]) -> dict[int, _Spots]:
         """The spots of some labels by their numbers; all their first ones are tested together."""
@@ -185,13 +196,17 @@ class _Field:
 
     def nearest(self, centres: Complexes, half: Complexes, labels: Indices) -> Flags:
         """Where boxes [K] of labels are nearer to a point of their own than to any that another label names."""
+        to_own, to_others = self.away(centres, half, labels)
+        return np.asarray((to_own <= to_others) | np.isinf(to_own))
+
+    def away(self, centres: Complexes, half: Complexes, labels: Indices) -> tuple[Floats, Floats]:
+        """How far boxes [K] of labels are from the nearest of their own points, and of those of others (mm)."""
         apart = centres[:, None] - self.points
         aside, above = np.abs(apart.real) - half.real[:, None], np.abs(apart.imag) - half.imag[:, None]
         away = np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0))
         own = labels[:, None] == self.owners
-        to_own = np.where(own, away, np.inf).min(axis=1, initial=np.inf)
-        to_others = np.where(own, np.inf, away).min(axis=1, initial=np.inf)
-        return np.asarray((to_own <= to_others) | ~own.any(axis=1))
+        to_own, to_others = np.where(own, away, np.inf), np.where(own, np.inf, away)
+        return to_own.min(axis=1, initial=np.inf), to_others.min(axis=1, initial=np.inf)
 
 
 @dataclass
@@ -205,6 +220,7 @@ class _Spots:
     centres: Complexes
     first: Flags
     far: dict[complex, tuple[Complexes, Complexes]] = dataclasses.field(default_factory=dict)
+    over: dict[bool, tuple[Complexes, Complexes, Flags]] = dataclasses.field(default_factory=dict)
 
     @property
     def room(self) -> int:
@@ -234,97 +250,142 @@ class _Spots:
     def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
         """The free spots farther out from a point, the cheapest first, and their leaders [K, 2]."""
         if at not in self.far:
-            offsets, cost, ways = _beyond(self.half, self.request.gap, self.request.prefer)
+            offsets, cost, ways = beyond(self.half, self.request.gap, self.request.prefer)
             free = self.free(at + offsets, self.request.short != LEFT_OUT)
             centres, leaders = at + offsets[free], at + ways[free]
             past = ~self.nearest(centres)
-            order = np.argsort(cost[free] + 0.3 * _inked(self.field.ink, leaders) + past, kind="stable")
+            order = np.argsort(cost[free] + 0.3 * inked(self.field.ink, leaders) + past, kind="stable")
             self.far[at] = centres[order], leaders[order]
         return self.far[at]
+
+    def breaking(self, taken: _Taken, led: bool) -> tuple[complex, Segment | None] | None:
+        """The best spot, clear of labels, that hides gray lines, and the leader if it is far; None if there is none."""
+        if led not in self.over:
+            self.over[led] = self._over(led)
+        centres, leaders, near = self.over[led]
+        some = np.flatnonzero(taken.clear(centres, self.half))
+        some = some[near[some] | ~taken.crossed(leaders[some])]
+        if not some.size:
+            return None
+        first, last = leaders[some[0]]
+        return complex(centres[some[0]]), None if near[some[0]] else (complex(first), complex(last))
+
+    def _over(self, led: bool) -> tuple[Complexes, Complexes, Flags]:
+        """Spots that touch gray lines alone, those that hide least first, their leaders [K, 2], which need none.
+
+        One that is `led` stands nearer to another's point, but clear of it, and no other point is near its leader.
+        """
+        field, half, points = self.field, self.half, self.request.points
+        offsets, cost, ways = around(half, self.request.gap, self.request.prefer)
+        centres = np.concatenate([at + offsets for at in points])
+        free = np.flatnonzero(~field.firm.touches(centres, np.array(half + CLEAR * (1 + 1j))))
+        leaders, centres = np.concatenate([at + ways for at in points])[free], centres[free]
+        near = free % len(offsets) < len(FINE) * LEADERLESS
+        if led:
+            others = field.points[field.owners != self.number]
+            fit = ~near & (field.away(centres, np.array([half]), np.array([self.number]))[1] > ASIDE)
+            fit[fit] = distances(leaders[fit], others).min(axis=1, initial=np.inf) > BY
+        else:
+            fit = self.nearest(centres)
+        centres, leaders, near, costs = centres[fit], leaders[fit], near[fit], cost[free[fit] % len(offsets)]
+        # A leader along a line is taken for a part of it.
+        costs = costs + np.where(near, 0.0, 0.1 * inked(field.ink, leaders) ** 2)
+        order = np.argsort(costs + HIDING * field.ink.covered(centres, np.array(half)), kind="stable")
+        return centres[order], leaders[order], near[order]
+
+
+def _breakable(item: Item) -> bool:
+    """Whether an item is a line of construction, which letters may break."""
+    match item:
+        case Line(stroke=stroke) | Arc(stroke=stroke, head=0.0):
+            return stroke.colour == style.GRAY
+        case Circle(stroke=Pen(colour=style.GRAY), fill=None) | Polyline(stroke=Pen(colour=style.GRAY), fill=None):
+            return True
+        case _:
+            return False
 
 
 def _offered(request: Request) -> tuple[complex, Complexes]:
     """Half the size of a label, and its spots [72 × points] nearby in the order of preference."""
     half = _half(request)
-    spots = (np.array(request.points)[:, None] + _nearby(half, request.gap)).ravel()
-    return half, spots[_ranking(request.prefer, len(request.points))]
+    spots = (np.array(request.points)[:, None] + nearby(half, request.gap)).ravel()
+    return half, spots[ranking(request.prefer, len(request.points))]
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """The labels of a figure, the lines of its key, each of parts, and whether it is too small for them.
+
+    In one that is `crowded` a label is tied to its point by its leader alone, or hides more than gray lines.
+    """
+
+    items: tuple[Item, ...]
+    key: Sequence[tuple[Content, ...]]
+    crowded: bool
 
 
 @lru_cache(maxsize=FIGURES)
-def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> tuple[tuple[Item, ...], list[tuple[Content, ...]]]:
-    """Labels (and leaders) for the requests among the items, in their order, and the key's lines, each of parts."""
+def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> Placed:
+    """Labels (and leaders) for the requests among the items, in their order."""
     field = _Field(items, requests)
     frames = [frame(item) for item in items if isinstance(item, Label)]
     spots = field.spots(dict(enumerate(requests))) if requests else {}
     order = sorted(spots, key=lambda i: (spots[i].room, i))
-    first: set[int] = set()
+    pressed: Counter[int] = Counter()
     keyed: list[int] = []
-    placed, crowded = _place_in(order, spots, frames)
+    placed, crowded = _place_in(order, spots, frames, pressed)
     while crowded:
-        before = len(first), len(spots)
         changed: dict[int, Request] = {}
         for i in crowded:
-            request = changed.get(i) or spots[i].request
+            request = spots[i].request
             if request.short is not None:
                 keyed += [i] if request.short == KEY else []
                 changed[i] = replace(request, parts=request.short, short=None)
-            elif i in first and (to := _neighbour(i, spots)) is not None:
-                pair = {j: changed.pop(j, spots[j].request) for j in sorted((i, to))}
-                names = (replace(one, parts=requests[j].parts) if j in keyed else one for j, one in pair.items())
-                changed[to] = _shared(*names)
-                keyed = [j for j in keyed if j not in pair]
-                field.owners[field.owners == i] = to
-                del spots[i]
-            first.add(i)
+        if not changed and all(pressed[i] == LED for i in crowded):
+            break
         for n, i in enumerate(keyed, 1):
             if (one := changed.get(i, spots[i].request)).parts != (str(n),):
                 changed[i] = replace(one, parts=(str(n),))
         if changed:
             spots |= field.spots(changed)
-        if before == (len(first), len(spots)):
-            break
-        order = [i for i in (*crowded, *(i for i in order if i not in crowded)) if i in spots]
-        placed, crowded = _place_in(order, spots, frames)
+        pressed.update(i for i in crowded if pressed[i] < LED)
+        order = [*crowded, *(i for i in order if i not in crowded)]
+        placed, crowded = _place_in(order, spots, frames, pressed)
     key = [(f"{number} – ", *requests[i].parts) for number, i in enumerate(keyed, 1)]
-    return tuple(item for i in sorted(placed) for item in placed[i]), key
-
-
-def _neighbour(i: int, spots: Mapping[int, _Spots]) -> int | None:
-    """The label, of those that name points, whose point is the nearest to one that label `i` names."""
-    own = spots[i].request.named
-    others = [j for j, spot in spots.items() if spot.request.named and j != i]
-    if not own:
-        return None
-    return min(others, key=lambda j: min(abs(p - q) for p in own for q in spots[j].request.named), default=None)
-
-
-def _shared(one: Request, other: Request) -> Request:
-    """One label for the points of two."""
-    points, parts = (*one.points, *other.points), (*one.parts, ", ", *other.parts)
-    gap, size = max(one.gap, other.gap), min(one.size, other.size)
-    return replace(one, points=points, named=points, parts=parts, gap=gap, size=size, short=None)
+    labels = tuple(item for i in sorted(placed) for item in placed[i])
+    return Placed(labels, key, crowded=bool(crowded) or LED in pressed.values())
 
 
 def _place_in(
-    order: Sequence[int], spots: Mapping[int, _Spots], frames: Sequence[tuple[complex, complex]]
+    order: Sequence[int],
+    spots: Mapping[int, _Spots],
+    frames: Sequence[tuple[complex, complex]],
+    pressed: Mapping[int, int],
 ) -> tuple[dict[int, tuple[Item, ...]], list[int]]:
-    """The labels placed one after the other, and those for which no place is free."""
+    """The labels placed one after the other, and those for which no place is free.
+
+    One that was `pressed` may break lines, one that was so twice may stand nearer to another's point.
+    """
     taken = _Taken(frames, len(order))
     placed: dict[int, tuple[Item, ...]] = {}
     crowded: list[int] = []
     for i in order:
         spot = spots[i]
         request = spot.request
+        over = False
         centre, leader = (_away(spot, taken) if request.ring else None) or (spot.best(taken), None)
         if centre is None:
             found = _away(spot, taken)
             if found is None and request.short == LEFT_OUT:
                 placed[i] = ()
                 continue
+            if over := found is None:
+                tries = (spot.breaking(taken, led) for led in (False, True)[: pressed.get(i, 0)])
+                found = next((one for one in tries if one), None)
             if found is None:
                 crowded.append(i)
             centre, leader = found or _least_touched(spot, taken)
-        labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over=i in crowded)
+        labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)
         if leader:
@@ -340,51 +401,7 @@ def _half(request: Request) -> complex:
     return (abs(half) + 0.4) * (1 + 1j) if request.ring else half
 
 
-def _ring(half: complex, distances: Floats) -> Complexes:
-    """Offsets [D, 24] of a box from its point: its nearest edge or corner at the distance."""
-    return np.asarray(CORNERS.real * half.real + 1j * CORNERS.imag * half.imag + distances[:, None] * DIRECTIONS)
-
-
-@lru_cache(maxsize=KEPT)
-def _nearby(half: complex, gap: float) -> Complexes:
-    """Offsets [72] at the near distances; cached, since names recur from plan to plan."""
-    return _ring(half, np.asarray(NEAR) + gap).ravel()
-
-
-@lru_cache(maxsize=KEPT)
-def _ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
-    """The order [72 × anchors] of nearby spots: the first point and the preferred directions first."""
-    cost = (np.asarray(NEAR)[:, None] * 0.45 + _turned(prefer)).ravel()
-    total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
-    return np.argsort(total, kind="stable")
-
-
-def _turned(prefer: tuple[float, ...]) -> Floats:
-    """How far each direction is from the nearest preferred one: 0 … 2."""
-    if not prefer:
-        # Free choice: up and to the right reads best.
-        return np.asarray(0.35 * (1 - (DIRECTIONS * np.exp(-0.25j * np.pi)).real))
-    wanted = np.exp(-1j * np.asarray(prefer))
-    return np.asarray((1 - (DIRECTIONS[:, None] * wanted).real).min(axis=1))
-
-
-def _touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
-    """Which boxes come too close to any stroke."""
-    return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
-
-
-@lru_cache(maxsize=KEPT)
-def _beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
-    """Of the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
-    centres = _ring(half, np.asarray(FAR) + gap).ravel()
-    cost = (np.asarray(FAR)[:, None] * 0.2 + _turned(prefer)).ravel()
-    leaders = _leaders(gap, centres, half)
-    order = np.argsort(cost, kind="stable")
-    order = order[np.abs(leaders[order, 1] - leaders[order, 0]) <= LONGEST]
-    return centres[order], cost[order], leaders[order]
-
-
-def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment] | None:
+def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment | None] | None:
     """The best free spot farther out, and the leader to it, which crosses no label; None where there is none.
 
     The leader starts at the label's first point, or at another one if no spot around the first is free.
@@ -402,40 +419,13 @@ def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment] | None:
 def _least_touched(spot: _Spots, taken: _Taken) -> tuple[complex, Segment]:
     """Where none is free: the cheapest spot farther out, off all labels if any is, then off strokes."""
     at, half = spot.request.points[0], spot.half
-    offsets, cost, ways = _beyond(half, spot.request.gap, spot.request.prefer)
+    offsets, cost, ways = beyond(half, spot.request.gap, spot.request.prefer)
     centres = at + offsets
     touches = spot.field.ink.touches(centres, np.array(half))
     apart = taken.clear(centres, half) & ~taken.crossed(at + ways)
     best = int(np.argmin(cost + len(cost) * (touches + 2.0 * ~apart)))
     first, last = at + ways[best]
     return complex(centres[best]), (complex(first), complex(last))
-
-
-def _leaders(gap: float, centres: Complexes, half: complex) -> Complexes:
-    """From a point's edge to just before the nearest place on each box, seen from the point: segments [K, 2]."""
-    foot = (centres.real - np.clip(centres.real, -half.real, half.real)) + 1j * (
-        centres.imag - np.clip(centres.imag, -half.imag, half.imag)
-    )
-    u = foot / np.abs(foot)
-    return np.column_stack((u * min(gap, 0.8), foot - u * (CLEAR + 0.1)))
-
-
-def _crossings(leaders: Complexes, strokes: Complexes) -> Floats:
-    """How many strokes each leader crosses."""
-
-    def side(a: Complexes, b: Complexes, p: Complexes) -> Floats:
-        return np.asarray(((b - a).conj() * (p - a)).imag)
-
-    a, b = leaders[:, :1], leaders[:, 1:]
-    c, d = strokes[:, 0], strokes[:, 1]
-    across = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
-    return np.asarray(across.sum(axis=1), dtype=np.float64)
-
-
-def _inked(ink: Ink, leaders: Complexes) -> Floats:
-    """At how many of `PLACES` each leader meets strokes: where it crosses one, or lies on it like a part of it."""
-    places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * PLACES
-    return np.asarray(ink.touches(places, np.array(0.25 + 0.25j)).sum(axis=1), dtype=np.float64)
 
 
 # --- from drafts to finished scenes ---------------------------------------------------------------
@@ -462,7 +452,7 @@ class Canvas:
 
 def settle(draft: Canvas) -> Canvas:
     """The draft with its labels placed."""
-    return Canvas(draft.items + place(draft.items, draft.requests)[0])
+    return Canvas(draft.items + place(draft.items, draft.requests).items)
 
 
 def finish(
@@ -478,15 +468,15 @@ def finish(
     `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
     the same paper.
     """
-    labels, key = place(draft.items, draft.requests)
-    done = Canvas(draft.items + labels)
+    labels = place(draft.items, draft.requests)
+    done = Canvas(draft.items + labels.items)
     low, high = corners_of((*bounds(done.items), *(frame or ())))
-    below = _notes([*key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
+    below = _notes([*labels.key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
     low, high = corners_of((low, high, *(bounds(below) if below else ())))
     white = complex(margin, margin)
     size = high + white - (low - white)
     items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
-    return Scene(size.real, size.imag, items, title, margin)
+    return Scene(size.real, size.imag, items, title, margin, labels.crowded)
 
 
 def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:

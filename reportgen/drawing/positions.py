@@ -14,15 +14,16 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import Complexes, box, clusters, polar, unit
-from reportgen.drawing.labels import CLEAR, LEFT_OUT, Canvas, Request, finish, joined, label
+from reportgen.drawing.geometry import Complexes, box, clusters, coincident, polar, unit
+from reportgen.drawing.labels import LEFT_OUT, Canvas, Request, finish, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
+from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
 from reportgen.machine.motion import Motion
 
 TOGETHER = 0.3
-"""Points nearer than this (mm) share one label."""
+"""Points within this of one another (mm of paper) are one and share a label."""
 CROWDED = 24
 """With more positions than this only the emphasised one is numbered."""
 DOT = 0.55
@@ -44,13 +45,14 @@ class PositionPlan:
 
     `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are
     drawn from a dense motion, `emphasised` the index (from 0) of the position drawn heavy, if any;
-    `labels` replaces the positions' numbers.
+    `labels` replaces the positions' numbers; the drawing is `enlarged` so many times afterwards.
     """
 
     numbered: tuple[str, ...]
     paths: tuple[str, ...] = ()
     emphasised: int | None = None
     labels: tuple[str, ...] = ()
+    enlarged: float = 1.0
 
     def label(self, k: int) -> str:
         """What the position of index `k` (from 0) is called."""
@@ -292,14 +294,12 @@ def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionP
     middle = sum(at for at, _ in shown) / len(shown) if shown else 0j
     items: list[Item] = []
     requests: list[Request] = []
-    for group in clusters(shown, TOGETHER, lambda one: one[0]):
+    for group in coincident(shown, TOGETHER / shows.enlarged, lambda one: one[0]):
         at, names = group[0][0], [name for _, name in group]
         items.append(Circle(at, DOT, Pen(0.2), style.PAPER))
         out = (float(np.angle(at - middle)),) if abs(at - middle) > 1 else ()
         size = style.LABEL if len(group) < 3 else style.SMALL
-        # Of one path the numbers alone are enough.
-        short = joined(name.sub for name in names) if len({name.base for name in names}) == 1 else None
-        requests.append(label(at, *joined(names), prefer=out, gap=DOT + 0.5, size=size, short=short))
+        requests.append(label(at, *joined(names), prefer=out, gap=DOT + 0.5, size=size))
     return Canvas(tuple(items), tuple(requests))
 
 
@@ -386,7 +386,7 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
         requests.append(label(_along(points), branch.label, size=style.SMALL))
     read = [(frame.at(reading.fraction, reading.pressure), reading.label) for reading in readings]
     items += [Circle(at, 0.5, Pen(0.2), style.PAPER) for at, _ in read]
-    for group in clusters(read, 0.3, lambda one: one[0]):
+    for group in clusters(read, TOGETHER, lambda one: one[0]):
         numbers = joined(number for _, number in group)
         outward = (cmath.phase(unit(frame.side)),)
         requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=LEFT_OUT))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -68,6 +69,8 @@ SCHEME_BOX = (120.0, 75.0)
 HALF_PAGE = 100.0
 """The height (mm) up to which a figure leaves about half a page to the text."""
 REDUCTIONS = tuple(1.0 / step for step in (1, 2, 2.5, 4, 5, 6, 10, 20, 25, 40, 50, 100, 1000))
+SMALLER = (1.0, 2.0, 2.5, 4.0, 5.0)
+"""How many times smaller than to the scales of the text a plan may be shown."""
 LEGIBLE = 0.4
 """Of the scheme's size: groups drawn smaller yet would be hard to read."""
 SHOWN_AT = 1
@@ -83,6 +86,8 @@ class FigureScenes:
     note: Chain | None = None
     """A scale to print behind the caption."""
     turned: bool = False
+    smaller: float = 1.0
+    """How many times smaller than to the scales of the text it is shown, which its caption says."""
 
 
 def in_text(*scenes: Scene) -> bool:
@@ -200,22 +205,24 @@ def _reduction(report: Report) -> float:
 
 
 def positions(report: Report) -> FigureScenes:
-    return _as_large_as_asked(report, lambda factor: positions_scene(report, factor=factor))
+    return _as_large_as_asked(report, partial(positions_scene, report))
 
 
 def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
     """A drawing to μ_l, by which it is measured, or at the first reduction that leaves half a page to the text.
 
-    What is wider than the text stands turned, as large as the page allows.
+    What is wider than the text stands turned, as large as the page allows.  Where labels want more room, it is the next
+    larger one that has it.
     """
     if report.parts("true-size"):
         return on_paper(draw(1.0))
-    for drawn in (close(draw(factor)) for factor in REDUCTIONS):
-        if drawn.width > TEXT_WIDTH and across(drawn):
-            return FigureScenes((drawn,), turned=True)
-        if drawn.width <= TEXT_WIDTH and drawn.height <= HALF_PAGE:
-            return FigureScenes((drawn,))
-    return on_paper(drawn)
+    drawn: list[FigureScenes] = []
+    for smaller in SMALLER:
+        scene = close(draw(1 / smaller))
+        drawn.append(replace(on_paper(scene), smaller=smaller))
+        if drawn[-1].turned or (in_text(scene) and scene.height <= HALF_PAGE):
+            break
+    return next((shown for shown in reversed(drawn) if not shown.scenes[0].crowded), drawn[-1])
 
 
 def plan_in_text(report: Report) -> bool:
@@ -223,7 +230,7 @@ def plan_in_text(report: Report) -> bool:
     return positions(report).paper is None
 
 
-def positions_scene(report: Report, beside: Canvas | None = None, factor: float = 1.0) -> Scene:
+def positions_scene(report: Report, factor: float = 1.0, beside: Canvas | None = None) -> Scene:
     """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
     machine = report.machine
     shows = PositionPlan(
@@ -231,6 +238,7 @@ def positions_scene(report: Report, beside: Canvas | None = None, factor: float 
         machine.paths if beside is None else (),
         report.positions.index(report.worked[0]),
         labels=tuple(map(str, report.positions)),
+        enlarged=report.enlarged,
     )
     one_turn = _motion(machine, machine.cycle_angles[[k - 1 for k in report.positions]])
     return _position_plan(report, one_turn, shows, beside, factor)
@@ -241,7 +249,8 @@ def extremes(report: Report) -> FigureScenes:
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
     shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
-    return on_paper(_position_plan(report, motion, shows, factor=_reduction(report)))
+    factor = _reduction(report)
+    return replace(on_paper(_position_plan(report, motion, shows, factor=factor)), smaller=1 / factor)
 
 
 def swing(report: Report) -> FigureScenes:
@@ -279,7 +288,7 @@ def _position_plan(
 ) -> Scene:
     dense = _motion(report.machine, np.linspace(0.0, FULL_TURN, DENSE))
     scale = drawing_scale(report) * factor
-    notes = looks(report, scale, factor).notes
+    notes = looks(report, scale).notes if factor == 1.0 else ()
     return position_plan(report.machine.linkage, motion, dense, scale, shows, notes, beside=beside)
 
 
@@ -302,7 +311,7 @@ def _numbered(report: Report) -> tuple[str, ...]:
 
 def indicator(report: Report) -> FigureScenes:
     """The diagram in line with the first piston's stroke, every piston's positions read from it."""
-    return _as_large_as_asked(report, lambda factor: _indicator(report, factor))
+    return _as_large_as_asked(report, partial(_indicator, report))
 
 
 def _indicator(report: Report, factor: float) -> Scene:
@@ -333,7 +342,7 @@ def _indicator(report: Report, factor: float) -> Scene:
         for gas in gases.values()
         for k in report.all_positions
     ]
-    return positions_scene(report, indicator_figure.indicator(frame, branches, readings), factor)
+    return positions_scene(report, factor, indicator_figure.indicator(frame, branches, readings))
 
 
 def _free_side(machine: Machine) -> complex:

@@ -20,6 +20,7 @@ from reportgen.report import (
     Document,
     Figure,
     InlineMath,
+    Inlines,
     PageBreak,
     Paragraph,
     Plate,
@@ -218,6 +219,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
         drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))
     inlines = report.prose.inlines(caption)
+    inlines = (*inlines, *phrases.shown_smaller(report, drawn.smaller, "caption"))
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
@@ -225,6 +227,11 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     first, *others = drawn.scenes
     further = (Plate(scene, drawn.paper, continues=True) for scene in others)
     return Plate(first, drawn.paper, inlines, key), *further
+
+
+def smaller(report: Report, name: str) -> Inlines:
+    """What the text says of a figure by its name that is shown smaller than to the scales of the text."""
+    return phrases.shown_smaller(report, FIGURES[name][1](report).smaller, name)
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
@@ -392,6 +399,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "sign": phrases.sign,
     "stop": phrases.stop,
     "stroke_name": equations.stroke_name,
+    "smaller": smaller,
     # steps of a construction
     "along": steps.along,
     "base_motion": steps.base_motion,

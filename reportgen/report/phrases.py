@@ -12,7 +12,7 @@ from string import Formatter
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.units import MM
-from reportgen.formula import Expression, Number, Symbol, ids, vocabulary
+from reportgen.formula import Chain, Expression, Number, Symbol, ids, vocabulary
 from reportgen.machine.loads import ConstantLaw, Law, Opposing, TableLaw
 from reportgen.plans.motion import POLES
 from reportgen.plans.sides import Side
@@ -83,6 +83,14 @@ def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
     phrase = words if isinstance(words, str) else words[len(things) > 1]
     listed = ", ".join(map(str, things)) if isinstance(things, Sequence) else ""
     return say(report, phrase, count=len(things), list=listed, **gaps)
+
+
+def shown_smaller(report: Report, times: float, name: str) -> Inlines:
+    """What is said of a figure that is shown so many times smaller than to μ_l; nothing for one that is not."""
+    if times == 1.0:
+        return ()
+    scale = Chain((report.ledger.symbol("mu.l"), report.ledger.number("mu.l")))
+    return say(report, report.words["smaller"][name], times=Number(times), scale=scale)
 
 
 def sign(report: Report, id: str, position: int | None = None) -> str:

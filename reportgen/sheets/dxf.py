@@ -180,7 +180,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
         case Hatch(points, spacing, stroke, turn):
             for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
-        case Label(where, content, anchor, size, turn, _, narrow):
+        case Label(where, content, anchor, size, turn, over, narrow):
             letters = {"layer": "text", "style": STYLE, "insert": at(where), "rotation": turn}
             height = round(CAPITAL * POINT * size, 4)
             if narrow < 1.0 and isinstance(content, str) and not set(content) & ORDERS:
@@ -189,7 +189,10 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
                 yield model.add_text(content, dxfattribs={**letters, **how, "align_point": at(where)})
             else:
                 attributes = {**letters, "char_height": height, "attachment_point": ATTACHMENT[anchor]}
-                yield model.add_mtext(texts.content(content), dxfattribs=attributes)
+                text = model.add_mtext(texts.content(content), dxfattribs=attributes)
+                if over:
+                    text.set_bg_color("canvas", scale=1.0)
+                yield text
 
 
 def _smooth(points: tuple[complex, ...], closed: bool) -> list[list[complex]]:

@@ -11,21 +11,27 @@ from unittest import mock
 
 import numpy as np
 
-from reportgen.drawing import Item, Label, Line, Scene, labels
+from reportgen.drawing import Arc, Circle, Item, Label, Line, Polyline, Scene, labels
 from reportgen.drawing.geometry import bounds, corners, frame, overlap, segments
+from reportgen.drawing.style import GRAY
 
 CLEARANCE = 0.1
 """White between a label and a stroke, mm."""
 
 
 def overlaps(scene: Scene) -> list[str]:
-    """Faults of a finished scene: labels on strokes, on one another, or off the sheet."""
+    """Faults of a finished scene: labels on strokes, on one another, or off the sheet.
+
+    One on paper of its own may break gray lines of construction.
+    """
     faults: list[str] = []
     written = [item for item in scene.items if isinstance(item, Label)]
-    strokes = segments(scene.items)
+    every = segments(scene.items)
+    firm = segments(item for item in scene.items if not _gray(item))
     frames = [frame(item) for item in written]
     for n, (item, (centre, half)) in enumerate(zip(written, frames, strict=True)):
-        if not item.background and len(strokes):
+        strokes = firm if item.background else every
+        if len(strokes):
             hits = overlap(np.array([centre]), np.array([half]), strokes, CLEARANCE)[0]
             if hits.any():
                 where = strokes[int(np.argmax(hits))]
@@ -38,6 +44,10 @@ def overlaps(scene: Scene) -> list[str]:
         if low.real < 0 or low.imag < 0 or high.real > scene.width or high.imag > scene.height:
             faults.append(f"{item.content} is off the sheet")
     return faults
+
+
+def _gray(item: Item) -> bool:
+    return isinstance(item, (Line, Arc, Circle, Polyline)) and item.stroke is not None and item.stroke.colour == GRAY
 
 
 # --- labels with what they name ---------------------------------------------------------------------
@@ -67,8 +77,8 @@ def watched() -> Iterator[list[list[Placed]]]:
     rounds: list[list[Placed]] = []
     place, place_in = labels.place, labels._place_in
 
-    def placing(order: Any, spots: Any, frames: Any) -> Any:
-        done, crowded = place_in(order, spots, frames)
+    def placing(order: Any, spots: Any, *others: Any) -> Any:
+        done, crowded = place_in(order, spots, *others)
         rounds.append([_placed(spots[i].request, items) for i, items in done.items() if items])
         return done, crowded
 

@@ -9,7 +9,7 @@ import pytest
 import typst
 
 from reportgen.drawing.geometry import box
-from reportgen.drawing.labels import CLEAR
+from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
 from reportgen.writers.typst_math import TypstFormulas
 

@@ -49,7 +49,11 @@ def test_labels_are_clear_where_the_crank_is_drawn_small(path: Path, crank: str,
 
 
 def well_labelled(assignment: Assignment) -> None:
-    """Leaders are short and cross none; every label's nearest point is its own, but for marks of a curve on leaders."""
+    """Leaders are short and cross none; every label's nearest point is its own, or its leader alone tells.
+
+    So it does for marks of a curve, and where a small plan has points about 1 mm apart and white paper beyond them: a
+    label there keeps clear of all other points.
+    """
     with watched() as figures:
         built.compose(assignment)
     assert figures
@@ -57,7 +61,9 @@ def well_labelled(assignment: Assignment) -> None:
         leaders = [one.leader for one in figure if one.leader]
         assert max((abs(leader.end - leader.start) for leader in leaders), default=0.0) <= 12.0
         assert not any(cross(*pair) for pair in combinations(leaders, 2))
-        assert [one for one in astray(figure) if not (one.mark and one.leader)] == []
+        led = [one for one in astray(figure) if not (one.mark and one.leader)]
+        assert all(one.leader for one in led)
+        assert all(one.to(point) > 1.5 for one in led for other in figure if other is not one for point in other.named)
 
 
 @pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)
@@ -70,15 +76,6 @@ def test_labels_of_a_variant_stand_at_their_own_points(name: str, tmp_path: Path
     file = tmp_path / "variant.yaml"
     file.write_text(variants.content(name), encoding="utf-8")
     well_labelled(api.load(file))
-
-
-def test_what_finds_no_room_and_has_nothing_shorter_shares_the_label_of_its_neighbour() -> None:
-    """Two points in a gap between walls where one name has room: one label for both."""
-    walls = tuple(Line(complex(x, -20), complex(x, 20)) for x in (*range(-40, 0, 2), *range(8, 41, 2)))
-    points = (2 + 0j, -3 + 0j)
-    draft = Canvas(walls, tuple(label(at, Symbol(name)) for at, name in zip(points, "AB", strict=True)))
-    written = [item.content for item in finish(draft).items if isinstance(item, Label)]
-    assert written == [Symbol("A"), ", ", Symbol("B")]
 
 
 @pytest.mark.parametrize("path", matrix(built.FILES, built.TELLING), ids=lambda path: path.stem)

@@ -1,0 +1,117 @@
+"""Spots for a label around a point: where they are, what they cost, which leaders tie them to it."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, overlap
+
+Indices = NDArray[np.intp]
+
+DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
+FINE = np.exp(2j * np.pi * np.arange(120) / 120)
+NEAR = (0.0, 0.7, 1.6)
+"""Extra distances (mm) at which a label still reads as belonging to its point."""
+FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
+ALL = (0.0, 0.4, 0.8, 1.2, 1.6, *np.arange(2.0, 12.0, 0.4))
+"""Where a label is tried that breaks lines, in `FINE` directions, the first `LEADERLESS` of them without a leader."""
+LEADERLESS = 5
+LONGEST = 12.0
+"""A longer leader (mm) is not followed."""
+CLEAR = 0.55
+"""White kept between a label's ink and strokes; it also takes up what two typesetters differ by."""
+KEPT = 1024
+"""For so many sizes of labels and sets of preferred directions the spots are cached."""
+PLACES = np.linspace(0.15, 0.95, 9)
+"""Where on a leader it is seen whether it meets strokes, in shares of its length."""
+
+
+def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -> Complexes:
+    """Offsets [D, 24] of a box from its point, in so many directions: its nearest edge or corner at the distance."""
+    corners = np.clip(directions.real * math.sqrt(2), -1, 1) + 1j * np.clip(directions.imag * math.sqrt(2), -1, 1)
+    return np.asarray(corners.real * half.real + 1j * corners.imag * half.imag + distances[:, None] * directions)
+
+
+@lru_cache(maxsize=KEPT)
+def nearby(half: complex, gap: float) -> Complexes:
+    """Offsets [72] at the near distances; cached, since names recur from plan to plan."""
+    return ring(half, np.asarray(NEAR) + gap).ravel()
+
+
+@lru_cache(maxsize=KEPT)
+def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
+    """The order [72 × anchors] of nearby spots: the first point and the preferred directions first."""
+    cost = (np.asarray(NEAR)[:, None] * 0.45 + turned(prefer)).ravel()
+    total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
+    return np.argsort(total, kind="stable")
+
+
+def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Floats:
+    """How far each direction is from the nearest preferred one: 0 … 2."""
+    if not prefer:
+        # Free choice: up and to the right reads best.
+        return np.asarray(0.35 * (1 - (directions * np.exp(-0.25j * np.pi)).real))
+    wanted = np.exp(-1j * np.asarray(prefer))
+    return np.asarray((1 - (directions[:, None] * wanted).real).min(axis=1))
+
+
+@lru_cache(maxsize=KEPT)
+def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
+    """All spots, the near ones first, seen from their point: centres, costs and leaders [K, 2]."""
+    centres = ring(half, np.asarray(ALL) + gap, FINE).ravel()
+    cost = (np.asarray(ALL)[:, None] * 0.2 + turned(prefer, FINE)).ravel()
+    return centres, cost, leaders_to(gap, centres, half)
+
+
+@lru_cache(maxsize=KEPT)
+def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
+    """Of the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
+    centres = ring(half, np.asarray(FAR) + gap).ravel()
+    cost = (np.asarray(FAR)[:, None] * 0.2 + turned(prefer)).ravel()
+    leaders = leaders_to(gap, centres, half)
+    order = np.argsort(cost, kind="stable")
+    order = order[np.abs(leaders[order, 1] - leaders[order, 0]) <= LONGEST]
+    return centres[order], cost[order], leaders[order]
+
+
+def touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
+    """Which boxes come too close to any stroke."""
+    return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
+
+
+def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
+    """From a point's edge to just before the nearest place on each box, seen from the point: segments [K, 2]."""
+    foot = (centres.real - np.clip(centres.real, -half.real, half.real)) + 1j * (
+        centres.imag - np.clip(centres.imag, -half.imag, half.imag)
+    )
+    u = foot / np.abs(foot)
+    return np.column_stack((u * min(gap, 0.8), foot - u * (CLEAR + 0.1)))
+
+
+def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
+    """How many strokes each leader crosses."""
+
+    def side(a: Complexes, b: Complexes, p: Complexes) -> Floats:
+        return np.asarray(((b - a).conj() * (p - a)).imag)
+
+    a, b = leaders[:, :1], leaders[:, 1:]
+    c, d = strokes[:, 0], strokes[:, 1]
+    across = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
+    return np.asarray(across.sum(axis=1), dtype=np.float64)
+
+
+def distances(leaders: Complexes, points: Complexes) -> Floats:
+    """How far points are from leaders, mm [K, P]."""
+    start, way = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
+    share = np.clip(((points - start) / way).real, 0.0, 1.0)
+    return np.abs(points - start - share * way)
+
+
+def inked(ink: Ink, leaders: Complexes) -> Floats:
+    """At how many of `PLACES` each leader meets strokes: where it crosses one, or lies on it like a part of it."""
+    places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * PLACES
+    return np.asarray(ink.touches(places, np.array(0.25 + 0.25j)).sum(axis=1), dtype=np.float64)
