@@ -18,9 +18,10 @@ from typing import Literal, Self
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
-from reportgen.drawing.geometry import box
+from reportgen.drawing.geometry import POINT, Boxes, box
 from reportgen.formula import Expression, Number, VectorEquation
 from reportgen.formula.plain import formula, quantity
+from reportgen.formula.setting import MathRow, Part
 
 # --- inlines --------------------------------------------------------------------------------------
 
@@ -380,6 +381,15 @@ TOGETHER_HEIGHT = 120.0
 """Rows of a figure that are together higher than this (mm) stand apart, the later ones as its continuation."""
 
 # --- equations --------------------------------------------------------------------------------------
+
+
+CERTAIN_ROOM = TEXT_WIDTH - 16.0
+"""What parts of a row may take (mm) that surely have room in a line: beside a number, or in a list."""
+
+
+def fits(parts: Sequence[Part]) -> bool:
+    """Whether parts of a displayed row surely have room beside each other in a line."""
+    return Boxes(TEXT_SIZE * POINT, displayed=True).part(MathRow(tuple(parts))).width <= CERTAIN_ROOM
 
 
 def room_for(room: float, close: bool) -> float:
