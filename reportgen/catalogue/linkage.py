@@ -312,10 +312,12 @@ class GuideRow:
 
 @dataclass(frozen=True, slots=True)
 class PointRow:
-    """A point of a link by its distances from the link's first joint."""
+    """A point of a link by its distances from a joint, along the way to another or along a guide or slot (`way`)."""
 
     name: str
     link: int
+    origin: str
+    way: str
     along: Number
     across: Number
 
@@ -373,13 +375,16 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     Only those that are `acting` are told of.
     """
     rows = tuple(map(_group, given.groups))
+    axes = _axes(given)
     shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
         "frame": [(vocabulary.point(name), *map(number, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
         "guides": tuple(_guides(given)),
-        "points": tuple(PointRow(name, one.link, *map(number, one.at)) for name, one in given.points.items()),
+        "points": tuple(
+            PointRow(name, one.link, *axes[one.link], *map(number, one.at)) for name, one in given.points.items()
+        ),
         "motions": tuple(_motions(given)),
         "listed": "given" if given.masses else "massless",
         "loads": shown,
@@ -395,8 +400,8 @@ def arms(given: file.Parameters) -> Iterator[str]:
         yield f"{given.driver.centre}{given.driver.pin}"
     for group in given.groups:
         yield from (rod for rod, _ in _group(group).lengths)
-    origins = _origins(given)
-    yield from (f"{origins[point.link]}{name}" for name, point in given.points.items())
+    axes = _axes(given)
+    yield from (f"{axes[point.link][0]}{name}" for name, point in given.points.items())
 
 
 def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[tuple[str, str, str]]:
@@ -417,12 +422,22 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
     yield "g", "g", ""
 
 
-def _origins(given: file.Parameters) -> dict[int, str]:
-    """The point that each link's own axes start at."""
+def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
+    """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
     driver = given.driver
-    found = {1: driver.centre if isinstance(driver, file.CrankDriver) else driver.pin}
+    found = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:
-        found |= dict(zip(group.links, (group.joints[0], group.joints[-1]), strict=True))
+        first, last = group.joints[0], group.joints[-1]
+        match group:
+            case file.RRR():
+                ways = group.joints[1], group.joints[1]
+            case file.RRP():
+                ways = last, "guide"
+            case file.RPR():
+                ways = "slot", "slot"
+            case _:
+                ways = "guide", "guide"
+        found |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
     return found
 
 

@@ -289,7 +289,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "frame": RowTable(tables.frame, (30.0, 50.0, 50.0)),
     "groups": RowTable(tables.groups, (20.0, 20.0, 30.0, 85.0)),
     "guides": RowTable(tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
-    "points": RowTable(tables.further_points, (24.0, 24.0, 40.0, 40.0)),
+    "points": RowTable(tables.further_points, (18.0, 18.0, 28.0, 32.0, 32.0, 32.0)),
     # motion
     "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
     "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),

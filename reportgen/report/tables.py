@@ -373,5 +373,11 @@ def guides(report: Report) -> Iterator[Sequence[object]]:
 
 
 def further_points(report: Report) -> Iterator[Sequence[object]]:
-    """Further points of the links by their distances."""
-    return ((vocabulary.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])
+    """Further points of the links by their distances, with the joint and the direction that these are measured from."""
+    along = report.words["vector"]
+    for row in report.own["points"]:
+        start = vocabulary.point(row.origin)
+        way: object = along[f"along_{row.way}"] if row.way in ("guide", "slot") else vocabulary.point(row.way)
+        if not isinstance(way, str):
+            way = (InlineMath(start), Text(" → "), InlineMath(vocabulary.point(row.way)))
+        yield vocabulary.point(row.name), str(row.link), start, way, row.along, row.across
