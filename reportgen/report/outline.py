@@ -16,7 +16,6 @@ from typing import Any
 from reportgen.machine.analysis import Position
 from reportgen.report import (
     Block,
-    Contents,
     Document,
     Figure,
     InlineMath,
@@ -29,6 +28,7 @@ from reportgen.report import (
     Text,
     chapters,
     comments,
+    contents,
     curves,
     equations,
     figures,
@@ -228,7 +228,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
-    """The blocks with the plates of each chapter at its end; where one was called for, it is `said` where it stands."""
+    """The blocks with the plates of each section at its end; where one was called for, it is `said` where it stands."""
     plates: list[Plate] = []
     for block in blocks:
         if isinstance(block, Plate):
@@ -236,7 +236,7 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
             if not block.continues:
                 yield said(block)
             continue
-        if isinstance(block, Section) and block.level == 1:
+        if isinstance(block, Section) and block.level <= 2:
             yield from plates
             plates.clear()
         yield block
@@ -442,13 +442,15 @@ def compose(case: Calculation) -> Document:
     # The list of symbols comes last: it lists those of all other sections.
     for section in sorted(report.sections, key=LISTING.__eq__):
         if section == "contents":
-            brief = not report.parts("contents-page")
-            written[section] = [PageBreak(), Contents(words["document"]["contents"], brief)]
             continue
         if section == LISTING:
             whole = replace(report, occurring=occurring(chain.from_iterable(written.values())))
             named["table"] = partial(table, whole)
         written[section] = report.prose.render(section, named)
+    if "contents" in report.sections:
+        brief = not report.parts("contents-page")
+        every = chain.from_iterable(written.values())
+        written["contents"] = [PageBreak(), contents(words["document"]["contents"], every, brief)]
     blocks = [case.cover, *chain.from_iterable(written[section] for section in report.sections)]
     return finished(case, plates_last(blocks, partial(_plate_is_last, report)), close=not report.parts("usual-type"))
 

@@ -168,8 +168,9 @@ class _Blocks:
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case tree.Contents(title, brief):
-                return f"#contents({literal(title)}{',brief:true' if brief else ''})"
+            case tree.Contents(title, brief, alone):
+                look = (",brief:true" if brief else "") + ("" if alone else ",alone:false")
+                return f"#contents({literal(title)}{look})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
             case tree.Listing(code):
