@@ -124,6 +124,15 @@ def needs_loads(keys: Iterable[str]) -> Check:
     return check
 
 
+UNITS = {"deg": "°", "degree": "°", "N m": "N·m", "kg m2": "kg·m²", "m/s2": "m/s²", "N/cm2": "N/cm²"}
+"""Units as they are printed, by what is typed."""
+
+
+def as_typed(given: Given) -> Number:
+    """A quantity as its file has it."""
+    return Number(given.value, unit=UNITS.get(given.unit, given.unit))
+
+
 # --- on the sheet -----------------------------------------------------------------------------------
 
 
@@ -139,6 +148,7 @@ class GivenSheet(Sheet):
         top, slash, bottom = given.text.partition("/")
         if slash and not given.unit:
             return self.define(id, Number(float(top)) / float(bottom), symbol, kind)
+        self.typed[id] = as_typed(given)
         return self.give(id, given.si, symbol, kind)
 
     def speed(self, n: Given | None = None, omega1: Given | None = None, flywheel: Flywheel | None = None) -> None:
@@ -167,7 +177,7 @@ class GivenSheet(Sheet):
 
     # --- links
 
-    def typed(self, letter: str, link: int) -> Given | None:
+    def of_link(self, letter: str, link: int) -> Given | None:
         """What the file gives for a link: its `G`, `m`, `J` or `s`."""
         given: Given | None = getattr(self.given, f"{letter}{link}", None)
         return given
@@ -175,17 +185,17 @@ class GivenSheet(Sheet):
     def gravity(self, letters: str = "Gm") -> None:
         """g, if one of these letters is given for any link."""
         assert self.given is not None, "a sheet without parameters has no links"
-        if any(self.typed(letter, link) for letter in letters for link in self.given.links[letter]):
+        if any(self.of_link(letter, link) for letter in letters for link in self.given.links[letter]):
             self.datum("g", self.given.g)
 
     def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:
         """Weight and mass of a link: one as typed, or as that of the link `like`, the other from it; else none."""
-        weight, mass = weight or self.typed("G", link), mass or self.typed("m", link)
+        weight, mass = weight or self.of_link("G", link), mass or self.of_link("m", link)
         G, m = ids.weight(link), ids.mass(link)
         if weight is not None:
-            self.define(m, self.give(G, weight.si) / self["g"])
+            self.define(m, self.datum(G, weight) / self["g"])
         elif mass is not None:
-            self.define(G, self.give(m, mass.si) * self["g"])
+            self.define(G, self.datum(m, mass) * self["g"])
         elif like and self.families[ids.weight(like)].definition is None:
             self.define(m, self.define(G, self[ids.weight(like)]) / self["g"])
         elif like:
@@ -193,9 +203,9 @@ class GivenSheet(Sheet):
 
     def moment(self, link: int, default: Operand | None) -> None:
         """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
-        given = self.typed("J", link)
+        given = self.of_link("J", link)
         if given is not None:
-            self.give(ids.inertia(link), given.si)
+            self.datum(ids.inertia(link), given)
         elif default is not None:
             self.define(ids.inertia(link), default)
 
@@ -205,9 +215,9 @@ class GivenSheet(Sheet):
         The centre of a link without mass is entered only if its place is given, or `always`.
         """
         self.set_out("places")
-        if not (always or any(self.typed(letter, link) for letter in "sGmJ")):
+        if not (always or any(self.of_link(letter, link) for letter in "sGmJ")):
             return
-        length, share = self[ids.length(start, end)], self.typed("s", link)
+        length, share = self[ids.length(start, end)], self.of_link("s", link)
         s = self.give(ids.mass_centre(link), MIDDLE if share is None else share.si, kind="ratio")
         self.set_out("places", self.define(ids.length(start, f"S{link}"), s * length))
         self.mass(link)

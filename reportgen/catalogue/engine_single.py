@@ -181,7 +181,7 @@ def machine(assignment: Assignment) -> Machine:
     for link in (1, 2, 3):
         q.mass(link)
     m2 = q["m.2"]
-    ρ = None if given.rho is None or q.typed("J", 2) else q.give("rho", given.rho.si, "ρ", "ratio")
+    ρ = None if given.rho is None or q.of_link("J", 2) else q.give("rho", given.rho.si, "ρ", "ratio")
     q.moment(2, m2 * L**2 / 12 if ρ is None else m2 * (ρ * L) ** 2)
 
     geometry = _geometry(given, positions)

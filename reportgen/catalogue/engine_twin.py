@@ -116,7 +116,7 @@ def machine(assignment: Assignment) -> Machine:
     for link in (2, 3, 4, 5):
         q.mass(link, like=link - 2)
     q.moment(2, q["m.2"] * L**2 / 12)
-    q.moment(4, q["J.2"] if q.typed("J", 2) else q["m.4"] * L**2 / 12)
+    q.moment(4, q["J.2"] if q.of_link("J", 2) else q["m.4"] * L**2 / 12)
 
     radius, rod, centre, guide = q.si(R), q.si(L), complex(q.si("l.AS2")), Guide(0j, UP)
     second_pin = radius * cmath.exp(1j * turn * given.crank_angle.si)

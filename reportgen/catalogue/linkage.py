@@ -16,10 +16,10 @@ import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.base.errors import Finding
-from reportgen.base.units import Given, nice_up
+from reportgen.base.units import nice_up
 from reportgen.catalogue import linkage_checks
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
+from reportgen.catalogue.driven import GivenSheet, as_typed, needs_loads, outline
 from reportgen.catalogue.linkage_file import Parameters
 from reportgen.catalogue.loops import ClosedLoops
 from reportgen.formula import Number, Symbol, ids, turned, vocabulary
@@ -277,8 +277,6 @@ def _law(
 # --- what the words of a declared linkage name ----------------------------------------------------
 # Rows of plain values, quantities as they were typed.
 
-UNITS = {"deg": "°", "degree": "°", "N m": "N·m", "kg m2": "kg·m²"}
-
 
 @dataclass(frozen=True, slots=True)
 class GroupRow:
@@ -312,10 +310,12 @@ class GuideRow:
 
 @dataclass(frozen=True, slots=True)
 class PointRow:
-    """A point of a link by its distances from the link's first joint."""
+    """A point of a link by its distances from a joint, along the way to another or along a guide or slot (`way`)."""
 
     name: str
     link: int
+    origin: str
+    way: str
     along: Number
     across: Number
 
@@ -373,13 +373,16 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     Only those that are `acting` are told of.
     """
     rows = tuple(map(_group, given.groups))
+    axes = _axes(given)
     shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
-        "frame": [(vocabulary.point(name), *map(number, at)) for name, at in given.frame.items()],
+        "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
         "quantities": tuple(_quantities(given, rows)),
         "groups": rows,
         "guides": tuple(_guides(given)),
-        "points": tuple(PointRow(name, one.link, *map(number, one.at)) for name, one in given.points.items()),
+        "points": tuple(
+            PointRow(name, one.link, *axes[one.link], *map(as_typed, one.at)) for name, one in given.points.items()
+        ),
         "motions": tuple(_motions(given)),
         "listed": "given" if given.masses else "massless",
         "loads": shown,
@@ -395,8 +398,8 @@ def arms(given: file.Parameters) -> Iterator[str]:
         yield f"{given.driver.centre}{given.driver.pin}"
     for group in given.groups:
         yield from (rod for rod, _ in _group(group).lengths)
-    origins = _origins(given)
-    yield from (f"{origins[point.link]}{name}" for name, point in given.points.items())
+    axes = _axes(given)
+    yield from (f"{axes[point.link][0]}{name}" for name, point in given.points.items())
 
 
 def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[tuple[str, str, str]]:
@@ -417,12 +420,22 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
     yield "g", "g", ""
 
 
-def _origins(given: file.Parameters) -> dict[int, str]:
-    """The point that each link's own axes start at."""
+def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
+    """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
     driver = given.driver
-    found = {1: driver.centre if isinstance(driver, file.CrankDriver) else driver.pin}
+    found = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:
-        found |= dict(zip(group.links, (group.joints[0], group.joints[-1]), strict=True))
+        first, last = group.joints[0], group.joints[-1]
+        match group:
+            case file.RRR():
+                ways = group.joints[1], group.joints[1]
+            case file.RRP():
+                ways = last, "guide"
+            case file.RPR():
+                ways = "slot", "slot"
+            case _:
+                ways = "guide", "guide"
+        found |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
     return found
 
 
@@ -444,24 +457,19 @@ def _motions(given: file.Parameters) -> Iterator[MotionRow]:
                 yield MotionRow(link, "rotation", end) if end in given.frame else MotionRow(link, "plane")
 
 
-def number(given: Given) -> Number:
-    """A quantity as typed."""
-    return Number(given.value, unit=UNITS.get(given.unit, given.unit))
-
-
 def _group(group: file.Group) -> GroupRow:
     joints = group.joints
     row = partial(GroupRow, group.dyad.links, group.type, joints)
     match group:
         case file.RRR():
             ends = f"{joints[0]}{joints[1]}", f"{joints[2]}{joints[1]}"
-            return row(tuple(zip(ends, map(number, group.lengths), strict=True)), group.side)
+            return row(tuple(zip(ends, map(as_typed, group.lengths), strict=True)), group.side)
         case file.RRP():
-            return row(((f"{joints[0]}{joints[1]}", number(group.length)),), group.end)
+            return row(((f"{joints[0]}{joints[1]}", as_typed(group.length)),), group.end)
         case file.RPR():
-            return row(choice=group.axis, offset=number(group.offset) if group.offset.si else None)
+            return row(choice=group.axis, offset=as_typed(group.offset) if group.offset.si else None)
         case file.RPP():
-            return row(across=number(group.across))
+            return row(across=as_typed(group.across))
     return row()
 
 
@@ -473,7 +481,7 @@ def _guides(given: file.Parameters) -> Iterator[GuideRow]:
 
 
 def _guide(slider: int, guide: file.GuideSection) -> GuideRow:
-    return GuideRow(slider, guide.on, *map(number, (*guide.at, guide.angle)))
+    return GuideRow(slider, guide.on, *map(as_typed, (*guide.at, guide.angle)))
 
 
 def _load(load: file.Loading, name: str) -> LoadRow:
@@ -481,8 +489,8 @@ def _load(load: file.Loading, name: str) -> LoadRow:
         case file.OverStroke():
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
-            return LoadRow(name, load.link, "gas", False, bore=number(load.D), intake=load.intake)
-    torque, way = load.at is None, number(load.direction)
+            return LoadRow(name, load.link, "gas", False, bore=as_typed(load.D), intake=load.intake)
+    torque, way = load.at is None, as_typed(load.direction)
     if isinstance(load, file.Constant):
         size = load.F or load.M
         assert size is not None
@@ -493,7 +501,7 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             torque=torque,
             point=load.at or "",
             direction=way,
-            size=number(size),
+            size=as_typed(size),
             against=load.against is not None,
         )
     nodes = tuple(node.value for node in (load.angle if isinstance(load, file.OverAngle) else load.way))

@@ -71,7 +71,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     for link in CENTRES:
         q.mass(link)
     for link, rod in RODS.items():
-        l, m, share, moment = q[ids.length(rod)], ids.mass(link), getattr(given, f"s{link}"), q.typed("J", link)  # noqa: E741
+        l, m, share, moment = q[ids.length(rod)], ids.mass(link), getattr(given, f"s{link}"), q.of_link("J", link)  # noqa: E741
         if m in q or moment:
             centre = q.define(ids.length(rod[0], f"S{link}"), q.give(ids.mass_centre(link), share.si, kind="ratio") * l)
             q.set_out("lengths", centre)

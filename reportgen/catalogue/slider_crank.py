@@ -55,7 +55,7 @@ def machine(assignment: Assignment) -> Machine:
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenSheet(given)
-    has_centre = given.s is not None or any(q.typed(letter, 2) for letter in "GmJ")
+    has_centre = given.s is not None or any(q.of_link(letter, 2) for letter in "GmJ")
     r, l = q.datum("l.AB", given.r), q.datum("l.BC", given.l)  # noqa: E741
     e = q.datum("e", given.e) if given.e.si else None
     if given.guide.si:

@@ -266,6 +266,7 @@ def ram_torque(q: Sheet, turn: int) -> None:
             ]
             for what, parts in (("v", (v_x, v_y)), ("a", (a_x, a_y)))
         )
+        q.set_out("functions", v_x, v_y, a_x, a_y)
         powers += [-(G4 * v_y), -(m4 * (a_x * v_x + a_y * v_y))]
     if m5 := q.find(ids.mass(5)):
         powers.append(-(m5 * q["f.a.E"] * q["f.v.E"]))

@@ -1,7 +1,8 @@
 """A formula as it is set: signs, parentheses and places for breaks are put in once, for all writers and labels.
 
 `laid` turns an expression into a few kinds of parts.  A `Setter` says what each of them looks like and decides nothing
-else; pieces, sides and columns are what displayed equations are made of.
+else; pieces, sides and columns are what displayed equations are made of.  What is too wide for a line is a rule of this
+place, too: a fraction of a sum becomes 1/denominator times the sum, which breaks at its terms.
 """
 
 from __future__ import annotations
@@ -137,7 +138,17 @@ class Note:
     text: str
 
 
-Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note
+@dataclass(frozen=True, slots=True)
+class Mark:
+    """A parenthesis of a sum that goes on over several lines; `tall` beside terms higher than a line."""
+
+    of: Literal["(", ")"]
+    tall: bool
+
+
+Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note | Mark
+Fits = Callable[[Sequence[Part]], bool]
+"""Whether parts have room beside each other in a line."""
 
 NEGATIVE, PLUS, MINUS = Sign("−", "prefix"), Sign("+", "sum"), Sign("−", "sum")
 DOT, SLASH = Sign("·", "product"), Sign("/", "slash")
@@ -266,6 +277,8 @@ def is_tall(part: Part) -> bool:
             return True
         case MathRow(parts):
             return any(map(is_tall, parts))
+        case Mark(tall=tall):
+            return tall
         case Raised(base, exponent):
             return is_tall(base) or is_tall(exponent)
         case Fence(of=inner) | Function(to=inner):
@@ -287,18 +300,58 @@ def parted(symbol: Symbol) -> tuple[str, str]:
 # --- displayed rows -------------------------------------------------------------------------------
 
 
-def sides(node: Expression, language: Language, slashed: bool = False) -> list[Part]:
-    """What "=" joins, the note with the last."""
-    *before, last = (laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,)))
-    return [*before, _noted(last, node)]
+def sides(node: Expression, language: Language, fits: Fits | None = None, slashed: bool = False) -> list[Part]:
+    """What "=" joins, the note with the last; what does not fit its line is opened."""
+    found = [laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,))]
+    if fits is not None:
+        head = (found[0], EQUALS) if len(found) > 1 else ()
+        found = [opened(part, lambda inner: fits((*head, inner))) for part in found]
+    return [*found[:-1], _noted(found[-1], node)]
 
 
-def displayed(node: Expression, language: Language) -> list[list[Part]]:
-    """A displayed row: its sides, each in the pieces between which it may break.
+def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
+    """A side of a row whose fractions that do not fit are products, and its sums that do not fit may break inside.
+
+    (a + b)/c becomes 1/c · (a + b), whose parentheses are marks of one size each.
+    """
+    match part:
+        case _ if fits(part):
+            return part
+        case MathRow(parts):
+            return MathRow(tuple(inner for one in parts for inner in _opened_in_row(one, fits)))
+        case Fence("", inner):
+            found = opened(inner, fits)
+            return part if found == inner else found
+        case Quotient(top, bottom) if _is_sum(top):
+            return MathRow((Quotient(Written("1", ""), bottom), Sign("·", "bound"), *_marked(top)))
+        case Fence("(", inner) if _is_sum(inner):
+            return MathRow(_marked(inner))
+        case _:
+            return part
+
+
+def _marked(part: Part) -> tuple[Part, ...]:
+    """A sum between marks, so that its terms stand in the row itself."""
+    return (Mark("(", is_tall(part)), *(part.parts if isinstance(part, MathRow) else (part,)), Mark(")", is_tall(part)))
+
+
+def _is_sum(part: Part) -> bool:
+    return isinstance(part, MathRow) and any(isinstance(one, Sign) and one.role == "sum" for one in part.parts)
+
+
+def _opened_in_row(part: Part, fits: Callable[[Part], bool]) -> tuple[Part, ...]:
+    found = opened(part, fits)
+    return found.parts if found != part and isinstance(found, MathRow) else (found,)
+
+
+def displayed(node: Expression, language: Language, fits: Fits | None = None) -> list[list[Part]]:
+    """A displayed row: its sides, each in the pieces between which it may break; what does not fit a line is opened.
 
     A last "= 0" stands with the side before it, but a lone symbol keeps it: there rows are aligned.
     """
-    found = [pieces(laid(part, language)) for part in (node.parts if isinstance(node, Chain) else (node,))]
+    found = [
+        pieces(part) for part in sides(replace(node, note="") if isinstance(node, Chain) else node, language, fits)
+    ]
     if short_end(node) and (len(found) > 2 or (len(found) == 2 and len(found[0]) > 1)):
         end = found.pop()
         found[-1][-1] = MathRow((found[-1][-1], EQUALS, *end))
@@ -307,7 +360,7 @@ def displayed(node: Expression, language: Language) -> list[list[Part]]:
 
 
 def pieces(part: Part) -> list[Part]:
-    """What a displayed line may break between: terms of a sum, factors of a product."""
+    """What a displayed line may break between: terms of a sum, factors of a product; within marks terms alone."""
     match part:
         case MathRow((Sign() as sign, Fence("", MathRow(parts)))):
             every: tuple[Part, ...] = (sign, *parts)
@@ -316,8 +369,11 @@ def pieces(part: Part) -> list[Part]:
         case _:
             every = (part,)
     found: list[list[Part]] = [[]]
+    within = False
     for one in every:
-        if isinstance(one, Sign) and one.role in ("sum", "product"):
+        if isinstance(one, Mark):
+            within = one.of == "("
+        elif isinstance(one, Sign) and (one.role == "sum" or (one.role == "product" and not within)):
             found.append([])
         found[-1].append(one)
     return [MathRow(tuple(some)) for some in found]
@@ -455,6 +511,8 @@ class TextSetter(Setter[str]):
                 return self.LINE.join(self.ENTRY.join(map(of, row)) for row in rows)
             case Note(text):
                 return self.NOTE % self.text(f"({text})")
+            case Mark():
+                return self.mark(part)
 
     def lowered(self, pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
         """A symbol's letters with the digits of points below them, no smaller than an index."""
@@ -468,6 +526,9 @@ class TextSetter(Setter[str]):
 
     def fence(self, fence: Fence) -> str:
         return self.FENCES[fence.left] % self.part(fence.of)
+
+    def mark(self, mark: Mark) -> str:
+        return self.text(mark.of)
 
     @abstractmethod
     def symbol(self, node: Symbol) -> str: ...

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.formula import Call, Expression, Operand, Ref, Symbol, as_expression, refs, vocabulary, walk
+from reportgen.formula import Call, Expression, Number, Operand, Ref, Symbol, as_expression, refs, vocabulary, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, Chapter, QuantityKind
 
@@ -121,6 +121,8 @@ class Sheet:
     def __init__(self, positions: int = 1) -> None:
         self.positions = positions
         self.families: dict[str, Family] = {}
+        self.typed: dict[str, Number] = {}
+        """Given data in the units that they were typed with."""
         self.lines: dict[str, tuple[str, ...]] = {}
         """The ids of what the report sets out together, by the name that its words have for it."""
         self.chapter = Chapter.geometry
@@ -132,7 +134,7 @@ class Sheet:
         """What is entered so far, to be continued, over another number of positions if one is given."""
         other = Sheet(positions or self.positions)
         other.families, other._values, other.lines = dict(self.families), dict(self._values), dict(self.lines)
-        other.chapter = self.chapter
+        other.chapter, other.typed = self.chapter, dict(self.typed)
         return other
 
     def extend(self, other: Sheet) -> None:

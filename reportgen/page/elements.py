@@ -22,6 +22,7 @@ from reportgen.formula.setting import (
     NEGATIVE,
     PRIMES,
     Fence,
+    Mark,
     MathRow,
     Role,
     Sign,
@@ -36,6 +37,7 @@ from reportgen.formula.setting import (
     sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
+from reportgen.report import fits
 
 COLOURS = {
     style.BLACK: "ink",
@@ -261,6 +263,8 @@ class Runs(setting.Setter[tuple[Run, ...]]):
             case setting.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
                 return _parted(list(lines), " | ")
+            case setting.Mark(mark):
+                return self.text(mark)
             case setting.Note(note):
                 return text(f"  ({note})")
 
@@ -357,6 +361,11 @@ class MathmlFormulas(TextSetter):
     def function(self, name: str) -> str:
         return f'<mi mathvariant="normal">{escape(name)}</mi>'
 
+    def mark(self, mark: Mark) -> str:
+        form = "prefix" if mark.of == "(" else "postfix"
+        size = ' minsize="2em" maxsize="2em"' if mark.tall else ' stretchy="false"'
+        return f'<mo form="{form}"{size}>{mark.of}</mo>'
+
     def fence(self, fence: Fence) -> str:
         """What stands in parentheses, which are as high as it is."""
         inner = self.part(fence.of)
@@ -401,7 +410,9 @@ class MathmlFormulas(TextSetter):
 
         A row without a relation has nothing on its left.
         """
-        first, *others = ([self.part(piece).lstrip() for piece in side] for side in displayed(node, self.language))
+        first, *others = (
+            [self.part(piece).lstrip() for piece in side] for side in displayed(node, self.language, fits)
+        )
         equals = self.part(EQUALS)
         rest = [equals * (index == 0) + piece for side in others for index, piece in enumerate(side)]
         return ("".join(first), rest) if rest else ("", first)

@@ -231,7 +231,7 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
     What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral.
     Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
     `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
-    `A.lower`, and `J.d` the flywheel; what the energy–mass diagram is drawn with, and Mercalov's `J.I` beside it.
+    `A.lower`, and `J.d` the flywheel; what the energy–mass diagram is drawn with, and Mertsalov's `J.I` beside it.
     """
     machine = analysis.machine
     at = np.searchsorted(regulated.angle, machine.cycle_angles - 1e-9)
@@ -291,7 +291,7 @@ def _energy_mass(q: Sheet, regulated: flywheel.RegulatedCycle) -> None:
 
 
 def _constant_group(q: Sheet, regulated: flywheel.RegulatedCycle, speed: float) -> None:
-    """Mercalov's way: the energy of the group with constant inertia, that of the links taken at the mean speed.
+    """Mertsalov's method: the energy of the group with constant inertia, that of the links taken at the mean speed.
 
     T_I = A − J_r ω₁²/2 but for a constant, J_I = ΔT_I/(δ ω₁²).
     """

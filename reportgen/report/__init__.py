@@ -18,9 +18,10 @@ from typing import Literal, Self
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
-from reportgen.drawing.geometry import box
+from reportgen.drawing.geometry import POINT, Boxes, box
 from reportgen.formula import Expression, Number, VectorEquation
 from reportgen.formula.plain import formula, quantity
+from reportgen.formula.setting import MathRow, Part
 
 # --- inlines --------------------------------------------------------------------------------------
 
@@ -198,10 +199,14 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents with true page numbers: levels 1 to 3 on pages of their own, or `brief`, levels 1 and 2."""
+    """The table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
+
+    It stands on pages of its own unless it is not `alone`: then what follows goes on below it.
+    """
 
     title: str
     brief: bool = False
+    alone: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -374,12 +379,21 @@ UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
-FIGURE_HEIGHT = 238.0
+FIGURE_HEIGHT = 241.0
 """What of an A4 page a figure may fill above its caption (mm)."""
-TOGETHER_HEIGHT = 120.0
-"""Rows of a figure that are together higher than this (mm) stand apart, the later ones as its continuation."""
+TOGETHER_HEIGHT = 155.0
+"""Rows of a figure that are together higher than this (mm) stand in two parts, the later one as its continuation."""
 
 # --- equations --------------------------------------------------------------------------------------
+
+
+CERTAIN_ROOM = TEXT_WIDTH - 16.0
+"""What parts of a row may take (mm) that surely have room in a line: beside a number, or in a list."""
+
+
+def fits(parts: Sequence[Part]) -> bool:
+    """Whether parts of a displayed row surely have room beside each other in a line."""
+    return Boxes(TEXT_SIZE * POINT, displayed=True).part(MathRow(tuple(parts))).width <= CERTAIN_ROOM
 
 
 def room_for(room: float, close: bool) -> float:
@@ -426,6 +440,18 @@ def _width(row: Expression) -> float:
     return box(row, TEXT_SIZE, displayed=True).width
 
 
+# --- contents ----------------------------------------------------------------------------------------
+
+MANY_ENTRIES = 22
+"""So many lines fill about half a page."""
+
+
+def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
+    """The table of contents of some blocks; one that would leave half of its page white is not alone there."""
+    entries = [block for block in blocks if isinstance(block, Section) and block.level <= (2 if brief else 3)]
+    return Contents(title, brief, alone=not brief and len(entries) > MANY_ENTRIES)
+
+
 # --- blocks ---------------------------------------------------------------------------------------
 
 
@@ -464,10 +490,17 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
 
 
 def in_parts(figure: Figure) -> list[list[list[Scene]]]:
-    """The rows of a figure in parts, none of several rows so high that it would leave much of a page white."""
+    """The rows of a figure in parts: in one or two where pages have room for these, since a high one leaves white."""
+    rows = in_rows(figure.scenes)
+    if height(rows) <= TOGETHER_HEIGHT or len(rows) == 1:
+        return [rows]
+    halves = ([rows[:at], rows[at:]] for at in range(1, len(rows)))
+    least = min(halves, key=lambda parts: max(map(height, parts)))
+    if max(map(height, least)) <= FIGURE_HEIGHT:
+        return least
     parts: list[list[list[Scene]]] = [[]]
-    for row in in_rows(figure.scenes):
-        if parts[-1] and height([*parts[-1], row]) > TOGETHER_HEIGHT:
+    for row in rows:
+        if parts[-1] and height([*parts[-1], row]) > FIGURE_HEIGHT:
             parts.append([])
         parts[-1].append(row)
     return parts

@@ -152,7 +152,7 @@ def tangent_lines(report: Report) -> list[str]:
 
 
 def constant_group(report: Report) -> list[str]:
-    """What Mercalov's way comes to; nothing where it is not gone."""
+    """What Mertsalov's method comes to; nothing where it is not used."""
     return report.known(["T.range", "J.I"])
 
 

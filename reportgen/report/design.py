@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
-from reportgen.report import Block, Cell, Column, Contents, Document, Figure, Inlines, PageBreak, Table
+from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table, contents
 from reportgen.report.case import Key, Opened
 from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
@@ -85,9 +85,10 @@ class DesignPage(ABC, Generic[Designed]):
     def report(cls, case: Designed) -> Document:
         """The finished, numbered report of a design."""
         page = cls(case)
-        names, contents = page.names(), case.words["document"]["contents"]
-        blocks: list[Block] = [case.cover, PageBreak(), Contents(contents, not page.full)]
+        names, title = page.names(), case.words["document"]["contents"]
+        blocks: list[Block] = []
         for section in cls.SECTIONS:
             if page.has(section) and (page.full or section not in cls.SHORT):
                 blocks += page.section(section, names)
-        return finished(case, blocks, close=not page.full)
+        ahead = case.cover, PageBreak(), contents(title, blocks, brief=not page.full)
+        return finished(case, (*ahead, *blocks), close=not page.full)

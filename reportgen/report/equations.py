@@ -128,14 +128,18 @@ def stroke_name(report: Report, link: int, position: int) -> str:
 
 
 def force_list(report: Report, group: GroupView, position: int) -> Inlines:
-    """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, …"""
+    """The known edges of a force plan with their drawn lengths: ef = 40.30 mm for P_qt5, h ≡ i for what is nothing."""
     assert group.polygon is not None
     shown: list[Inline] = []
     for edge in group.polygon.edges:
         if not edge.unknown:
-            length = quantity(report, ids.force_segment(group.name, edge.name), position)
-            force = InlineMath(report.force_symbol(edge.name))
-            shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), force, Text(")")]
+            drawn = ids.force_segment(group.name, edge.name)
+            force: Inlines = (InlineMath(report.force_symbol(edge.name)),)
+            length = quantity(report, drawn, position)
+            if report.is_zero(drawn, position):
+                length = InlineMath(Symbol(edge.start)), Text(" ≡ "), InlineMath(Symbol(edge.end))
+                force += (Text(" = 0"),)
+            shown += [*((Text(", "),) if shown else ()), *length, Text(" ("), *force, Text(")")]
     return tuple(shown)
 
 

@@ -54,7 +54,7 @@ LARGER = tuple(
 """Sheets A2, A1, A0, lying and standing."""
 FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
 """What of an A4 page a figure may fill."""
-TURNED_ROOM = (255.0, 143.0)
+TURNED_ROOM = (254.0, 150.5)
 """What of it a figure may fill that is turned by 90°."""
 PAPERS = {297.0: "A3", 420.0: "A2", 594.0: "A1", 841.0: "A0"}
 """The names of sheets by their shorter side (mm)."""

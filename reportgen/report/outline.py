@@ -16,7 +16,6 @@ from typing import Any
 from reportgen.machine.analysis import Position
 from reportgen.report import (
     Block,
-    Contents,
     Document,
     Figure,
     InlineMath,
@@ -30,6 +29,7 @@ from reportgen.report import (
     Text,
     chapters,
     comments,
+    contents,
     curves,
     equations,
     figures,
@@ -235,7 +235,7 @@ def smaller(report: Report, name: str) -> Inlines:
 
 
 def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> Iterator[Block]:
-    """The blocks with the plates of each chapter at its end; where one was called for, it is `said` where it stands."""
+    """The blocks with the plates of each section at its end; where one was called for, it is `said` where it stands."""
     plates: list[Plate] = []
     for block in blocks:
         if isinstance(block, Plate):
@@ -243,7 +243,7 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
             if not block.continues:
                 yield said(block)
             continue
-        if isinstance(block, Section) and block.level == 1:
+        if isinstance(block, Section) and block.level <= 2:
             yield from plates
             plates.clear()
         yield block
@@ -296,7 +296,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "frame": RowTable(tables.frame, (30.0, 50.0, 50.0)),
     "groups": RowTable(tables.groups, (20.0, 20.0, 30.0, 85.0)),
     "guides": RowTable(tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
-    "points": RowTable(tables.further_points, (24.0, 24.0, 40.0, 40.0)),
+    "points": RowTable(tables.further_points, (18.0, 18.0, 28.0, 32.0, 32.0, 32.0)),
     # motion
     "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
     "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
@@ -450,13 +450,15 @@ def compose(case: Calculation) -> Document:
     # The list of symbols comes last: it lists those of all other sections.
     for section in sorted(report.sections, key=LISTING.__eq__):
         if section == "contents":
-            brief = not report.parts("contents-page")
-            written[section] = [PageBreak(), Contents(words["document"]["contents"], brief)]
             continue
         if section == LISTING:
             whole = replace(report, occurring=occurring(chain.from_iterable(written.values())))
             named["table"] = partial(table, whole)
         written[section] = report.prose.render(section, named)
+    if "contents" in report.sections:
+        brief = not report.parts("contents-page")
+        every = chain.from_iterable(written.values())
+        written["contents"] = [PageBreak(), contents(words["document"]["contents"], every, brief)]
     blocks = [case.cover, *chain.from_iterable(written[section] for section in report.sections)]
     return finished(case, plates_last(blocks, partial(_plate_is_last, report)), close=not report.parts("usual-type"))
 

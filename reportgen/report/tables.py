@@ -217,6 +217,10 @@ def _is_given(report: Report, id: str) -> bool:
     return definition is None or not refs(definition)
 
 
+PRINTED = ("mm", "cm", "m", "°", "N", "kN", "kg", "kg·m²", "N·m", "MPa", "bar", "m/s", "mm/s", "m/s²", "rad/s")
+"""Units that are printed as they were typed; any other is turned into the one of the report."""
+
+
 def _as_typed(report: Report, id: str) -> Inlines:
     """A given number with its unit; a ratio written 1/3.6 stays one."""
     definition = report.ledger[id].definition
@@ -224,7 +228,8 @@ def _as_typed(report: Report, id: str) -> Inlines:
         ends = [part for part in (definition.top, definition.bottom) if isinstance(part, Number)]
         if len(ends) == 2:
             return Value(ends[0]), Text("/"), Value(ends[1])
-    return (Value(report.ledger.number(id)),)
+    typed = report.machine.sheet.typed.get(id)
+    return (Value(report.ledger.number(id) if typed is None or typed.unit not in PRINTED else typed),)
 
 
 def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
@@ -373,5 +378,11 @@ def guides(report: Report) -> Iterator[Sequence[object]]:
 
 
 def further_points(report: Report) -> Iterator[Sequence[object]]:
-    """Further points of the links by their distances."""
-    return ((vocabulary.point(row.name), str(row.link), row.along, row.across) for row in report.own["points"])
+    """Further points of the links by their distances, with the joint and the direction that these are measured from."""
+    along = report.words["vector"]
+    for row in report.own["points"]:
+        start = vocabulary.point(row.origin)
+        way: object = along[f"along_{row.way}"] if row.way in ("guide", "slot") else vocabulary.point(row.way)
+        if not isinstance(way, str):
+            way = (InlineMath(start), Text(" → "), InlineMath(vocabulary.point(row.way)))
+        yield vocabulary.point(row.name), str(row.link), start, way, row.along, row.across

@@ -193,8 +193,8 @@ class _Writer:
                 return _command("plate", f"{width:g}mm", f"{height:g}mm", painted, caption)
             case tree.Cover():
                 return self.cover(block)
-            case tree.Contents(title, brief):
-                return self.contents(title, brief)
+            case tree.Contents():
+                return self.contents(block)
             case tree.BlankLine(label):
                 return _command("blankline", escape(label) + r"\ " if label else "")
             case tree.Listing(lines):
@@ -249,14 +249,14 @@ class _Writer:
         number = rf"{escape(section.number)}\quad " if section.number else ""
         return number + self.inlines(section.title)
 
-    def contents(self, title: str, brief: bool) -> str:
-        lines = [r"\clearpage", _command("headline", escape(title))]
+    def contents(self, contents: tree.Contents) -> str:
+        lines = [r"\clearpage", _command("headline", escape(contents.title))]
         lines += (
             _command("contentsentry", str(entry.section.level), entry.place, self.title(entry.section))
             for entry in self.entries.values()
-            if entry.section.level < CONTENTS_LEVEL or not brief
+            if entry.section.level < CONTENTS_LEVEL or not contents.brief
         )
-        return "\n".join(lines if brief else [*lines, r"\clearpage"])
+        return "\n".join([*lines, r"\clearpage"] if contents.alone else lines)
 
     def list(self, block: tree.List, end: str = "") -> str:
         from pylatex import Command, Itemize, NoEscape

@@ -19,6 +19,7 @@ from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setting import (
     NAMED,
     Fence,
+    Mark,
     Role,
     Sign,
     TermColumn,
@@ -31,6 +32,7 @@ from reportgen.formula.setting import (
     sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
+from reportgen.report import fits
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
@@ -142,6 +144,9 @@ class LatexFormulas(TextSetter):
             return rf"\mathopen{{}}\left({self.part(fence.of)}\right)"
         return super().fence(fence)
 
+    def mark(self, mark: Mark) -> str:
+        return {"(": r"\Bigl(", ")": r"\Bigr)"}[mark.of] if mark.tall else mark.of
+
     def function(self, name: str) -> str:
         return rf"\{name}" if name in NAMED else rf"\operatorname{{{escape(name)}}}"
 
@@ -171,7 +176,7 @@ class LatexFormulas(TextSetter):
         """
         if isinstance(node, VectorEquation):
             return "", self._vector_equation(columns(node), node.rows)
-        first, *others = map(self.part, sides(node, self.language))
+        first, *others = map(self.part, sides(node, self.language, fits))
         rest = [r" \relbreak= " + side for side in others]
         if rest and short_end(node):
             rest[-1] = f" = {others[-1]}"

@@ -168,8 +168,9 @@ class _Blocks:
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case tree.Contents(title, brief):
-                return f"#contents({literal(title)}{',brief:true' if brief else ''})"
+            case tree.Contents(title, brief, alone):
+                look = (",brief:true" if brief else "") + ("" if alone else ",alone:false")
+                return f"#contents({literal(title)}{look})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"
             case tree.Listing(code):
@@ -211,7 +212,7 @@ class _Blocks:
         products = any(isinstance(node, Product) for node in walk(expression))
         if any(isinstance(part, Sum) for part in parts[:2]) or not (products or len(parts) > 1):
             return self.formulas.content(expression, slashed)
-        printed = list(map(self.formulas.part, sides(expression, self.language, slashed)))
+        printed = list(map(self.formulas.part, sides(expression, self.language, slashed=slashed)))
         # What stands left of "=" never stands alone at the end of a line.
         printed[:2] = [" = ".join(printed[:2])]
         return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
@@ -266,14 +267,16 @@ class _Blocks:
 
     def head(self, row: Expression) -> float:
         """What a displayed row takes before its first relation (mm)."""
-        if not isinstance(row, Chain) or len(displayed(row, self.language)) == 1:
+        if not isinstance(row, Chain) or len(displayed(row, self.language, tree.fits)) == 1:
             return 0.0
         return box(row.parts[0], self.size, displayed=True).width
 
     def row(self, row: Expression) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         part = self.formulas.part
-        return [_array(f"${part(piece).strip()}$" for piece in side) for side in displayed(row, self.language)]
+        return [
+            _array(f"${part(piece).strip()}$" for piece in side) for side in displayed(row, self.language, tree.fits)
+        ]
 
     def vector_equation(self, equation: VectorEquation) -> str:
         known, part = self.formulas.known, self.formulas.part

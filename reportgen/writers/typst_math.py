@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from reportgen.formula import Symbol
-from reportgen.formula.setting import NAMED, PRIMES, Sign, TextSetter, Written, parted
+from reportgen.formula.setting import NAMED, PRIMES, Mark, Sign, TextSetter, Written, parted
 from reportgen.formula.vocabulary import numbered, runs
 
 
@@ -51,6 +51,10 @@ class TypstFormulas(TextSetter):
 
     def function(self, name: str) -> str:
         return name if name in NAMED else f"op({literal(name)})"
+
+    def mark(self, mark: Mark) -> str:
+        role = "opening" if mark.of == "(" else "closing"
+        return f' class("{role}", lr(size: #{200 if mark.tall else 100}%, \\{mark.of})) '
 
     def symbol(self, node: Symbol) -> str:
         """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""

@@ -18,6 +18,7 @@ from reportgen.formula.setting import (
     EQUALS,
     NARROW,
     Fence,
+    Mark,
     MathRow,
     Part,
     Sign,
@@ -29,7 +30,7 @@ from reportgen.formula.setting import (
     parted,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report import ABREAST, TEXT_WIDTH, in_groups
+from reportgen.report import ABREAST, TEXT_WIDTH, fits, in_groups
 from reportgen.writers.word_elements import GRID, ITALIC, KEPT, LIGHT, MATH_FONT, escape, paragraph, rule, run, twips
 from reportgen.writers.word_styles import EQUATION_SIZE, KNOWN_SIZE
 
@@ -94,6 +95,9 @@ class OmmlFormulas(TextSetter):
 
     def function(self, name: str) -> str:
         return upright(name)
+
+    def mark(self, mark: Mark) -> str:
+        return letters(mark.of)
 
     def symbol(self, node: Symbol) -> str:
         """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
@@ -166,7 +170,7 @@ def width(*parts: Part) -> float:
 
 def broken(rows: Sequence[Expression], language: Language, room: float) -> list[FormulaLine]:
     """The lines of displayed rows within a room (mm), aligned and broken as on the page of the PDF."""
-    sides = [displayed(row, language) for row in rows]
+    sides = [displayed(row, language, fits) for row in rows]
     heads = [width(*first) if others else 0.0 for first, *others in sides]
     head = max(heads)
     found: list[FormulaLine] = []

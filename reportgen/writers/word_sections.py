@@ -51,7 +51,7 @@ def broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
     """
     found: list[tree.Block] = [tree.PageBreak()]
     for block in blocks:
-        alone = isinstance(block, tree.Contents) and not block.brief
+        alone = isinstance(block, tree.Contents) and block.alone
         for one in (tree.PageBreak(), block, tree.PageBreak()) if alone else (block,):
             if not (isinstance(one, tree.PageBreak) and isinstance(found[-1], tree.PageBreak)):
                 found.append(one)
