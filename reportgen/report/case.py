@@ -420,7 +420,7 @@ class Key:
 
     @cached_property
     def _by_id(self) -> Mapping[str, KeyRow]:
-        return {row.size: row for row in self.rows} | {row.id: row for row in self.rows}
+        return {row.size: row for row in self.rows if row.size} | {row.id: row for row in self.rows}
 
     @property
     def asked(self) -> tuple[KeyRow, ...]:
