@@ -24,6 +24,7 @@ from reportgen.base.words import as_error, as_problem, load_words, search_path
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.report import plain
 from reportgen.report.case import Key, KeyRow, Role
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
@@ -109,7 +110,7 @@ def grid(
         lines.append((Entry(), Entry(str(parts[part]), "bold")))
         for row in members:
             cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
-            what = Entry(row.described)
+            what = Entry(plain(row.described, key.language))
             names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), what, Entry(row.unit))
             lines.append((*names, *cells, *(tail(row) if tail else ())))
     return tuple(lines)

@@ -22,12 +22,12 @@ from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
-from reportgen.formula import Expression, Symbol
+from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report import Cover, Document
+from reportgen.report import Cover, Document, InlineMath, Inlines, Text
 
 if TYPE_CHECKING:
     import numpy as np
@@ -341,15 +341,26 @@ class KeyRow:
     """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
     open_sense: bool = False
     """Whether its sign is not judged, because the papers do not say which sense is positive."""
+    formula: Expression | None = None
+    """The formula in symbols of what is defined by it alone, as the papers say it: w of w = s′ − e."""
 
     @property
     def single(self) -> bool:
         return len(self.values) == 1
 
     @property
-    def described(self) -> str:
-        """What it is and which sense of it counts as positive, as it stands beside the row."""
+    def named(self) -> str:
+        """What it is and which sense of it counts as positive."""
         return capitalised("; ".join(filter(None, (self.what, self.positive))))
+
+    @property
+    def described(self) -> Inlines:
+        """The same with its formula, if it is told by one, as they stand beside the row."""
+        if self.formula is None:
+            return (Text(self.named),)
+        formula = InlineMath(Chain((self.symbol, self.formula)), slashed=True)
+        sense = (Text(f"; {self.positive}"),) if self.positive else ()
+        return (Text(f"{capitalised(self.what)}; "), formula, *sense)
 
     def has(self, position: int) -> bool:
         """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
