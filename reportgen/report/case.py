@@ -7,7 +7,7 @@ more and changes nobody else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
@@ -22,7 +22,7 @@ from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
-from reportgen.formula import Chain, Expression, Symbol
+from reportgen.formula import Chain, Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
@@ -48,7 +48,8 @@ class Pitfalls:
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
     are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
     mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
-    for a quantity other definitions that are often used, with the mistake's name.
+    for a quantity other definitions that are often used, with the mistake's name; `ways` other definitions that are as
+    right as its own, of quantities that do not stand on it.
     """
 
     applied: frozenset[str] = frozenset()
@@ -56,6 +57,24 @@ class Pitfalls:
     readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
     whole: Mapping[str, str] = field(default_factory=dict)
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
+    ways: Mapping[str, Sequence[Expression]] = field(default_factory=dict)
+
+
+def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand]) -> Iterator[tuple[str, Expression]]:
+    """The definitions, by ids, of one who takes something else for a quantity: of all that uses it, and its own.
+
+    So the mistake is found where its result is used, and where it is written down and used no further.
+    """
+    others = {id: as_expression(other) for id, other in instead.items()}
+
+    def put(node: Expression, what: Mapping[str, Expression]) -> Expression:
+        return substitute(node, lambda ref: what.get(ref.id, ref))
+
+    for id, family in families.items():
+        if family.definition is not None:
+            taken = put(others[id], {id: family.definition}) if id in others else put(family.definition, others)
+            if taken != family.definition:
+                yield id, taken
 
 
 class Case(Protocol):
