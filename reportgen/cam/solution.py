@@ -7,7 +7,7 @@ line of a position prints the formula of its own phase.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -32,12 +32,11 @@ from reportgen.formula import (
     cos,
     ids,
     sqrt,
-    substitute,
     tan,
 )
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report.case import Pitfalls
+from reportgen.report.case import Pitfalls, with_another
 
 LINES: Mapping[str, tuple[str, ...]] = {
     "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
@@ -134,26 +133,24 @@ class CamSolution:
         found: dict[str, list[tuple[str, Expression]]] = {}
         families = self.sheet.families
 
-        def also(name: str, id: str, change: Mapping[str, Operand], factor: float = 1.0) -> None:
-            if id in families and (definition := families[id].definition) is not None:
-                other = substitute(definition, lambda ref: as_expression(change.get(ref.id, ref)))
-                if other != definition or factor != 1:
-                    found.setdefault(id, []).append((name, other * factor if factor != 1 else other))
+        def also(name: str, among: Iterable[tuple[str, Expression]]) -> None:
+            for id, other in among:
+                found.setdefault(id, []).append((name, other))
 
         for id, power in (("cam.ds", 1), ("cam.dds", 2), ("cam.dpsi", 1), ("cam.ddpsi", 2)):
-            also("cam-degrees", id, {}, (math.pi / 180) ** power)
-        also("cam-phase-sum", "cam.x", {"cam.start.return": Ref(ids.cam_phase("rise"))})
-        also("cam-phase-sum", "cam.start.return", {ids.cam_phase("far"): 0.0})
-        for id in ("cam.alpha", "cam.pitch.x", "cam.pitch.y", "cam.rho"):
-            also("cam-offset-side", id, {"cam.e": -Ref("cam.e")})
-        also("cam-wrong-sense", "cam.k", {self.moved[1]: -Ref(self.moved[1])})
-        limits = {"cam.limit.rise": Ref("cam.limit.return"), "cam.limit.return": Ref("cam.limit.rise")}
+            if id in families and (definition := families[id].definition) is not None:
+                also("cam-degrees", [(id, definition * (math.pi / 180) ** power)])
+        begun = {id: one for id, one in families.items() if id in ("cam.x", "cam.start.return")}
+        also("cam-phase-sum", with_another({"cam.x": begun["cam.x"]}, {"cam.start.return": Ref(ids.cam_phase("rise"))}))
+        also("cam-phase-sum", with_another(begun, {ids.cam_phase("far"): 0.0}))
+        also("cam-offset-side", with_another(families, {"cam.e": -Ref("cam.e")}))
+        if "cam.k" in families:
+            turned = -Ref(self.moved[1])
+            also("cam-wrong-sense", with_another({"cam.k": families["cam.k"]}, {self.moved[1]: turned}))
         if "cam.limit.return" in families:
-            for id in families:
-                if id.startswith(("cam.c.", "cam.apex.", "cam.least.")):
-                    also("cam-limits-exchanged", id, limits)
-        for id in ("cam.profile.x", "cam.profile.y"):
-            also("cam-roller-outward", id, {"cam.roller": -Ref("cam.roller")})
+            limits = {"cam.limit.rise": Ref("cam.limit.return"), "cam.limit.return": Ref("cam.limit.rise")}
+            also("cam-limits-exchanged", with_another(families, limits))
+        also("cam-roller-outward", with_another(families, {"cam.roller": -Ref("cam.roller")}))
         return found
 
     @property

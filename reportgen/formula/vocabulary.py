@@ -347,7 +347,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name("cam.least.psi0"), "ψ", "swing", _G, below="0lim"),
     VocabularyRow(Name("cam.least.r0"), "r", "cam length", _G, below="0min"),
     VocabularyRow(Name("cam.valley"), "m", "cam length", _G),
-    VocabularyRow(ids.cam_node, "{quantity}", "graph value", _V, below="{phase},{number}", name="cam node"),
+    VocabularyRow(ids.cam_node, "{quantity}", "graph value", _V, below="{phase},{number}", name="cam node {quantity}"),
     VocabularyRow(Name("cam.phi"), "φ", "angle", _V),
     VocabularyRow(Name("cam.x"), "x", "phase share", _V),
     VocabularyRow(Name("cam.z"), "z", "phase share", _V),
@@ -379,7 +379,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.gear, name="gear {quantity}"),
     # planetary trains: tooth numbers, ratios, rates; all others are named on their sheet
     VocabularyRow(ids.train_teeth, "z", "count", below="{wheel}", name="train teeth"),
-    VocabularyRow(ids.train_row_ratio, "u", "ratio", name="train row ratio"),
+    VocabularyRow(ids.train_row_ratio, "u", "ratio", below="{number}", name="train row ratio"),
     VocabularyRow(ids.train_omega, "ω", "angular velocity", below="{wheel}", name="train omega"),
     VocabularyRow(ids.train_velocity, "v", "follower velocity", below="{place}", name="train velocity"),
     VocabularyRow(ids.train_efficiency, "η", "ratio", below="{of}", name="train efficiency"),

@@ -32,7 +32,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.pair import Chosen, GearPair
-from reportgen.report.case import Opened, Pitfalls
+from reportgen.report.case import Opened, Pitfalls, with_another
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
@@ -137,7 +137,7 @@ class SolvedPair(Opened):
 
     @cached_property
     def pitfalls(self) -> Pitfalls:
-        return Pitfalls(changed=_changed(self.sheet))
+        return Pitfalls(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
 
 
 class PairSheet:
@@ -282,29 +282,33 @@ def named(quantity: str, wheel: int) -> tuple[str, Symbol, str]:
 def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
     """Definitions that are often used in place of the right ones."""
     found: dict[str, list[tuple[str, Expression]]] = {}
-
-    def also(name: str, id: str, other: Expression) -> None:
-        if other != sheet.families[id].definition:
-            found.setdefault(id, []).append((name, other))
-
-    def exchanged(name: str, change: Mapping[str, Operand], *among: str) -> None:
-        for id in among:
-            definition = sheet.families[id].definition
-            if definition is not None:
-                also(name, id, substitute(definition, lambda ref: as_expression(change.get(ref.id, ref))))
-
     angles = {"gears.inv": "gears.alpha", **{ids.gear("inv_a", wheel): ids.gear("alpha_a", wheel) for wheel in WHEELS}}
     if "gears.alpha_w" in refs(sheet.families["gears.inv_w"].definition or Ref("")):
         angles["gears.inv_w"] = "gears.alpha_w"
     for id, angle in angles.items():
-        also("gear-degrees", id, tan(Ref(angle)) - 180 * Ref(angle) / PI)
-    exchanged("gear-standard-angle", {"gears.alpha_w": Ref("gears.alpha")}, "gears.epsilon", "gears.g")
-    exchanged("gear-ratio", {"gears.u": 1 / Ref("gears.u")}, *(ids.gear("lambda", wheel) for wheel in WHEELS))
+        found[id] = [("gear-degrees", tan(Ref(angle)) - 180 * Ref(angle) / PI)]
+    taken: list[tuple[str, str, Operand]] = [
+        ("gear-standard-angle", "gears.alpha_w", Ref("gears.alpha")),
+        ("gear-ratio", "gears.u", 1 / Ref("gears.u")),
+    ]
     for wheel in WHEELS:
         x, d, d_b = (ids.gear(one, wheel) for one in ("x", "d", "d_b"))
-        named = {one: ids.gear(one, wheel) for one in ("h_a", "d_f", "s", "alpha_a", "rho_a", "d_w", "rho_f")}
-        exchanged("gear-shift-sign", {x: -Ref(x)}, named["h_a"], named["d_f"], named["s"], named["rho_f"])
-        exchanged("gear-base-circle", {d_b: Ref(d)}, named["alpha_a"], named["rho_a"], named["d_w"])
-        exchanged("gear-truncation", {"gears.dy": 0.0}, named["h_a"])
-    exchanged("gear-truncation", {"gears.dy": 0.0}, "gears.h")
+        taken += [("gear-shift-sign", x, -Ref(x)), ("gear-base-circle", d_b, Ref(d))]
+    taken.append(("gear-truncation", "gears.dy", 0.0))
+    for name, id, other in taken:
+        for where, definition in with_another(sheet.families, {id: other}):
+            found.setdefault(where, []).append((name, definition))
+    return found
+
+
+def _ways(follows: bool) -> Mapping[str, list[Expression]]:
+    """Other ways to what a student may as well have from the centre distance and the radii of curvature."""
+    a, a_w, m, g, p_b = (Ref(f"gears.{one}") for one in ("a", "a_w", "m", "g", "p_b"))
+    z1, z2 = (Ref(ids.gear("z", wheel)) for wheel in WHEELS)
+    path = Ref(ids.gear("rho_a", 1)) + Ref(ids.gear("rho_a", 2)) - g
+    found: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
+    if not follows:
+        found["gears.y"] = [(a_w - a) / m]
+    for wheel, z in zip(WHEELS, (z1, z2), strict=True):
+        found[ids.gear("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
     return found

@@ -163,7 +163,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
     """One error: what, where, the value given, perhaps the one expected; then the mistake in words."""
     feedback, row = words["feedback"], key.row(cell.id)
     assert cell.given is not None
-    number = shown_number(row, cell.expected)
+    number = _expected(row, cell)
     expected = tree.Value(Number(number.value, number.decimals, row.unit))
     label = key.label(cell.position, cell.id)
     return (
@@ -175,6 +175,15 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
         Text(". "),
         *mistake_inlines(cell, key, words),
     )
+
+
+def _expected(row: KeyRow, cell: Marked) -> Number:
+    """The value expected, with the decimals of its tolerance, or those of the report where these are fewer."""
+    width = band(row, cell.band)
+    if not width:
+        return shown_number(row, cell.expected)
+    fine = band_decimals(width)
+    return Number(cell.expected, fine if row.decimals is None else min(fine, row.decimals))
 
 
 def _followed(marking: Marking) -> list[Marked]:
@@ -278,7 +287,7 @@ def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, sho
         lines.append(plain(mistake_inlines(cell, key, words), key.language))
     if show_answers:
         row = key.row(cell.id)
-        number, width = shown_number(row, cell.expected), band(row, cell.band) or 0.0
+        number, width = _expected(row, cell), band(row, cell.band) or 0.0
         expected = str(words["feedback"]["expected_note"]).format(
             value=write(number.value, number.decimals, key.language),
             band=write(width, band_decimals(width), key.language),

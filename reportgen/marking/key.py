@@ -18,7 +18,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, gaps, load_words, search_path
-from reportgen.formula import Expression, Number, Symbol, ids, refs, vocabulary
+from reportgen.formula import Expression, Number, Symbol, ids, refs, substitute, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
@@ -101,8 +101,9 @@ def make_key(
             sense=tuple(_sense(family, value, words["sense"]) for value in values),
             size=family.of if family.is_signed_rotation else "",
             what=phrase(id, ledger, words),
-            positive=words["magnitude"] if sense == MAGNITUDE else sense,
+            positive=words["signs"].get(sense, sense),
             open_sense=is_open(values, sense),
+            formula=_formula(ledger, id) if sense in BY_FORMULA else None,
         )
 
     parts, families = list(Chapter), ledger.families.values()
@@ -170,6 +171,9 @@ def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
 
 MAGNITUDE = "magnitude"
 """Stands in place of a phrase where the sign of a quantity says nothing."""
+FORMULA, EITHER_SIGN = "formula", "formula, either sign"
+"""Stand there where the formula tells what the quantity is; the other where it may be set up with the opposite sign."""
+BY_FORMULA, OPEN = frozenset({FORMULA, EITHER_SIGN}), frozenset({MAGNITUDE, EITHER_SIGN})
 
 
 def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
@@ -208,7 +212,7 @@ def _symbol(id: str) -> Symbol:
 
 
 def positive_sense(id: str, report: Report) -> str:
-    """The phrase of a quantity, `MAGNITUDE`, or "" where no words say anything."""
+    """The phrase of a quantity or what stands in its place, as `MAGNITUDE`; "" where no words say anything."""
     family, ledger = report.ledger[id], report.ledger
     known = _points(id, ledger) | _way(id, report)
     for phrase in vocabulary.words_of(report.words["positive"], id, family.kind, family.symbol):
@@ -250,9 +254,14 @@ def _way(id: str, report: Report) -> dict[str, str]:
     return {} if way is None else {"way": heading_words(report, float(np.degrees(np.angle(way))))}
 
 
+def _formula(ledger: Ledger, id: str) -> Expression:
+    """What a quantity is defined as, in symbols."""
+    return substitute(_definition(ledger, id), lambda ref: ledger.symbol(ref.id))
+
+
 def is_open(values: np.ndarray, sense: str) -> bool:
     """Whether the papers leave the sign of values open: there are negative ones, and no words about them."""
-    return sense == MAGNITUDE or (not sense and bool(np.nanmin(values, initial=0.0) < 0))
+    return sense in OPEN or (not sense and bool(np.nanmin(values, initial=0.0) < 0))
 
 
 # --- what an answer sheet asks for ----------------------------------------------------------------

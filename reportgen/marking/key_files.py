@@ -12,6 +12,7 @@ import numpy as np
 from reportgen import report as tree
 from reportgen.base.units import significant_decimals
 from reportgen.formula import Number, Symbol
+from reportgen.formula.plain import formula
 from reportgen.formula.sheet import ZERO
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.paper import (
@@ -27,7 +28,7 @@ from reportgen.marking.paper import (
     symbol_width,
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
-from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text
+from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text, plain
 from reportgen.report.case import Key, KeyRow, PartOfKey
 from reportgen.workbook import Book, BookSheet, Entry
 
@@ -106,7 +107,7 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
             row.id,
             sections[key.owner(row.id)][row.part],
             symbol_text(row, key),
-            row.described,
+            plain(row.described, key.language),
             row.unit,
             "" if row.single else key.label(index + 1, row.id),
             shown_number(row, float(value)).shown if value == value else None,
@@ -143,6 +144,7 @@ def key_data(key: Key) -> dict[str, Any]:
                 "symbol": symbol_text(row, key),
                 "what": row.what,
                 "positive": row.positive,
+                **({"formula": formula(row.formula, key.language)} if row.formula else {}),
                 "kind": row.kind,
                 "unit": row.unit,
                 "decimals": row.decimals,
@@ -240,9 +242,9 @@ def _by_position(
 
 
 def _title(row: KeyRow, with_id: bool) -> Inlines:
-    """Symbol and unit of a quantity, perhaps with its id; below, what it is."""
+    """Symbol and unit of a quantity, perhaps with its id; below, what it is, without a formula that may be longer."""
     text = (f", {row.unit}" if row.unit else "") + (f" ({row.id})" if with_id else "")
-    return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.described))
+    return (InlineMath(row.symbol), *((Text(text),) if text else ()), tree.LineBreak(), Text(row.named))
 
 
 def _values(row: KeyRow, index: int, senses: bool) -> tuple[Number | str, ...]:

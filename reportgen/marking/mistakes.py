@@ -108,6 +108,8 @@ def _in_a_definition(
     used = [scheme.ledger[ref] for ref in dict.fromkeys(refs(definition))]
     for given in used:
         yield from _with_a_wrong_input(scheme, family, definition, given, scales)
+    if family.kind == "ratio" and len(family.values) == 1:
+        yield "ratio-inverted", lambda value, _: 1 / value
     if family.kind == "angle" and _calls(definition, INVERSE):
         yield "radians-for-degrees", _times(np.pi / 180)
     if _calls(definition, TRIGONOMETRIC):

@@ -30,7 +30,7 @@ SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
 WIDEST = 30.0
 """Width (mm) of a column to be filled in by hand, where there is room."""
 LEAST_WHAT = 50.0
-"""Width (mm) that the words of a row need at least."""
+"""Width (mm) that the words of a row need at least, if they have no longer formula."""
 TABLE_SIZE, PADDING = 10.0, 4.0
 """Font size (points) of a table, and what its cells keep clear of their edges (mm)."""
 
@@ -251,7 +251,10 @@ def _answer_table(
     """
     symbol = symbol_width(rows, shared, SYMBOL)
     rest = tree.TEXT_WIDTH - symbol - UNIT
-    value = min((rest - LEAST_WHAT) / len(positions), WIDEST)
+    # A formula is broken at its equals sign at most.
+    formulas = (one.expression for row in rows for one in row.described if isinstance(one, InlineMath))
+    least = max((LEAST_WHAT, *(box(one, TABLE_SIZE).width + PADDING for one in formulas)))
+    value = min((rest - least) / len(positions), WIDEST)
     columns = (
         Column(symbol),
         Column(rest - value * len(positions), "left"),

@@ -24,6 +24,7 @@ from reportgen.base.words import as_error, as_problem, load_words, search_path
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.report import plain
 from reportgen.report.case import Key, KeyRow, Role
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
@@ -109,7 +110,7 @@ def grid(
         lines.append((Entry(), Entry(str(parts[part]), "bold")))
         for row in members:
             cells = (filling(row, k) or Entry(None, "unasked") for k in (0, *positions))
-            what = Entry(row.described)
+            what = Entry(plain(row.described, key.language))
             names = (Entry(row.id, "note"), Entry(symbol_text(row, key)), what, Entry(row.unit))
             lines.append((*names, *cells, *(tail(row) if tail else ())))
     return tuple(lines)
@@ -283,15 +284,16 @@ class _Reading:
     problems: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
     rows: set[str] = field(default_factory=set)
+    labels: dict[str, Mapping[str, int]] = field(default_factory=dict)
+    """The positions of each part by their labels."""
 
     def sheet(self, page: Page, head: int) -> None:
         """Read all rows below the head."""
         at = next(number for number, cell in enumerate(page.rows[head]) if _says(cell, "id"))
         found: dict[Place, SheetCell] = {}
-        ids = (cells[at].text.strip() for cells in page.rows[head + 1 :] if at < len(cells))
-        part = next((self.key.part(id) for id in ids if self.key.find(id)), self.key)
-        columns = self.columns(page.rows[head], part)
-        for place, cell in self.cells(page.rows[head + 1 :], at, columns):
+        rows = [(cells[at].text.strip() if at < len(cells) else "", cells) for cells in page.rows[head + 1 :]]
+        columns = self.columns(page.rows[head], [id for id, _ in rows if self.key.find(id)])
+        for place, cell in self.cells(rows, at, columns):
             if place not in found:
                 found[place] = cell
             elif found[place].text.strip() != cell.text.strip():
@@ -303,32 +305,44 @@ class _Reading:
             if place not in self.problems:
                 self.value(place, cell, mark, agreed)
 
-    def columns(self, head: Sequence[SheetCell], part: Key) -> dict[int, int]:
-        """Positions (0 for single values) of a part by the indices of their columns."""
-        labels = {label.casefold(): k for k, label in enumerate(part.labels, start=1)}
-        columns: dict[int, int] = {}
+    def columns(self, head: Sequence[SheetCell], ids: Sequence[str]) -> dict[int, str]:
+        """Labels of positions ("" for single values) by the indices of their columns, where a row has such a position.
+
+        `ids` are those of the page's rows.  Which position a label means is a matter of the row: parts of a coursework
+        have positions of their own, more or fewer than the machine.
+        """
+        known = {label for id in ids or [""] for label in self.positions(id)}
+        columns: dict[int, str] = {}
         for number, cell in enumerate(head):
             if _says(cell, "value"):
-                columns[number] = 0
+                columns[number] = ""
             elif (label := _label(cell.text)) is not None:
-                if label in labels:
-                    columns[number] = labels[label]
+                if label in known:
+                    columns[number] = label
                 else:
                     self.note(Fault("cell-no-position", cell.mark, {"text": cell.text}))
         return columns
 
+    def positions(self, id: str) -> Mapping[str, int]:
+        """The positions of a row's part by their labels, 0 by ""."""
+        owner = self.key.owner(id)
+        if owner not in self.labels:
+            labels = (label.casefold() for label in self.key.part(id).labels)
+            self.labels[owner] = {"": 0, **{label: k for k, label in enumerate(labels, start=1)}}
+        return self.labels[owner]
+
     def cells(
-        self, rows: Sequence[Sequence[SheetCell]], at: int, columns: Mapping[int, int]
+        self, rows: Iterable[tuple[str, Sequence[SheetCell]]], at: int, columns: Mapping[int, str]
     ) -> Iterator[tuple[Place, SheetCell]]:
         """The cells with an answer, each with its place; what is not asked for is left out."""
         asked = {row.id: row for row in self.key.asked}
         known = {row.id for row in self.key.rows}
-        for cells in rows:
-            id = cells[at].text.strip() if at < len(cells) else ""
+        for id, cells in rows:
             answers = [(columns[n], cell) for n, cell in enumerate(cells) if n in columns and not _is_empty(cell)]
             if id in asked:
                 self.rows.add(id)
-                yield from (((id, k), cell) for k, cell in answers if k in asked[id].positions)
+                places = ((self.positions(id).get(label), cell) for label, cell in answers)
+                yield from (((id, k), cell) for k, cell in places if k is not None and k in asked[id].positions)
             elif answers and id not in known:
                 mark = cells[at].mark if id else answers[0][1].mark
                 self.note(Fault("cell-unknown-row" if id else "cell-no-row", mark, {"text": id}))

@@ -8,7 +8,8 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from reportgen.formula import ids, vocabulary
+from reportgen.formula import Expression, ids, refs, vocabulary
+from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit
 from reportgen.marking.marks import MarkingScheme, Place, Submission, Values, makes_scale
@@ -99,7 +100,8 @@ class Working:
         """What a quantity may be taken to be as well: another like it, or what another way of drawing gives.
 
         Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
-        where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.
+        where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.  Whoever has y from the
+        own centre distance is as right as by the angle.
         """
         ledger, index = self.scheme.ledger, row.at(position)
         found = [float(self.values[other][index].real) for other in self.scheme.alike[row.id] if other in self.values]
@@ -108,7 +110,13 @@ class Working:
             if size in self.values and self.values.get(length, np.zeros(1))[0]:
                 found.append(float(self.values[size][0] / self.values[length][0]))
         found += self._by_length_scale(row, index)
+        found += [self._by_another_way(row, way, index) for way in self.scheme.pitfalls.ways.get(row.id, ())]
         return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+
+    def _by_another_way(self, row: KeyRow, way: Expression, index: int) -> float:
+        """What another definition of a quantity gives from the student's own values."""
+        values = np.atleast_1d(evaluate(way, {id: self.world[id] for id in refs(way)}))
+        return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)
 
     def _by_length_scale(self, row: KeyRow, index: int) -> list[float]:
         """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""

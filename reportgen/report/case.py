@@ -7,7 +7,7 @@ more and changes nobody else.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
@@ -22,12 +22,12 @@ from reportgen.base.errors import NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
-from reportgen.formula import Expression, Symbol
+from reportgen.formula import Chain, Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report import Block, Cover, Document
+from reportgen.report import Block, Cover, Document, InlineMath, Inlines, Text
 
 if TYPE_CHECKING:
     import numpy as np
@@ -50,7 +50,8 @@ class Pitfalls:
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
     are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
     mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
-    for a quantity other definitions that are often used, with the mistake's name.
+    for a quantity other definitions that are often used, with the mistake's name; `ways` other definitions that are as
+    right as its own, of quantities that do not stand on it.
     """
 
     applied: frozenset[str] = frozenset()
@@ -58,6 +59,24 @@ class Pitfalls:
     readings: Mapping[str, Sequence[tuple[str, np.ndarray]]] = field(default_factory=dict)
     whole: Mapping[str, str] = field(default_factory=dict)
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
+    ways: Mapping[str, Sequence[Expression]] = field(default_factory=dict)
+
+
+def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand]) -> Iterator[tuple[str, Expression]]:
+    """The definitions, by ids, of one who takes something else for a quantity: of all that uses it, and its own.
+
+    So the mistake is found where its result is used, and where it is written down and used no further.
+    """
+    others = {id: as_expression(other) for id, other in instead.items()}
+
+    def put(node: Expression, what: Mapping[str, Expression]) -> Expression:
+        return substitute(node, lambda ref: what.get(ref.id, ref))
+
+    for id, family in families.items():
+        if family.definition is not None:
+            taken = put(others[id], {id: family.definition}) if id in others else put(family.definition, others)
+            if taken != family.definition:
+                yield id, taken
 
 
 class Case(Protocol):
@@ -369,15 +388,26 @@ class KeyRow:
     """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
     open_sense: bool = False
     """Whether its sign is not judged, because the papers do not say which sense is positive."""
+    formula: Expression | None = None
+    """The formula in symbols of what is defined by it alone, as the papers say it: w of w = s′ − e."""
 
     @property
     def single(self) -> bool:
         return len(self.values) == 1
 
     @property
-    def described(self) -> str:
-        """What it is and which sense of it counts as positive, as it stands beside the row."""
+    def named(self) -> str:
+        """What it is and which sense of it counts as positive."""
         return capitalised("; ".join(filter(None, (self.what, self.positive))))
+
+    @property
+    def described(self) -> Inlines:
+        """The same with its formula, if it is told by one, as they stand beside the row."""
+        if self.formula is None:
+            return (Text(self.named),)
+        formula = InlineMath(Chain((self.symbol, self.formula)), slashed=True)
+        sense = (Text(f"; {self.positive}"),) if self.positive else ()
+        return (Text(f"{capitalised(self.what)}; "), formula, *sense)
 
     def has(self, position: int) -> bool:
         """Whether the quantity has a value at a position: from 1, or 0 for a single value."""
@@ -448,7 +478,7 @@ class Key:
 
     @cached_property
     def _by_id(self) -> Mapping[str, KeyRow]:
-        return {row.size: row for row in self.rows} | {row.id: row for row in self.rows}
+        return {row.size: row for row in self.rows if row.size} | {row.id: row for row in self.rows}
 
     @property
     def asked(self) -> tuple[KeyRow, ...]:

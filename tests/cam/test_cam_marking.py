@@ -115,6 +115,7 @@ MISTAKES = [
     ("roller-01", "cam-offset-side", ("cam.pitch.x",)),
     ("roller-01", "cam-limits-exchanged", ("cam.c.1",)),
     ("roller-01", "cam-roller-outward", ("cam.profile.x", "cam.profile.y")),
+    ("roller-01", "cam-roller-outward", ("cam.rho.working",)),
     ("shaper-feed", "cam-degrees", ("cam.dpsi",)),
     ("shaper-feed", "cam-wrong-sense", ("cam.k",)),
 ]

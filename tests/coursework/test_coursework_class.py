@@ -22,11 +22,11 @@ from reportgen.classes.run import Order, Result, run_batch
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask
-from reportgen.marking.marking import compare
-from reportgen.marking.marks import Policy, read_policy
-from reportgen.marking.sheet import answer_book
+from reportgen.marking.marking import compare, mark
+from reportgen.marking.marks import Policy, marking_scheme, read_policy
+from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report.case import Key
-from reportgen.workbook import Book, write_xlsx
+from reportgen.workbook import Book, write_csv, write_xlsx
 from tests.lanes import proof
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "coursework"
@@ -186,8 +186,11 @@ def test_a_job_takes_the_files_of_the_parts_along(tmp_path: Path) -> None:
     assert [one.mark.file for one in run_job(edited).problems if not isinstance(one, str)] == [part.name]
 
 
-def filled(key: Key, changed: dict[str, float], cam: Key | None = None) -> bytes:
-    """The answer sheet with the key's values, some times a factor, those of the cam perhaps from another key."""
+def filled(key: Key, changed: dict[str, float], cam: Key | None = None, figures: int = 0) -> bytes:
+    """The answer sheet with the key's values, some times a factor, those of the cam perhaps from another key.
+
+    Of each value so many significant figures are written, or those of the report.
+    """
     book = answer_book(key)
     pages = []
     for page in book.sheets:
@@ -202,7 +205,9 @@ def filled(key: Key, changed: dict[str, float], cam: Key | None = None) -> bytes
                 for column, k in enumerate(places, start=4):
                     if k in found.positions:
                         source = cam.row(found.id) if cam and key.owner(found.id) == "cam" else found
-                        value = float(source.printed[source.at(k)]) * changed.get(found.id, 1.0)
+                        shown = source.values if figures else source.printed
+                        value = float(shown[source.at(k)]) * changed.get(found.id, 1.0)
+                        value = float(f"{value:.{figures}g}") if figures else value
                         cells[column] = replace(cells[column], value=value)  # type: ignore[type-var]
             rows.append(cells)
         pages.append(replace(page, rows=rows))
@@ -279,3 +284,101 @@ def test_a_class_of_twelve(tmp_path: Path) -> None:
         edited(cam_of(files[3].path), "132 mm", "133 mm")
         again = run_batch(order, log)
         assert (again.made, again.kept) == (1, 11)
+
+
+UNEQUAL = """
+kind: shaper
+salt: unequal
+report: {language: en, worked_positions: %(worked)s}
+positions: {count: 8}
+parameters:
+  a: 270 mm
+  b: 520 mm
+  l3: 550 mm
+  l4: 100 mm
+  H: {from: 280 mm, to: 340 mm, step: 10 mm}
+  n: 52 rpm
+  cutting: {F: 1000 N, free: 0.05}
+  G3: 200 N
+  J3: 0.6 kg m2
+  G5: 600 N
+parts:
+  - {file: few.yaml, from: {n: {of: n}}}
+  - {file: motor-train.yaml}
+  - {file: pairs.yaml}
+  - {file: many.yaml, from: {n: {of: n, times: 1/2}}}
+"""
+"""A machine of 8 positions with a cam of 4 and one of 24, a train of one, a gear pair of 9."""
+
+
+def of_unequal_counts(folder: Path, count: int, worked: str = "[2, 8]") -> list[Path]:
+    """The files of a class whose parts have fewer and more positions than the machine."""
+    drawn(folder, count)
+    (folder / "unequal.yaml").write_text(UNEQUAL % {"worked": worked}, encoding="utf-8")
+    for name, steps in (("few", "{rise: 1, return: 1, far: 1, near: 1}"), ("many", "{rise: 9, return: 9, near: 6}")):
+        cam = (FOLDER / "feed-cam.yaml").read_text(encoding="utf-8").replace("15 deg", f"[{', '.join(ANGLES)}]")
+        cam = cam.replace("far: 0 deg", "far: 20 deg" if name == "few" else "far: 0 deg")
+        cam = cam.replace("positions: 12", f"positions: {steps}")
+        (folder / f"{name}.yaml").write_text(cam, encoding="utf-8")
+    pair = (FOLDER / "drive-pair.yaml").read_text(encoding="utf-8").replace("m: 5 mm", "m: [4 mm, 5 mm, 6 mm]")
+    (folder / "pairs.yaml").write_text(pair, encoding="utf-8")
+    made = make_variants(folder / "unequal.yaml", folder / "roster.csv", folder / "class")
+    return [one.path for one in made.files]
+
+
+def test_a_part_may_have_more_and_fewer_positions_than_the_machine(tmp_path: Path) -> None:
+    """Each row of the sheet is read by the positions of its own part: no cell of any part is lost."""
+    (file,) = of_unequal_counts(tmp_path, 1)
+    scheme = marking_scheme(open_case(file))
+    scheme = replace(scheme, key=Ask().of(scheme.key))
+    counts = [len(part.labels) for _, part in scheme.key.pages]
+    assert counts == [8, 4, 1, 9, 24]
+    asked = [max(k for row in part.asked for k in row.positions) for _, part in scheme.key.pages]
+    assert asked[0] == 8
+    assert asked[1] < 8 < asked[3] == 9 < asked[4]
+    path = tmp_path / "sheet.xlsx"
+    path.write_bytes(filled(scheme.key, {}, figures=3))
+    submission = read_submission(path, scheme.key)
+    assert (submission.notes, submission.problems) == ((), {})
+    assert len(submission.values) == sum(len(row.positions) for row in scheme.key.asked)
+    marking = mark(scheme, submission)
+    assert [(cell.id, cell.position) for cell in marking.cells if cell.points < cell.worth] == []
+
+
+def test_rows_of_two_parts_on_one_page_keep_their_own_positions(tmp_path: Path) -> None:
+    """All pages joined to one CSV, with the columns of the longest: a label means what it means in the row's part."""
+    (file,) = of_unequal_counts(tmp_path, 1)
+    key = Ask().of(open_case(file).key())
+    (tmp_path / "sheet.xlsx").write_bytes(filled(key, {}))
+    wanted = read_submission(tmp_path / "sheet.xlsx", key)
+    places = sorted({k for row in key.asked for k in row.positions})
+    head = ["id", "symbol", "what", "unit", "value", *(f"position {k}" for k in places if k)]
+    rows = [
+        [row.id, "", "", "", *(wanted.values[row.id, k].value if k in row.positions else None for k in places)]
+        for row in key.asked
+    ]
+    path = tmp_path / f"{key.id}.csv"
+    path.write_bytes(write_csv([head, *rows]))
+    found = read_submission(path, key)
+    assert found.notes == ()
+    assert {place: one.value for place, one in found.values.items()} == {
+        place: one.value for place, one in wanted.values.items()
+    }
+
+
+@proof
+def test_a_class_of_twelve_with_unequal_counts_loses_no_mark(tmp_path: Path) -> None:
+    """Honest sheets in three and in four figures, every position of the machine asked for."""
+    files = of_unequal_counts(tmp_path, 12, "all")
+    handed = tmp_path / "handed"
+    handed.mkdir()
+    for number, file in enumerate(files):
+        key = Ask().of(open_case(file).key())
+        (handed / f"{key.id}.xlsx").write_bytes(filled(key, {}, figures=3 + number % 2))
+    graded = grade([handed], tmp_path / "class", Policy())
+    assert (graded.problems, graded.missing) == ((), ())
+    assert len(graded.markings) == 12
+    for marking in graded.markings:
+        assert marking.submission.notes == ()
+        assert [(cell.id, cell.position) for cell in marking.cells if cell.points < cell.worth] == []
+        assert marking.flags == ()

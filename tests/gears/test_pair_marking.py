@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 from reportgen import catalogue
@@ -11,8 +14,13 @@ from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
+from reportgen.formula import refs
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.ledger import standing_on
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Policy, marking_scheme
+from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
+from reportgen.marking.mistakes import Mistake
+from reportgen.marking.working import Change
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
 
@@ -76,6 +84,78 @@ MISTAKES = [
     ("pair-equal-sliding", "gear-standard-angle", ("gears.epsilon",)),
     ("pair-equal-sliding", "gear-ratio", ("gears.lambda.1", "gears.lambda.2")),
 ]
+
+
+OWN = [
+    ("pair-equal-sliding", "gear-base-circle", "gears.d_b.1", lambda pair: pair["gears.d.1"]),
+    ("pair-centre-distance", "gear-base-circle", "gears.d_b.2", lambda pair: pair["gears.d.2"]),
+    ("pair-equal-sliding", "gear-ratio", "gears.u", lambda pair: 1 / pair["gears.u"]),
+    ("pair-centre-distance", "gear-ratio", "gears.u", lambda pair: 1 / pair["gears.u"]),
+    ("pair-equal-sliding", "gear-standard-angle", "gears.a_w", lambda pair: pair["gears.a"]),
+    ("pair-least-shift", "gear-standard-angle", "gears.alpha_w", lambda pair: pair["gears.alpha"]),
+    ("pair-equal-sliding", "gear-standard-angle", "gears.d_w.2", lambda pair: pair["gears.d.2"]),
+    ("pair-equal-sliding", "gear-truncation", "gears.dy", lambda pair: 0 * pair["gears.dy"]),
+]
+"""What is written in place of a value, all other values being right or following from it."""
+
+
+@pytest.mark.parametrize("goes_on", [True, False])
+@pytest.mark.parametrize(("name", "mistake", "id", "taken"), OWN)
+def test_a_mistake_is_named_by_its_own_result(
+    name: str, mistake: str, id: str, taken: Callable[[Any], np.ndarray], goes_on: bool
+) -> None:
+    """The reference circle for the base circle, u upside down, a_w = a: written down, and gone on from or not."""
+    scheme = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en"))
+    right = students.worked_out(scheme)
+    wrong = taken(right)
+    world = {**right, id: wrong}
+    if goes_on:
+        world = {**students.worked_out(scheme, Mistake("", id, {id: lambda *_: wrong}))}
+    marking = mark(scheme, students.written(scheme, world))
+    (first,) = marking.first_errors
+    assert (first.id, first.mistake, first.where) == (id, mistake, id)
+    assert marking.out_of - marking.points == 1
+
+
+def test_other_ways_to_a_value_are_as_right() -> None:
+    """a_w = a, then y = (a_w − a)/m = 0 and d_w = 2 a_w z/(z₁ + z₂); a wrong ρ_a1, then g_α = ρ_a1 + ρ_a2 − g.
+
+    Each mistake costs one mark, and is told alone.
+    """
+    scheme = marking_scheme(open_case(FOLDER / "pair-equal-sliding.yaml", "en"))
+
+    def gone_on(**own: float) -> Marking:
+        changes: dict[str, Change] = {f"gears.{id}": lambda was, _, f=factor: was * f for id, factor in own.items()}
+        changes |= {
+            "gears.y": lambda _, pair: (pair["gears.a_w"] - pair["gears.a"]) / pair["gears.m"],
+            "gears.d_w.1": lambda _, pair: 2 * pair["gears.a_w"] * 13 / (13 + 36),
+            "gears.d_w.2": lambda _, pair: 2 * pair["gears.a_w"] * 36 / (13 + 36),
+        }
+        world = {**students.worked_out(scheme, Mistake("", "", changes))}
+        if "rho_a.1" in own:
+            path = world["gears.rho_a.1"] + world["gears.rho_a.2"] - world["gears.g"]
+            world |= {"gears.g_a": path, "gears.epsilon": path / world["gears.p_b"]}
+        return mark(scheme, students.written(scheme, world))
+
+    nominal = float(scheme.ledger["gears.a"].values[0] / scheme.ledger["gears.a_w"].values[0])
+    for own, id in (({"a_w": nominal}, "gears.a_w"), ({"rho_a.1": 1.2}, "gears.rho_a.1"), ({"g": 0.9}, "gears.g")):
+        marking = gone_on(**own)
+        assert [one.id for one in marking.first_errors] == [id]
+        assert marking.out_of - marking.points == 1
+        follow = {"gears.a_w": {"gears.y", "gears.d_w.1"}, "gears.rho_a.1": {"gears.g_a", "gears.epsilon"}}
+        assert follow.get(id, set()) <= {cell.id for cell in marking.cells if cell.verdict is Verdict.follows}
+
+
+def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
+    """Else a wrong value would follow from what was worked out from it."""
+    for name in ("pair-equal-sliding", "pair-centre-distance", "pair-least-shift"):
+        case = open_case(FOLDER / f"{name}.yaml", "en")
+        for id, ways in case.pitfalls.ways.items():
+            for way in ways:
+                value = np.atleast_1d(evaluate(way, {ref: case.ledger[ref].values for ref in refs(way)}))
+                # What the ledger rounds away below 1e-9 of a module.
+                assert value == pytest.approx(case.ledger[id].values, rel=1e-9, abs=1e-9)
+                assert not any(id in (ref, *standing_on(case.ledger, ref)) for ref in refs(way))
 
 
 @pytest.mark.parametrize(("name", "mistake", "where"), MISTAKES, ids=lambda one: str(one))

@@ -13,6 +13,7 @@ from reportgen.classes.variants import make_variants
 from reportgen.formula import ids
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Policy, marking_scheme
+from reportgen.marking.mistakes import Mistake
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
 
@@ -96,6 +97,18 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
     assert first
     assert {cell.mistake for cell in first} == {mistake}
     assert {cell.id for cell in first} <= set(where)
+
+
+@pytest.mark.parametrize("goes_on", [True, False])
+def test_a_ratio_upside_down_has_its_name(goes_on: bool) -> None:
+    """Written down, and gone on from or not."""
+    scheme = marking_scheme(open_case(FOLDER / "train-double.yaml", "en"))
+    right = students.worked_out(scheme)
+    turned = 1 / right["train.u1H"]
+    slip = Mistake("", "train.u1H", {"train.u1H": lambda *_: turned})
+    world = students.worked_out(scheme, slip) if goes_on else {**right, "train.u1H": turned}
+    (first,) = mark(scheme, students.written(scheme, world)).first_errors
+    assert (first.id, first.mistake) == ("train.u1H", "ratio-inverted")
 
 
 def test_mistakes_have_words_in_both_languages() -> None:

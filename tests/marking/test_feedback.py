@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, get_args
 
+import numpy as np
 import pytest
 from openpyxl import load_workbook
 
@@ -222,3 +223,29 @@ def test_a_class_without_sheets_has_a_page_too() -> None:
 @pytest.mark.parametrize(("points", "text"), [(4.0, "4"), (2.5, "2,5"), (1 / 3, "0,33"), (math.pi, "3,14")])
 def test_points_are_told_to_two_decimals_at_most(points: float, text: str) -> None:
     assert points_text(points, "vi") == text
+
+
+@pytest.mark.parametrize(
+    ("decimals", "expected", "band", "shown"),
+    [
+        (None, 7.37956877849, 0.082, "7.380 ± 0.082"),
+        (4, 7.37956877849, 0.082, "7.380 ± 0.082"),
+        (None, 1234.56789, 61.0, "1235 ± 61"),
+        (2, 1234.5678, 0.0123, "1234.57 ± 0.012"),
+        (0, 36.0, 0.0, "36 ± 0"),
+    ],
+)
+def test_what_is_expected_has_the_figures_of_its_tolerance(
+    decimals: int | None, expected: float, band: float, shown: str
+) -> None:
+    """In the comment on the cell and on the page; what the report prints shorter stays so."""
+    key = small_key("en")
+    rows = tuple(
+        replace(row, decimals=decimals, values=np.array([expected])) if row.id == "omega.1" else row for row in key.rows
+    )
+    wrong = replace(cell("omega.1", 0, Verdict.wrong, 5.0, expected, first=True), band=band)
+    values = {("omega.1", 0): Answer(5.0, "5", at(1, 1))}
+    found = Marking(replace(key, rows=rows), Submission(key.id, FILE, values, {}), (wrong,))
+    comments = [entry.comment for page in feedback_book(found).sheets for row in page.rows for entry in row]
+    assert any(f"Expected: {shown} rad/s." in comment for comment in comments if comment)
+    assert f"expected is {shown.partition(' ')[0]} rad/s" in text_of(feedback_document(found, "Crank"))

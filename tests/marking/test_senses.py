@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.cases import MachineCase
+from reportgen.cases import MachineCase, open_case
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, MarkingScheme, Verdict, marking_scheme
 from reportgen.report.case import KeyRow
@@ -228,3 +228,22 @@ def test_no_sheet_leaves_a_sense_open(name: str) -> None:
     """Whatever can be negative has words: which sense is positive, or that its magnitude is asked for."""
     scheme = students.scheme(name)
     assert [row.id for row in scheme.key.asked if row.open_sense and not row.positive] == []
+
+
+@pytest.mark.parametrize(
+    ("name", "free"),
+    [
+        ("cam/roller-01", {"cam.c.1", "cam.c.2", "cam.w"}),
+        ("cam/shaper-feed", {"cam.w", "cam.m.1", "cam.m.2"}),
+        ("gears/pair-equal-sliding", {"gears.dy"}),
+        ("gears/train-motor", {"train.N"}),
+    ],
+)
+def test_what_may_be_set_up_the_other_way_round_is_right_so(name: str, free: set[str]) -> None:
+    """w = e − s′, the factor y − x_Σ of the tip circle: with the opposite sign, what follows is right as well."""
+    scheme = marking_scheme(open_case(students.ASSIGNMENTS / f"{name}.yaml", "en"))
+    assert free <= {row.id for row in scheme.key.asked}
+    sheet = students.sheet(scheme, lambda row, _, value: -value if row.id in free else value)
+    cells = mark(scheme, sheet).cells
+    assert {cell.verdict for cell in cells if cell.given is not None} == {Verdict.right}
+    assert not any(cell.mistake or cell.elsewhere for cell in cells)

@@ -11,21 +11,31 @@ import pytest
 
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path
+from reportgen.cases import open_case
 from reportgen.formula import vocabulary
 from reportgen.marking.paper import answer_tables
+from reportgen.marking.sheet import answer_book
 from reportgen.report import plain
 from reportgen.report.case import Key
 from tests.lanes import matrix
+from tests.marking import students
 from tests.report import built
 
-TELLING = ("engine-twin-05", "four-bar-02", "shaper-01", "scotch-yoke-01", "linkage-slide")
-"""Groups of all kinds, both languages; the others are for `make proof`."""
-FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
+TELLING = (
+    *("engine-twin-05", "four-bar-02", "shaper-01", "scotch-yoke-01", "linkage-slide"),
+    *("cam/roller-01", "cam/shaper-feed", "gears/pair-equal-sliding", "gears/train-motor"),
+)
+"""Groups of all kinds, cams and gears, both languages; the others are for `make proof`."""
+FILES = [
+    *sorted(path.stem for path in Path("assignments").glob("*.yaml")),
+    *sorted(f"{folder}/{path.stem}" for folder in ("cam", "gears") for path in Path("assignments", folder).glob("*")),
+]
 
 
 @cache
 def key(name: str, language: Language) -> Key:
-    return built.case(built.ROOT / "assignments" / f"{name}.yaml", language).key()
+    path = students.ASSIGNMENTS / f"{name}.yaml"
+    return built.case(path, language).key() if "/" not in name else open_case(path, language).key()
 
 
 @pytest.mark.parametrize("name", matrix(FILES, TELLING))
@@ -101,7 +111,7 @@ def test_paper_has_the_words_beside_the_symbol() -> None:
 
 def test_every_phrase_is_that_of_a_quantity_or_a_family() -> None:
     names = {row.name for row in vocabulary.ROWS}
-    ids = {row.id for name in FILES for row in key(name, "en").rows}
+    ids = {row.id for name in FILES if "/" not in name for row in key(name, "en").rows}
     for language in get_args(Language):
         keys = load_words(search_path(language))["quantities"]
         for phrase in (name for key in keys for name in key.split(", ")):
@@ -109,3 +119,47 @@ def test_every_phrase_is_that_of_a_quantity_or_a_family() -> None:
             name = phrase.removesuffix(":force")
             family = name if name in names else name.rpartition(".")[0]
             assert name in ids or family in names or name in ("link", "frame"), phrase
+
+
+SAID = [
+    ("cam/roller-01", "cam.u", "u = s_0 + s"),
+    ("cam/roller-01", "cam.w", "w = s′ − e"),
+    ("cam/shaper-feed", "cam.u", "u = l·k·sin(q)"),
+    ("cam/shaper-feed", "cam.w", "w = a − l·k·cos(q)"),
+    ("gears/pair-equal-sliding", "gears.dy", "Δy = x_Σ − y"),
+    ("gears/train-single", "train.N", "N = (z_1 + z_3)/k"),
+]
+
+
+@pytest.mark.parametrize(("name", "id", "formula"), SAID)
+def test_what_only_its_formula_defines_is_told_by_it(name: str, id: str, formula: str) -> None:
+    """On paper and in the workbook, in both languages; a formula with another sense in the books has either sign."""
+    for language, either in (("en", "either sign is right"), ("vi", "lấy dấu nào cũng được")):
+        found = key(name, language)
+        row = found.row(id)
+        assert formula in plain(row.described, language)
+        assert row.open_sense == (either in plain(row.described, language)) == (id != "cam.u")
+        cells = [cell.value for sheet in answer_book(found).sheets for line in sheet.rows for cell in line]
+        assert sum(formula in str(cell) for cell in cells) == 1
+        printed = [
+            plain(cell.inlines, language) for table in answer_tables(found) for line in table.rows for cell in line
+        ]
+        assert sum(formula in cell for cell in printed) == 1
+
+
+def test_no_row_leaves_its_formula_to_be_guessed() -> None:
+    """Words that only point to a formula are gone."""
+    for name in FILES:
+        if "/" in name:
+            for row in key(name, "en").rows:
+                assert "formula gives" not in plain(row.described, "en")
+
+
+def test_velocities_of_a_train_name_their_points() -> None:
+    for language, words in (
+        ("en", ("A, where wheel 1", "B, on the axis")),
+        ("vi", ("điểm A, tâm ăn khớp", "điểm B trên")),
+    ):
+        found = key("gears/train-double", language)
+        for id, said in zip(("train.v.A", "train.v.B"), words, strict=True):
+            assert said in found.row(id).what
