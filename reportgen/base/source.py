@@ -93,6 +93,19 @@ class Source:
     faults: tuple[Fault, ...] = ()
 
 
+def scalars(node: Node | None) -> Iterator[Scalar]:
+    """All texts of a table."""
+    match node:
+        case Scalar():
+            yield node
+        case SequenceNode(items):
+            for item in items:
+                yield from scalars(item)
+        case MappingNode(entries):
+            for _, value in entries:
+                yield from scalars(value)
+
+
 def read_source(path: Path) -> Source:
     """The nodes of a file; every fault of its bytes and syntax is in `faults`, none is raised."""
     text = text_in(path)

@@ -15,6 +15,8 @@ from decimal import Decimal
 from functools import cache
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
+from reportgen.base.shown import shown
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -91,6 +93,7 @@ _TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])
 """Powers no unit has: of two digits, or of a power, which take for ever to work out (m^9^9^9)."""
 
 
+@shown("si")
 @dataclass(frozen=True, slots=True)
 class Given:
     """A quantity as it was given: `si` for computing; `value`, `unit` and `text` as typed."""

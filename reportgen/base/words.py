@@ -18,21 +18,20 @@ from functools import cache, lru_cache
 from hashlib import sha256
 from itertools import pairwise
 from pathlib import Path
-from string import Formatter
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
+from reportgen.base.gaps import filled, gaps, plain_gaps
 from reportgen.base.source import (
     MappingNode,
-    Node,
     Scalar,
-    SequenceNode,
     Source,
     at,
     path_text,
     plain,
     read_own,
     read_words,
+    scalars,
     text_in,
 )
 from reportgen.base.units import Language
@@ -43,6 +42,8 @@ LONGEST_SHOWN = 40
 
 FILE = "words.yaml"
 SECTION = "words"
+LONGEST = 2000
+"""Characters of a school's word; the program's own have up to 340."""
 FILES = 32
 """How many tables of words are kept."""
 
@@ -165,35 +166,20 @@ def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
 
 @lru_cache(maxsize=FILES)
 def _as_written(section: Passage, place: Path) -> Mapping[str, Any]:
-    """The words that a section holds.  Raises `TemplateError` for a gap that is filled with more than a value."""
+    """The words that a section holds.
+
+    Raises `TemplateError` for a gap that is filled with more than a value, and for a text that is too long.
+    """
     source = read_own(section.text, str(section.file))
-    for scalar in _scalars(source.top):
-        if not _plain_gaps(scalar.text):
-            mark = _below(scalar.mark, section.line)
-            raise TemplateError(f"{mark}: {word('template_unsafe', _of_file(place))}")
+    for scalar in scalars(source.top):
+        for key, sound in (
+            ("template_unsafe", plain_gaps(scalar.text)),
+            ("template_word", len(scalar.text) <= LONGEST),
+        ):
+            if not sound:
+                told = word(key, of_file(place), longest=LONGEST)
+                raise TemplateError(f"{_below(scalar.mark, section.line)}: {told}")
     return _table(source, section.line)
-
-
-def _scalars(node: Node | None) -> Iterator[Scalar]:
-    """All texts of a table."""
-    match node:
-        case Scalar():
-            yield node
-        case SequenceNode(items):
-            for item in items:
-                yield from _scalars(item)
-        case MappingNode(entries):
-            for _, value in entries:
-                yield from _scalars(value)
-
-
-def _plain_gaps(text: str) -> bool:
-    """Whether the gaps in braces name values: a hidden member or an item of one, or a width, would be more."""
-    try:
-        named = [(name, how) for _, name, how, _ in Formatter().parse(text) if name]
-    except ValueError:
-        return False
-    return not any(re.search(r"\[|(^|\.)_", name) or re.search(r"[{\d]", how or "") for name, how in named)
 
 
 class _Word(str):
@@ -204,12 +190,9 @@ class _Word(str):
     def format(self, *values: object, **named: object) -> str:
         """As that of a text.  Raises `TemplateError`."""
         try:
-            return super().format(*values, **named)
+            return filled(self, values, named)
         except (AttributeError, LookupError, TypeError, ValueError) as error:
-            text = word(
-                "template_gap", _of_file(Path(self.mark.file)), text=_shown(self), known=", ".join(named) or "–"
-            )
-            raise TemplateError(f"{self.mark}: {text}") from error
+            raise TemplateError(f"{self.mark}: {unfilled(self, named, of_file(Path(self.mark.file)))}") from error
 
     def __str__(self) -> str:
         return self
@@ -218,7 +201,20 @@ class _Word(str):
         return str, (self[:],)
 
 
-def _of_file(file: Path) -> Language:
+def unfilled(text: str, known: Iterable[str], language: Language) -> str:
+    """What is said of a gap that nothing fills."""
+    return word("template_gap", language, text=_shown(text), known=", ".join(known) or "–")
+
+
+def place_of(text: str, words: Any) -> Mark | None:
+    """Where a text stands among words; None where it does not."""
+    if isinstance(words, _Word):
+        return words.mark if words == text else None
+    inner = words.values() if isinstance(words, Mapping) else words if isinstance(words, list) else ()
+    return next(filter(None, (place_of(text, one) for one in inner)), None)
+
+
+def of_file(file: Path) -> Language:
     """The language of a file of templates."""
     return "en" if "en" in (file.stem, file.parent.name, file.parent.parent.name) else DEFAULT_LANGUAGE
 
@@ -255,7 +251,7 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
             section = sections(place)[SECTION]
             node = at(read_own(section.text).top, here)
             line = section.line + (node.mark.line if node else 0)
-            raise TemplateError(f"{place}:{line}: {word('template_form', _of_file(place), text=path_text(here))}")
+            raise TemplateError(f"{place}:{line}: {word('template_form', of_file(place), text=path_text(here))}")
         result[key] = _over(common, value, place, here) if isinstance(value, Mapping) else value
     return result | {key: value for key, value in below.items() if key not in result}
 
@@ -356,11 +352,6 @@ def unknown(key: str, text: str, known: Sequence[str], language: Language | None
     return f"{word(key, language, text=_shown(text))}: {hint.format(**near)}"
 
 
-def gaps(template: str) -> set[str]:
-    """The names of what fills a text in."""
-    return {name for _, name, _, _ in Formatter().parse(template) if name}
-
-
 def _shown(text: str) -> str:
     """A piece of the file as it can stand in a message: one line, no control characters, not endless."""
     clean = "".join("\N{REPLACEMENT CHARACTER}" if unicodedata.category(c) in {"Cc", "Cs"} else c for c in text)
@@ -402,8 +393,14 @@ def sections(file: Path) -> Mapping[str, Passage]:
     return _sections_of(file, about.st_mtime_ns, about.st_size)
 
 
+_NAME = re.compile(r"[\w-]+(/[\w-]+)?")
+"""A section's name, perhaps with that of its file before it; a way to anywhere else is none."""
+
+
 def find(name: str, places: Sequence[Path]) -> Passage | None:
     """The section of this name in the first of some places (files, folders) that has it."""
+    if not _NAME.fullmatch(name):
+        return None
     found = (sections(file).get(section) for file, section in (home(name, place) for place in places))
     return next(filter(None, found), None)
 
@@ -447,7 +444,7 @@ def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
     """The sections of a file, read once for as long as it stays the same."""
     text = text_in(file)
     if isinstance(text, Fault):
-        raise TemplateError(str(as_problem(text, _of_file(file))))
+        raise TemplateError(str(as_problem(text, of_file(file))))
     lines = re.split(r"\r\n?|\n", text)
     headings = [number for number, line in enumerate(lines, start=1) if line.startswith(HEADING)]
     found: dict[str, Passage] = {}

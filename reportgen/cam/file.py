@@ -23,6 +23,7 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
+from reportgen.base.shown import view
 from reportgen.base.units import MM, Given
 from reportgen.cam import design
 from reportgen.cam.design import CamLimits, Least, NoCamError
@@ -343,6 +344,7 @@ def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 
 
+@view()
 @dataclass(frozen=True)
 class Judged:
     """The largest pressure angles (rad) with where they are, the least radii of curvature (m) and the largest one."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+from reportgen.base.shown import view
 from reportgen.base.units import MM
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
@@ -34,6 +35,7 @@ DUST = 1e-12
 NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
 
 
+@view()
 @dataclass(frozen=True)
 class LawView:
     """The law of a phase: its words' key, and its formulas piece by piece with the angles between which they hold."""
@@ -43,6 +45,7 @@ class LawView:
     table: tuple[Table, ...]
 
 
+@view()
 @dataclass(frozen=True)
 class ImpactView:
     """Impacts of one kind, and the angles at which they are."""

@@ -16,6 +16,7 @@ import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.base.errors import Finding
+from reportgen.base.shown import view
 from reportgen.base.units import nice_up
 from reportgen.catalogue import linkage_checks
 from reportgen.catalogue import linkage_file as file
@@ -278,6 +279,7 @@ def _law(
 # Rows of plain values, quantities as they were typed.
 
 
+@view("drawing")
 @dataclass(frozen=True, slots=True)
 class GroupRow:
     """A group: its links, kind, joints and the lengths of its rods, each with its ends."""
@@ -320,6 +322,7 @@ class PointRow:
     across: Number
 
 
+@view("phrase", "table")
 @dataclass(frozen=True, slots=True)
 class LoadRow:
     """A load: its link, how it is given, where and in which direction it acts, its size or its table."""
@@ -356,6 +359,7 @@ class LoadRow:
         return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
 
 
+@view()
 @dataclass(frozen=True, slots=True)
 class MotionRow:
     """How a link moves: "rotation" about a fixed point, "translation" along a fixed guide,

@@ -10,6 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from reportgen.base.shown import view
 from reportgen.base.units import Given
 from reportgen.exercise import file
 from reportgen.exercise.figures import FIGURES
@@ -210,6 +211,7 @@ def names(case: SolvedExercise) -> Mapping[str, Any]:
     }
 
 
+@view()
 @dataclass(frozen=True)
 class GivenItem:
     """A given quantity: the key of its words, and what they name."""
@@ -222,16 +224,18 @@ class GivenItem:
     time: Inlines = ()
 
 
+@view()
 @dataclass(frozen=True)
 class BodyItem:
-    """A body: the points that move with it, and centre and radius of its disc if it is one."""
+    """A body: what it is called, the points that move with it, and centre and radius of its disc if it is one."""
 
-    body: int
+    name: str
     points: Inlines
     centre: NamedPoint | None = None
     radius: Number | Expression | None = None
 
 
+@view()
 @dataclass(frozen=True)
 class JointItem:
     """A joint: the key of its words, its points, its bodies in words, and a direction."""
@@ -272,13 +276,17 @@ class SolutionPage(Solution):
         return tuple(self._body(number, one) for number, one in self.case.exercise.given.bodies.items())
 
     def _body(self, number: int, one: file.BodyOf) -> BodyItem:
-        points = listed(InlineMath(vocabulary.point(name)) for name in one.points)
+        name, points = self._called(number), listed(InlineMath(vocabulary.point(name)) for name in one.points)
         if one.disc is None:
-            return BodyItem(number, points)
+            return BodyItem(name, points)
         given = one.disc.radius
         number_typed = Number(float(f"{given.value:.{TYPED}g}"), None, pretty(given.unit))
         radius = lettered(given.formula) if isinstance(given, Literal) else number_typed
-        return BodyItem(number, points, NamedPoint(one.disc.centre), radius)
+        return BodyItem(name, points, NamedPoint(one.disc.centre), radius)
+
+    def _called(self, body: int) -> str:
+        words = self.case.words["instant"]
+        return str(words["body"]).format(body) if body else str(words["ground"])
 
     @property
     def joints(self) -> tuple[JointItem, ...]:
@@ -286,14 +294,11 @@ class SolutionPage(Solution):
         return tuple(self._joint(one) for one in self.case.exercise.given.joints)
 
     def _joint(self, joint: file.Joint) -> JointItem:
-        words, told = (
-            self.case.words["instant"],
-            joint.model_dump(include={"at", "point", "through"}, exclude_none=True),
-        )
+        told = joint.model_dump(include={"at", "point", "through"}, exclude_none=True)
         points = [NamedPoint(name) for name in (*told.values(), *getattr(joint, "points", ()))]
         numbers = [getattr(joint, key) for key in ("body", "disc", "on") if hasattr(joint, key)]
         numbers += getattr(joint, "bodies", getattr(joint, "discs", ()))
-        names = [str(words["body"]).format(n) if n else str(words["ground"]) for n in numbers]
+        names = list(map(self._called, numbers))
         form = joint.type.replace(" ", "-") + ("-crossed" if getattr(joint, "crossed", False) else "")
         return JointItem(form, points, names, self._direction(joint) if isinstance(joint, file.Directed) else ())
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.shown import view
 from reportgen.base.units import MM
 from reportgen.exercise.board import Axis, Step, Vector
 from reportgen.exercise.centres import SAME_PLACE
@@ -29,6 +30,7 @@ AT = 1
 COORDINATES = ("x", "y")
 
 
+@view()
 @dataclass(frozen=True)
 class StepView:
     """A step as templates name it."""
@@ -74,6 +76,7 @@ class StepView:
     """Whether the distance of the outer ends of two bodies is told."""
 
 
+@view()
 @dataclass(frozen=True)
 class Unfound:
     """What is asked and a method does not lead to by itself; the reason is the key of its words."""
@@ -82,6 +85,7 @@ class Unfound:
     symbols: Inlines
 
 
+@view()
 @dataclass(frozen=True)
 class FurtherView:
     """A further solution as templates name it."""

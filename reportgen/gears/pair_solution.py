@@ -11,22 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula import (
-    PI,
-    Expression,
-    Operand,
-    Ref,
-    Symbol,
-    acos,
-    arcinv,
-    as_expression,
-    cos,
-    ids,
-    refs,
-    sin,
-    substitute,
-    tan,
-)
+from reportgen.formula import PI, Expression, Operand, Ref, Symbol, acos, arcinv, cos, ids, refs, sin, tan
 from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet

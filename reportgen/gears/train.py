@@ -18,6 +18,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.shown import shown
+
 Wholes = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
@@ -233,6 +235,7 @@ def coaxial(demand: Demand) -> Iterator[Wholes]:
         yield np.column_stack((np.full(kept.sum(), one), two[kept], other[kept], three[kept]))
 
 
+@shown("first", "left")
 @dataclass(frozen=True, eq=False)
 class TrainChoice:
     """All tooth numbers [N, 4] that a demand finds, by size; how many are left after each condition."""

@@ -15,9 +15,10 @@ import numpy as np
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
+from reportgen.base.gaps import gaps
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, gaps, load_words, search_path
+from reportgen.base.words import as_error, close_or_known, load_words, search_path
 from reportgen.formula import Expression, Number, Symbol, ids, refs, substitute, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula

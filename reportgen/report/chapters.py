@@ -50,7 +50,7 @@ def variant_words(report: Report) -> str:
 def attached(report: Report) -> str:
     """A further sentence on the drawing sheets that are handed in with the report, if there are any."""
     size = report.assignment.report.sheets
-    return f" {report.words['attached']}".format(size=size) if size else ""
+    return f" {report.words['attached'].format(size=size)}" if size else ""
 
 
 def signature(report: Report) -> tuple[Block, ...]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reportgen.base.shown import view
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND
 from reportgen.report import InlineMath, Inlines, Text, Value, listed
@@ -22,6 +23,7 @@ AT_REST = 1e-9
 """A velocity below this share of its greatest value is zero."""
 
 
+@view("place")
 @dataclass(frozen=True, slots=True)
 class Peak:
     """Quantities that go alike over positions: their greatest size and where that is, where they are zero.
@@ -276,6 +278,7 @@ def balance_mean(report: Report) -> Inlines:
     return say(report, words[balance_course(report).mean], driven, motion=driven["motion_of"])
 
 
+@view()
 @dataclass(frozen=True, slots=True)
 class Range:
     """The least and the greatest of a quantity over the cycle with their positions."""
@@ -300,6 +303,7 @@ def work_range(report: Report) -> Range:
 # --- remarks
 
 
+@view()
 @dataclass(frozen=True, slots=True)
 class Remark:
     """A sentence about one quantity or several that go alike: their symbols, how they go, and why."""

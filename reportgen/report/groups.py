@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from reportgen.base.shown import shown, view
 from reportgen.formula import ids, refs
 from reportgen.formula.ids import Name
 from reportgen.formula.ledger import Ledger
@@ -17,6 +18,7 @@ from reportgen.plans.sides import Scheme, Side, image, sides
 from reportgen.report.prose import NamedPoint
 
 
+@shown("__str__", "name", "link")
 @dataclass(frozen=True, slots=True)
 class PointView:
     """A named point on a link, e.g. a mass centre."""
@@ -33,6 +35,11 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
     return tuple(PointView(NamedPoint(place.name), link) for place in linkage.points if place.link == link)
 
 
+@shown(
+    *("centre", "pin", "others", "names", "arm", "kind", "rate", "drawn", "velocity"),
+    *("velocity_segment", "acceleration_segment", "round_velocity", "round_acceleration"),
+    *("velocity_lines", "acceleration_lines", "scale_lines"),
+)
 class DriverView:
     """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
 
@@ -62,6 +69,7 @@ class DriverView:
         self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
 
 
+@view("base", "omega", "epsilon")
 @dataclass(frozen=True, slots=True)
 class CarriedPoint:
     """A point of a link that turns about `origin` without a segment of its own on the plan.
@@ -90,6 +98,7 @@ class CarriedPoint:
         return ids.angular_acceleration(self.link)
 
 
+@view("reaction", "lines")
 @dataclass(frozen=True, slots=True)
 class Contact:
     """The reaction `digits` of a slide on `link`: `moment` and `place` are the ids of its moment about the
@@ -115,6 +124,14 @@ class Contact:
         return [*self.moments, self.place]
 
 
+@shown(
+    *("__str__", "kind", "form", "i", "j", "P", "Q", "T", "M", "one", "two", "sides", "relative", "rod", "drawn"),
+    *("carrier", "outer", "inner", "guide", "across", "name", "scale", "offset", "points_i", "points_j", "points"),
+    *("unknowns", "normal_by_segments", "moving", "under", "turning", "normals", "velocity_lines"),
+    *("acceleration_lines", "carried", "similar", "relative_segment"),
+    *("polygon", "outer_lines", "guide_lines", "slot_lines", "reactions", "joints", "contacts", "across_by_moments"),
+    *("pulls_across", "components", "last_known", "last_of_j"),
+)
 class GroupView:
     """An Assur group as templates name it.
 
@@ -397,6 +414,7 @@ class GroupView:
         return self.polygon.reads[-1].end
 
 
+@view("force")
 @dataclass(frozen=True, slots=True)
 class BodyView:
     """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""
@@ -417,6 +435,10 @@ class BodyView:
         return ids.inertia_couple(self.link)
 
 
+@shown(
+    *("__str__", "link", "rod", "group", "base", "point", "omega", "velocities", "rates"),
+    *("distances", "angles", "projections"),
+)
 class PlaneLink:
     """A link in plane motion: its number, two points with drawn velocities, their `rod` and their `group`.
 

@@ -11,13 +11,17 @@ import secrets
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import accumulate
+from pathlib import Path
 from typing import cast, get_args
 
 from markdown_it import MarkdownIt
+from markdown_it.token import Token
 from markdown_it.tree import SyntaxTreeNode
 
 from reportgen import report as tree
 from reportgen.base.errors import TemplateError
+from reportgen.base.words import of_file, word
 
 SECRET = str(secrets.randbelow(10**18)).zfill(18)
 """Drawn anew in every process, so that no user's text can imitate a mark or a token; it never reaches the result."""
@@ -53,6 +57,8 @@ class Rendered:
 
 _BLOCKS = get_args(tree.Block)
 _DEEPEST = 4
+MOST_NESTED = 12
+"""Lists and what else stands in another; the parser itself reads no more than 20."""
 
 _UNKNOWN = {
     "code_inline": "inline code",
@@ -79,8 +85,23 @@ _Item = str | tree.Inline | _Piece
 
 def blocks(rendered: Rendered) -> tuple[tree.Block, ...]:
     """The blocks of a rendered template; raises `TemplateError` for what is not in the vocabulary."""
-    root = SyntaxTreeNode(_parser().parse(rendered.text))
-    return tuple(_Reader(rendered).blocks(root))
+    tokens = _parser().parse(rendered.text)
+    if (line := _too_deep(tokens)) is not None:
+        file, number = rendered.lines[line]
+        raise TemplateError(f"{file}:{number}: {word('template_depth', of_file(Path(file)))}")
+    return tuple(_Reader(rendered).blocks(SyntaxTreeNode(tokens)))
+
+
+def _too_deep(tokens: Sequence[Token]) -> int | None:
+    """The line in which more stands within one another than may; None where nothing does."""
+    level = line = 0
+    for token in tokens:
+        line = token.map[0] if token.map else line
+        level += token.nesting
+        steps = (child.nesting for child in token.children or ())
+        if level + max(accumulate(steps), default=0) > MOST_NESTED:
+            return line
+    return None
 
 
 def inlines(rendered: Rendered) -> tree.Inlines:

@@ -13,6 +13,7 @@ from functools import partial
 from itertools import chain
 from typing import Any
 
+from reportgen.base.shown import shown
 from reportgen.machine.analysis import Position
 from reportgen.report import (
     Block,
@@ -98,6 +99,7 @@ PROPERTIES = (
     "speed_in_rpm",
 )
 """Properties of the `Report`."""
+shown(*PROPERTIES)(Report)
 
 VALUES: Mapping[str, Callable[[Report], Any]] = {
     # the assignment, in words
@@ -214,7 +216,8 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
         group = next((one for one in shown if isinstance(one, GroupView)), None)
         position = next((one for one in shown if isinstance(one, Position)), None)
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
-        caption = report.words["captions"][words or name].format(k=position, g=group)
+        links = {"i": group.i, "j": group.j} if group else None
+        caption = report.words["captions"][words or name].format(k=position, g=links)
     drawn = draw(report, *shown)
     if drawn.paper is None and not drawn.turned and not report.parts("usual-type"):
         drawn = replace(drawn, scenes=tuple(map(close, drawn.scenes)))

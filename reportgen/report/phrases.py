@@ -6,12 +6,17 @@ one group or of several.  Gaps in braces are filled with members of what the phr
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence, Sized
+from collections.abc import Collection, Mapping, Sequence, Sized
+from contextlib import suppress
 from math import degrees
 from string import Formatter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
+from reportgen.base.errors import TemplateError
+from reportgen.base.shown import member
+from reportgen.base.shown import text as as_text
 from reportgen.base.units import MM
+from reportgen.base.words import place_of, unfilled
 from reportgen.formula import Chain, Expression, Number, Symbol, ids, vocabulary
 from reportgen.machine.loads import ConstantLaw, Law, Opposing, TableLaw
 from reportgen.plans.motion import POLES
@@ -27,11 +32,19 @@ if TYPE_CHECKING:
 
 
 def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
-    """A phrase of `words.yaml` whose gaps are filled by name, or with members of what it is about."""
+    """A phrase of `words.yaml` whose gaps are filled by name, or with shown members of what it is about.
+
+    Raises `TemplateError`, or `ValueError` for a phrase of a template, where nothing fills a gap.
+    """
     said: list[Inline] = []
-    for text, name, how, _ in Formatter().parse(str(phrase)):
-        said += [Text(text)] if text else []
-        said += _gap(report, name, how or "", about, gaps) if name else ()
+    try:
+        for text, name, how, _ in Formatter().parse(str(phrase)):
+            said += [Text(text)] if text else []
+            said += _gap(report, name, how or "", about, gaps) if name else ()
+    except (LookupError, TypeError, ValueError) as error:
+        told = unfilled(phrase, gaps, report.assignment.language)
+        mark = place_of(phrase, report.words)
+        raise (TemplateError(f"{mark}: {told}") if mark else ValueError(told)) from error
     return tuple(said)
 
 
@@ -41,8 +54,11 @@ def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mappin
     A quantity is named as between dollar signs in a template: `{e}` is its symbol, `{e:value}` its number and
     `{e:quantity}` both.
     """
-    for found in [gaps[name]] if name in gaps else _members(about, name):
-        return inlines(found)
+    if name in gaps:
+        return inlines(gaps[name])
+    for one in about:
+        with suppress(LookupError):
+            return inlines(member(one, name))
     if name.startswith("@"):
         return (Reference(name[1:]),)
     if how == "quantity":
@@ -50,29 +66,23 @@ def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mappin
     return (value(report, name),) if how == "value" else (InlineMath(math(report, name)),)
 
 
-def _members(about: Sequence[Any], name: str) -> Iterator[Any]:
-    """What has this name among the members of some objects, or the entries of tables of words."""
-    for one in about:
-        if isinstance(one, Mapping):
-            yield from [one[name]] if name in one else []
-        elif not name.startswith("_") and hasattr(one, name):
-            yield getattr(one, name)
-
-
 def inlines(of: Any) -> Inlines:
-    """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text."""
+    """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text.
+
+    Raises `TypeError` for what has no place in a text.
+    """
     if isinstance(of, NamedPoint):
         return (InlineMath(vocabulary.point(of)),)
     if isinstance(of, Number):
         return (Value(of),)
     if isinstance(of, Expression):
         return (InlineMath(of),)
-    if isinstance(of, (str, int)):
-        return (Text(str(of)),)
-    return of if isinstance(of, tuple) else (of,)
+    if isinstance(of, tuple):
+        return tuple(part for one in of for part in inlines(one))
+    return (of,) if isinstance(of, get_args(Inline)) else (Text(as_text(of)),)
 
 
-def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
+def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> Inlines:
     """A phrase about so many things, by its words for one and for many, or by one for both; nothing for none.
 
     The words may have gaps for their `count`, and for the `list` of them.
@@ -81,8 +91,9 @@ def counted(report: Report, name: str, things: Sized, **gaps: Any) -> Inlines:
         return ()
     words = report.words["counted"][name]
     phrase = words if isinstance(words, str) else words[len(things) > 1]
-    listed = ", ".join(map(str, things)) if isinstance(things, Sequence) else ""
-    return say(report, phrase, count=len(things), list=listed, **gaps)
+    with suppress(TypeError):
+        gaps["list"] = ", ".join(map(as_text, things))
+    return say(report, phrase, **{"count": len(things), **gaps})
 
 
 def shown_smaller(report: Report, times: float, name: str) -> Inlines:
@@ -99,9 +110,9 @@ def sign(report: Report, id: str, position: int | None = None) -> str:
     return "zero" if number == 0 else "negative" if number < 0 else "positive"
 
 
-def stop(report: Report, loop: Any, *further: Sized) -> str:
+def stop(report: Report, loop: Mapping[str, Any], *further: Sized) -> str:
     """What ends an item of a list: a full stop after the last one, if nothing `further` follows it."""
-    return "." if loop.last and not any(map(len, further)) else ";"
+    return "." if loop["last"] and not any(map(len, further)) else ";"
 
 
 # --- words by what the report has

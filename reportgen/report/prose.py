@@ -15,10 +15,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from contextvars import ContextVar
 from dataclasses import asdict, dataclass, field, replace
-from functools import lru_cache, partial
+from functools import lru_cache
 from pathlib import Path
 from pickle import UnpicklingError
-from types import ModuleType
 from typing import Any
 
 from jinja2 import (
@@ -33,19 +32,31 @@ from jinja2 import (
 from jinja2.bccache import Bucket
 from jinja2.exceptions import SecurityError
 from jinja2.ext import Extension
-from jinja2.lexer import Token, TokenStream
+from jinja2.lexer import Token as Sign
+from jinja2.lexer import TokenStream
 from jinja2.runtime import Context
-from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import pass_context
 
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
 from reportgen.base.limits import TEMPLATES, LimitError
+from reportgen.base.shown import shown
 from reportgen.base.units import MINUS, Language
-from reportgen.base.words import find, home, of_school, refuse_strangers, word
+from reportgen.base.words import find, home, refuse_strangers, word
 from reportgen.formula import Expression, Number, vocabulary
-from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, markdown
+from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
+from reportgen.report.dialect import (
+    LONGEST,
+    MOST_ITEMS,
+    MOST_STEPS,
+    Dialect,
+    TooMuchError,
+    UnknownSignError,
+    numbers,
+    short,
+)
 from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
+from reportgen.report.values import PLAIN, Function, Token, Values, held
 
 _PRIVATE = re.compile("[\ue000-\ue004]")
 _PIECE = re.compile(
@@ -62,10 +73,15 @@ _values: ContextVar[list[Emitted]] = ContextVar("values")
 """What the templates being rendered have emitted so far."""
 
 
+LARGEST_OUTPUT = 30_000_000
+"""Characters of a section with its marks, of which a short piece has more than words."""
+LONGEST_TOLD = 200
+"""Characters of an error that are told."""
 ENVIRONMENTS = 8
 """How many search paths (language, kind, school) keep their compiled templates."""
 
 
+@shown("__str__")
 class NamedPoint(str):
     """The name of a point, which templates print as its symbol."""
 
@@ -81,6 +97,7 @@ class Prose:
     def __init__(self, places: tuple[Path, ...]) -> None:
         refuse_strangers(places)
         self.places = places
+        self.values = Values()
 
     def render(self, name: str, names: Mapping[str, object]) -> tuple[Block, ...]:
         """The blocks of the section `name` ("foreword") with `names` filled in.
@@ -88,7 +105,13 @@ class Prose:
         Strings appear as they are, expressions as formulas, numbers with their unit, inlines and blocks
         as themselves, sequences item by item.  Raises `TemplateError` (`file:line: message`) on any fault.
         """
-        found = markdown.blocks(_render(self.places, name, names))
+        outer, steps = held.set(self.values), self.values.steps
+        self.values.steps = 0
+        try:
+            found = markdown.blocks(_render(self.places, name, self.values.names({**GLOBALS, **names})))
+        finally:
+            held.reset(outer)
+            self.values.steps = steps
         first = found[0] if found else None
         return (replace(first, opens=name), *found[1:]) if isinstance(first, Section) else found
 
@@ -110,8 +133,7 @@ class _Compiled(BytecodeCache):
     The number in the marks is another one in each process; what is kept has `NUMBER` in its place.
     """
 
-    def __init__(self, environment: str) -> None:
-        self.environment = environment
+    def __init__(self) -> None:
         self.codes: dict[str, bytes] = {}
 
     def load_bytecode(self, bucket: Bucket) -> None:
@@ -128,11 +150,12 @@ class _Compiled(BytecodeCache):
         keep(self._kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
 
     def _kept_as(self, bucket: Bucket) -> str:
-        # The code that a template becomes depends on what this module does with it, and on whether it is bounded.
-        return f"{self.environment}-{Path(__file__).stat().st_mtime_ns:x}-{bucket.key}"
+        # The code that a template becomes depends on what these modules do with it.
+        changed = max(Path(file).stat().st_mtime_ns for file in (__file__, dialect.__file__))
+        return f"template-{changed:x}-{bucket.key}"
 
 
-_compiled, _bounded = _Compiled("template"), _Compiled("bounded")
+_compiled = _Compiled()
 
 
 class _Sections(BaseLoader):
@@ -149,39 +172,13 @@ class _Sections(BaseLoader):
         return above + found.text, str(found.file), lambda: find(template, self.places) == found
 
 
-SAFE = frozenset({"builtins", "jinja2", "reportgen"})
-"""Packages whose values a school's template may ask for attributes, and whose functions it may call."""
-
-
-class _Sandbox(ImmutableSandboxedEnvironment):
-    """For a school's templates: nothing that begins with `_`, is changed in place, or comes of other packages.
-
-    An array can write itself to a file, and a path removes it.
-    """
-
-    def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
-        known = _package(type(obj)) in SAFE and not isinstance(obj, ModuleType)
-        return known and super().is_safe_attribute(obj, attr, value)
-
-    def is_safe_callable(self, obj: Any) -> bool:
-        owner = getattr(obj, "__self__", None)
-        # A partial is a name of the report; templates cannot make one.
-        known = isinstance(obj, partial) or _package(obj if owner is None else type(owner)) in SAFE
-        return known and super().is_safe_callable(obj)
-
-
-def _package(of: object) -> str:
-    return str(getattr(of, "__module__", "")).partition(".")[0]
-
-
 @lru_cache(maxsize=ENVIRONMENTS)
-def _environment(places: tuple[Path, ...]) -> Environment:
+def _environment(places: tuple[Path, ...]) -> Dialect:
     """The environment of some places with its compiled sections; a section that was changed is read again."""
-    # What a school wrote may reach for anything, by way of the common sections, too.
-    environment, cache = (_Sandbox, _bounded) if of_school(places) else (Environment, _compiled)
-    result = environment(
+    return Dialect(
+        {"join": _join},
         loader=_Sections(places),
-        bytecode_cache=cache,
+        bytecode_cache=_compiled,
         extensions=[_Provenance],
         undefined=StrictUndefined,
         finalize=_finalize,
@@ -192,9 +189,6 @@ def _environment(places: tuple[Path, ...]) -> Environment:
         lstrip_blocks=True,
         keep_trailing_newline=True,
     )
-    result.filters["join"] = _join
-    result.globals.update(ref=_ref, key=_key, unnumbered=Unnumbered, blank=_blank, inlines=_inlines)
-    return result
 
 
 def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) -> Rendered:
@@ -202,31 +196,54 @@ def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) ->
     values: list[Emitted] = []
     outer = _values.set(values)
     try:
-        output = _environment(places).get_template(name).render(names)
-    except TemplateSyntaxError as error:
-        raise TemplateError(f"{error.filename or error.name}:{error.lineno}: {error.message}") from error
+        output = _within(_environment(places).get_template(name).generate(names))
     except TemplateNotFound as error:
-        own = next(place for place in places if place.is_relative_to(places[-1]))  # of the machine, if it has one
-        file, line = _origin(error, str(home(name, own)[0]))
+        file, line = _origin(error, places, name)
         raise TemplateError(f"{file}:{line}: there is no section {error.name}") from error
     except ReportgenError:
         raise
     except Exception as error:
-        file, line = _origin(error, name)
+        file, line = _origin(error, places, name)
         raise TemplateError(f"{file}:{line}: {_told(error, places)}") from error
     finally:
         _values.reset(outer)
-    return _assemble(output, name, values)
+    return _assemble(output, name, values, places)
+
+
+def _within(pieces: Iterable[str]) -> str:
+    """The pieces of a section in one, up to the one with which they pass any bound."""
+    found, size = [], 0
+    for piece in pieces:
+        found.append(piece)
+        size += len(piece)
+        if size > LARGEST_OUTPUT:
+            break
+    return "".join(found)
 
 
 def _told(error: Exception, places: tuple[Path, ...]) -> str:
-    language: Language = "en" if places[-1].name == "en" else "vi"
     match error:
-        case SecurityError():
-            return word("template_unsafe", language)
+        case TemplateSyntaxError() if not isinstance(error, UnknownSignError):
+            return error.message or type(error).__name__
+        case SecurityError() | UnknownSignError():
+            return word("template_unsafe", _language(places))
+        case RecursionError():
+            return word("template_depth", _language(places))
+        case TooMuchError():
+            return _too_much(places)
         case MemoryError() | LimitError():
-            return word("template_limits", language, **asdict(TEMPLATES))
-    return f"{type(error).__name__}: {error}"
+            return word("template_limits", _language(places), **asdict(TEMPLATES))
+    # What else an error holds may be a value of the program.
+    told = str(error) if all(type(one) in PLAIN for one in error.args) else ""
+    return f"{type(error).__name__}: {told[:LONGEST_TOLD]}"
+
+
+def _too_much(places: tuple[Path, ...]) -> str:
+    return word("template_long", _language(places), longest=LONGEST, items=MOST_ITEMS, steps=MOST_STEPS)
+
+
+def _language(places: tuple[Path, ...]) -> Language:
+    return "en" if places and places[-1].name == "en" else "vi"
 
 
 def _excerpt(fragment: str) -> Rendered:
@@ -236,7 +253,7 @@ def _excerpt(fragment: str) -> Rendered:
     """
     outer = _values.set(_values.get([]))
     try:
-        return _assemble(_emit(fragment), "", _values.get())
+        return _assemble(_emit(fragment), "", _values.get(), ())
     finally:
         _values.reset(outer)
 
@@ -252,6 +269,10 @@ def _finalize(context: Context, value: object) -> str:
 def _emit(value: object) -> str:
     """The text that stands for a value in the Markdown; raises `TypeError` for what has no place in words."""
     match value:
+        case Function():
+            raise TypeError("a function has no place in words")
+        case Token():
+            return _emit(held.get().own(value))
         case Undefined():
             return str(value)  # raises, naming what is undefined
         case NamedPoint():
@@ -275,6 +296,8 @@ def _emit(value: object) -> str:
 
 def _emit_text(text: str) -> str:
     """Marked parts of a string as they are, all between them as plain text."""
+    if len(text) > LARGEST_OUTPUT:
+        raise TooMuchError
     result, end = [], 0
     for piece in _PIECE.finditer(text):
         result += [_store_text(text[end : piece.start()]), piece.group()]
@@ -285,7 +308,7 @@ def _emit_text(text: str) -> str:
 def _store_text(text: str) -> str:
     if SECRET in text:
         raise ValueError("a filter has cut a piece of the template in two")
-    return _store(Text(text)) if text else ""
+    return _store(Text(short(text))) if text else ""
 
 
 def _store(value: Emitted) -> str:
@@ -294,11 +317,11 @@ def _store(value: Emitted) -> str:
     return f"\ue000{SECRET}:{len(values) - 1}\ue001"
 
 
-def _join(values: Iterable[object], separator: str = "") -> str:
+def _join(values: object, separator: str = "") -> str:
     """Strings joined to a string; anything else to be printed side by side, separated alike."""
-    parts = list(values)
+    parts = [held.get().own(part) for part in held.get().items(values)]
     if all(isinstance(part, (str, int)) for part in parts):
-        return separator.join(map(str, parts))
+        return short(separator.join(map(str, parts)))
     return _emit(separator).join(map(_emit, parts))
 
 
@@ -321,6 +344,17 @@ def _plain(text: str) -> str:
     return text
 
 
+GLOBALS: Mapping[str, Callable[..., Any]] = {
+    "ref": _ref,
+    "key": _key,
+    "unnumbered": Unnumbered,
+    "blank": _blank,
+    "inlines": _inlines,
+    "range": numbers,
+}
+"""The functions that every template may call."""
+
+
 # --- where things come from -----------------------------------------------------------------------
 
 
@@ -337,7 +371,7 @@ class _Provenance(Extension):
     def preprocess(self, source: str, name: str | None, filename: str | None = None) -> str:
         return _REFERENCE.sub(r'{{ ref("\1") }}', _MATH.sub(r'{{ math("\1") }}', source))
 
-    def filter_stream(self, stream: TokenStream) -> Iterator[Token]:
+    def filter_stream(self, stream: TokenStream) -> Iterator[Sign]:
         file = stream.filename or stream.name or ""
         for token in stream:
             if token.type == "data":
@@ -351,8 +385,8 @@ class _Provenance(Extension):
                 yield token
 
 
-def _static(line: int, file: str, text: str) -> Token:
-    return Token(line, "data", f"\ue002{SECRET}:{line}:{file}\ue003{text}\ue004")
+def _static(line: int, file: str, text: str) -> Sign:
+    return Sign(line, "data", f"\ue002{SECRET}:{line}:{file}\ue003{text}\ue004")
 
 
 @dataclass(slots=True)
@@ -373,10 +407,14 @@ class _Lines:
         self.text.append(static)
 
 
-def _assemble(output: str, name: str, values: Sequence[Emitted]) -> Rendered:
-    """The output without the marks of static text, and from them the origin of every line and token."""
+def _assemble(output: str, name: str, values: Sequence[Emitted], search: tuple[Path, ...]) -> Rendered:
+    """The output without the marks of static text, and from them the origin of every line and token.
+
+    Raises `TemplateError` for a text that a filter has cut, and for one that is too long.
+    """
     so_far, places = _Lines(lines=[(name, 1)]), {}
     place, end = (name, 1), 0
+    left = LONGEST if len(output) <= LARGEST_OUTPUT else 0
     for piece in _PIECE.finditer(output):
         if piece.start() != end:
             break
@@ -385,20 +423,35 @@ def _assemble(output: str, name: str, values: Sequence[Emitted]) -> Rendered:
             places[int(piece["value"])] = place
             so_far.text.append(piece.group())
             so_far.fresh = False
+            value = values[int(piece["value"])]
+            left -= len(value.text) if isinstance(value, Text) else 1
         else:
             line, static = int(piece["line"]), piece["static"]
             so_far.add(static, piece["file"], line)
             place = piece["file"], line + static.count("\n")
+            left -= len(static)
+        if left < 0:
+            raise TemplateError(f"{place[0]}:{place[1]}: {_too_much(search)}")
     if end != len(output):
         raise TemplateError(f"{place[0]}:{place[1]}: a filter has cut a piece of the template in two")
     return Rendered("".join(so_far.text), values, places, so_far.lines)
 
 
-def _origin(error: Exception, name: str) -> Place:
-    """The innermost line of a template that an exception passed through; Jinja puts them in the traceback."""
+def _origin(error: Exception, search: tuple[Path, ...], name: str) -> Place:
+    """The innermost line of a template that an exception passed through; Jinja puts them in the traceback.
+
+    Of one that was not even read, its own; of one that is nowhere, where it would be.
+    """
     frames = traceback.extract_tb(error.__traceback__)
     places = [(frame.filename, frame.lineno or 1) for frame in frames if frame.filename.endswith(".md")]
-    return places[-1] if places else (name, 1)
+    if isinstance(error, TemplateSyntaxError):
+        return error.filename or name, error.lineno
+    if places:
+        return places[-1]
+    if (found := find(name, search)) is not None:
+        return str(found.file), found.line
+    own = next(place for place in search if place.is_relative_to(search[-1]))  # of the machine, if it has one
+    return str(home(name, own)[0]), 1
 
 
 def lower_digits(text: str) -> str:

@@ -16,7 +16,7 @@ from reportgen.base.words import SAMPLE, SECTION, load_words, search_path, secti
 from reportgen.cases import opened
 from reportgen.report import Block
 from reportgen.report import outline as namespace
-from reportgen.report.prose import Prose, _environment
+from reportgen.report.prose import GLOBALS, Prose, _environment
 
 ROOT = templates()
 REPOSITORY = Path(__file__).parents[2]
@@ -101,7 +101,7 @@ def documented() -> set[str]:
 
 
 def test_every_name_that_a_template_uses_is_in_the_table() -> None:
-    known = handed("shaper-01.yaml") | bound(of_machines()) | set(environment().globals)
+    known = handed("shaper-01.yaml") | bound(of_machines()) | set(GLOBALS)
     assert {name: path for name, path in used(of_machines()).items() if name not in known} == {}
 
 
@@ -110,20 +110,18 @@ def test_every_name_in_the_table_is_used_or_explained() -> None:
 
 
 def test_every_name_that_is_explained_exists() -> None:
-    assert documented() - OF_REPORT - set(environment().globals) == set()
+    assert documented() - OF_REPORT - set(GLOBALS) == set()
 
 
 def test_no_name_stands_in_two_tables() -> None:
-    tables = (namespace.PROPERTIES, namespace.VALUES, namespace.FUNCTIONS, environment().globals)
-    # What every template has of Jinja itself is no name of ours.
-    own = [name for table in tables for name in table if name not in Environment().globals]
+    own = [*namespace.PROPERTIES, *namespace.VALUES, *namespace.FUNCTIONS, *GLOBALS]
     assert len(own) == len(set(own))
 
 
 @pytest.mark.parametrize("file", OTHERS)
 def test_the_templates_of_other_work_use_the_names_that_they_get_and_all_of_them(file: str) -> None:
     names, trees = handed(file), of_another(file)
-    known = names | bound(trees) | set(environment().globals)
+    known = names | bound(trees) | set(GLOBALS)
     assert {name: path for name, path in used(trees).items() if name not in known} == {}
     assert names - set(used(trees)) == set()
 

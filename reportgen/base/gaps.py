@@ -1,0 +1,58 @@
+"""The gaps of words, in braces: texts and numbers fill them, and nothing that is more than a value."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from numbers import Real
+from string import Formatter
+from typing import Any
+
+FILLS = (str, Real)
+"""What a gap is filled with."""
+_ENTRY = re.compile(r"\{[^{}]*[.\[!]")
+"""A gap that asks for more than a value."""
+
+
+def gaps(template: str) -> set[str]:
+    """The names of what fills a text in."""
+    return {name for _, name, _, _ in Formatter().parse(template) if name}
+
+
+def plain_gaps(text: str) -> bool:
+    """Whether the gaps in braces name values: an item of one, a width, or what Python would write, would be more."""
+    try:
+        named = [(name, how, turned) for _, name, how, turned in Formatter().parse(text) if name is not None]
+    except ValueError:
+        return False
+    return not any(
+        turned or re.search(r"\[|(^|\.)_", name) or re.search(r"[{\d]", how or "") for name, how, turned in named
+    )
+
+
+def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
+    """A text with its gaps filled.
+
+    Raises `LookupError`, `TypeError` or `ValueError` for one that nothing fills, or no text and no number.
+    """
+    if _ENTRY.search(text) or not all(isinstance(value, FILLS) for value in (*values, *named.values())):
+        return _Filling().vformat(text, values, named)
+    return str.format(text, *values, **named)
+
+
+class _Filling(Formatter):
+    """Fills the gaps of words with texts and numbers; a name after a point is that of an entry of a mapping."""
+
+    def get_field(self, field_name: str, args: Sequence[Any], kwargs: Mapping[str, Any]) -> tuple[Any, str]:
+        first, *entries = field_name.split(".")
+        value = self.get_value(int(first) if first.isdigit() else first, args, kwargs)
+        for entry in entries:
+            if not isinstance(value, Mapping):
+                raise LookupError(field_name)
+            value = value[entry]
+        return value, first
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        if not isinstance(value, FILLS):
+            raise TypeError(type(value).__name__)
+        return format(value, format_spec)

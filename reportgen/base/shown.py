@@ -1,0 +1,63 @@
+"""The one table of what words may name: of each type of the program, by its class, the members that are shown.
+
+Templates and the gaps of words see a value of such a type by these members alone; a type that is not in the table has
+none.  A mapping shows its entries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, TypeVar
+
+Shown = TypeVar("Shown", bound=type)
+
+MEMBERS: dict[type, frozenset[str]] = {}
+"""The members of each type; `__str__` among them says that a value of it stands in a text by its name."""
+
+FIELDS = "__dataclass_fields__"
+"""Where a dataclass has its fields, by their names."""
+_ALL: dict[type, frozenset[str]] = {}
+"""Those of a type and of its bases, of the types that were asked for."""
+
+
+def shown(*names: str) -> Callable[[Shown], Shown]:
+    """Shows these members of a class."""
+
+    def entered(of: Shown) -> Shown:
+        MEMBERS[of] = frozenset(names)
+        return of
+
+    return entered
+
+
+def view(*names: str) -> Callable[[Shown], Shown]:
+    """Shows the fields of a dataclass that is made for words, and these further members."""
+
+    def entered(of: Shown) -> Shown:
+        listed: Iterable[str] = getattr(of, FIELDS, ())
+        return shown(*listed, *names)(of)
+
+    return entered
+
+
+def members(of: type) -> frozenset[str]:
+    """The members that are shown of a type: its own and those of its bases."""
+    if of not in _ALL:
+        _ALL[of] = frozenset().union(*(MEMBERS.get(one, ()) for one in of.__mro__))
+    return _ALL[of]
+
+
+def member(of: object, name: str) -> Any:
+    """A shown member of a value, or the entry of a mapping.  Raises `LookupError` for any other."""
+    if isinstance(of, Mapping):
+        return of[name]
+    if name not in members(type(of)) or name.startswith("_"):
+        raise LookupError(name)
+    return getattr(of, name)
+
+
+def text(of: object) -> str:
+    """How a value stands in a text.  Raises `TypeError` for one that has no text."""
+    if isinstance(of, bool) or not (isinstance(of, (str, int)) or "__str__" in members(type(of))):
+        raise TypeError(f"a {type(of).__name__} has no place in a text")
+    return str(of)

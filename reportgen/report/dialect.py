@@ -1,0 +1,314 @@
+"""The language of templates: names, members, calls, conditions, loops, sections that are included, and no more.
+
+A template is judged where it is read: a sign that is not in the language is a fault with its line.  What is left
+works on what a template holds (`reportgen/report/values.py`) and nothing else; loops and texts have bounds.  What Jinja
+would do by itself, joining texts, going through a list, asking for a section, is done by functions of this module.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Mapping
+from itertools import chain
+from typing import Any
+
+from jinja2 import Environment, TemplateSyntaxError, Undefined, nodes
+from jinja2.runtime import Context, LoopContext
+from jinja2.visitor import NodeTransformer
+
+from reportgen.report.markdown import SECRET
+from reportgen.report.values import Token, held
+
+LONGEST = 400_000
+"""Characters of a text, as many as a file of templates may have bytes."""
+MOST_ITEMS = 10_000
+"""Items of a list, and numbers of a range."""
+MOST_STEPS = 100_000
+"""Steps of all loops of a section; 720 positions of a report have a tenth of them."""
+
+SIGNS = frozenset(
+    (
+        *(nodes.Template, nodes.Output, nodes.TemplateData, nodes.Include),
+        *(nodes.If, nodes.For, nodes.Assign, nodes.AssignBlock),
+        *(nodes.Name, nodes.Const, nodes.Tuple, nodes.List, nodes.Getattr, nodes.Getitem, nodes.Slice),
+        *(nodes.Call, nodes.Keyword, nodes.Filter, nodes.CondExpr, nodes.Not, nodes.And, nodes.Or),
+        *(nodes.Compare, nodes.Operand, nodes.Concat, nodes.Add, nodes.Sub, nodes.Neg),
+    )
+)
+"""All that a template may be made of."""
+OF_JINJA = frozenset(("self", "super", "caller", "varargs", "kwargs"))
+"""Names by which Jinja gives objects of its own."""
+
+
+class TooMuchError(Exception):
+    """A text or a list is longer, or loops go on for longer, than a template may."""
+
+
+class UnknownSignError(TemplateSyntaxError):
+    """A template has a sign that is not in the language."""
+
+
+class Dialect(Environment):
+    """Jinja with the language of templates, in the order in which it works: judge, rewrite, run."""
+
+    sandboxed = True  # calls go by way of `call`
+    intercepted_binops: frozenset[str] = frozenset()
+    intercepted_unops: frozenset[str] = frozenset()
+
+    def __init__(self, filters: Mapping[str, Callable[..., Any]], **options: Any) -> None:
+        super().__init__(**options)
+        self.known = {**FILTERS, **filters}
+        self.filters, self.tests, self.globals = {**self.known, **OWN}, {}, {}
+
+    def _parse(self, source: str, name: str | None, filename: str | None) -> nodes.Template:
+        tree = super()._parse(source, name, filename)
+        for node in chain([tree], tree.find_all(nodes.Node)):
+            if not _is_known(node, self.known):
+                raise UnknownSignError("", node.lineno, name, filename)
+        return tree
+
+    def _generate(self, source: nodes.Template, *arguments: Any, **named: Any) -> str:
+        rewritten = _Rewriting(self).visit(source)
+        return super()._generate(rewritten, *arguments, **named)
+
+    def getattr(self, obj: Any, attribute: str) -> Any:
+        return self.getitem(obj, attribute)
+
+    def getitem(self, obj: Any, argument: Any) -> Any:
+        """A member or an entry of what a token stands for, an item of a list or a text."""
+        try:
+            if isinstance(obj, Token):
+                return held.get().member(obj, argument)
+            if isinstance(obj, (tuple, str)) and isinstance(argument, int):
+                return _whole(obj)[argument]
+        except LookupError:
+            pass
+        if isinstance(obj, Undefined):
+            str(obj)
+        return self.undefined(hint=f"there is no {_said(argument)} here", name=_said(argument))
+
+    def call(self, _context: Context, called: Any, /, *arguments: Any, **named: Any) -> Any:
+        """What a function of the table gives; Jinja adds the variables of a loop, which no function takes."""
+        for variables in ("_loop_vars", "_block_vars"):
+            named.pop(variables, None)
+        return held.get().call(called, arguments, named)
+
+
+def _is_known(node: nodes.Node, filters: Container[str]) -> bool:
+    """Whether a sign is in the language."""
+    match node:
+        case nodes.Call():
+            named = isinstance(node.node, (nodes.Name, nodes.Getattr))
+            return named and node.dyn_args is None and node.dyn_kwargs is None
+        case nodes.Filter():
+            whole = node.node is not None and node.dyn_args is None and node.dyn_kwargs is None
+            return whole and node.name in filters
+        case nodes.Name(name=name) | nodes.Getattr(attr=name):
+            return not name.startswith("_") and name not in OF_JINJA
+        case nodes.Keyword(key=name):
+            return not name.startswith("_")
+        case nodes.For():
+            return not node.recursive
+        case nodes.AssignBlock():
+            return node.filter is None
+        case nodes.Include():
+            return bool(node.with_context) and not node.ignore_missing
+    return type(node) in SIGNS
+
+
+class _Rewriting(NodeTransformer):
+    """What Jinja would do with any object is done by the functions in `OWN`, whose names no template can write."""
+
+    def __init__(self, environment: Environment) -> None:
+        self.environment = environment
+
+    def _by(self, name: str, of: Any) -> nodes.Filter:
+        filtered = nodes.Filter(of, f" {name}", [], [], None, None, lineno=of.lineno)
+        return filtered.set_environment(self.environment)  # type: ignore[return-value]
+
+    def _list(self, *items: Any) -> nodes.Tuple:
+        made = nodes.Tuple(list(items), "load", lineno=items[0].lineno)
+        return made.set_environment(self.environment)  # type: ignore[return-value]
+
+    def visit_Concat(self, node: nodes.Concat) -> nodes.Node:
+        self.generic_visit(node)
+        return self._by("joined", self._list(*node.nodes))
+
+    def visit_Add(self, node: nodes.Add) -> nodes.Node:
+        self.generic_visit(node)
+        return self._by("sum", self._list(node.left, node.right))
+
+    def visit_Sub(self, node: nodes.Sub) -> nodes.Node:
+        self.generic_visit(node)
+        return self._by("difference", self._list(node.left, node.right))
+
+    def visit_List(self, node: nodes.List) -> nodes.Node:
+        self.generic_visit(node)
+        return nodes.Tuple(node.items, "load", lineno=node.lineno).set_environment(self.environment)
+
+    def visit_Getitem(self, node: nodes.Getitem) -> nodes.Node:
+        self.generic_visit(node)
+        if not isinstance(node.arg, nodes.Slice):
+            return node
+        ends = (node.arg.start, node.arg.stop, node.arg.step)
+        none = nodes.Const(None, lineno=node.lineno).set_environment(self.environment)
+        return self._by("part", self._list(node.node, *(end or none for end in ends)))
+
+    def visit_For(self, node: nodes.For) -> nodes.Node:
+        self.generic_visit(node)
+        node.iter = self._by("items", node.iter)
+        return node
+
+    def visit_Include(self, node: nodes.Include) -> nodes.Node:
+        self.generic_visit(node)
+        if not isinstance(node.template, nodes.Const) or not isinstance(node.template.value, str):
+            node.template = self._by("section", node.template)
+        return node
+
+    def visit_Name(self, node: nodes.Name) -> nodes.Node:
+        return self._by("place", node) if node.name == "loop" and node.ctx == "load" else node
+
+
+# --- what is done with values -----------------------------------------------------------------------
+
+
+def short(text: str) -> str:
+    """The text, if it is no longer than a text may be.  Raises `TooMuchError`."""
+    if len(text) > LONGEST:
+        raise TooMuchError
+    return text
+
+
+def _joined(parts: Iterable[Any]) -> str:
+    """`a ~ b`: texts, whole numbers, and what has a text of its own."""
+    return short("".join(map(held.get().text, parts)))
+
+
+def _number(value: Any) -> Any:
+    own = held.get().own(value)
+    return int(own) if isinstance(own, int) and not isinstance(own, bool) else own
+
+
+def _sum(of: tuple[Any, Any]) -> Any:
+    """`a + b` of two numbers, two texts, or two lists."""
+    match tuple(map(_number, of)):
+        case int(one), int(other):
+            return one + other
+        case str(one), str(other):
+            return short(one + other)
+        case tuple(one), tuple(other) if len(one) + len(other) <= MOST_ITEMS:
+            return held.get().plain(one + other)
+        case tuple(), tuple():
+            raise TooMuchError
+        case one, other:
+            raise TypeError(f"a {type(one).__name__} and a {type(other).__name__} have no sum")
+
+
+def _difference(of: tuple[Any, Any]) -> int:
+    match tuple(map(_number, of)):
+        case int(one), int(other):
+            return one - other
+        case one, other:
+            raise TypeError(f"a {type(one).__name__} and a {type(other).__name__} have no difference")
+    raise AssertionError
+
+
+def _items(of: Any) -> tuple[Any, ...]:
+    """What a loop goes through; counts its steps."""
+    values = held.get()
+    found = values.items(of)
+    values.steps += len(found)
+    if values.steps > MOST_STEPS:
+        raise TooMuchError
+    return found
+
+
+def _part(of: tuple[Any, ...]) -> Any:
+    """`a[b:c]` of a text or a list."""
+    value, *ends = of
+    if not isinstance(value, (str, tuple)):
+        raise TypeError(f"a {_type(value)} has no parts")
+    return _whole(value)[slice(*ends)]
+
+
+def _whole(value: Any) -> Any:
+    """The value, if no text of the template is in it.  Raises `ValueError`, since that would be cut in two."""
+    if isinstance(value, str) and SECRET in value:
+        raise ValueError("a piece of the template would be cut in two")
+    return value
+
+
+def _type(value: Any) -> str:
+    return type(held.get().own(value)).__name__
+
+
+def _section(name: Any) -> str:
+    """The name of a section that is included."""
+    return held.get().text(name)
+
+
+def _place(loop: Any) -> Any:
+    """The place in a loop: whether it is the first or the last item, and its number."""
+    if not isinstance(loop, LoopContext):
+        return loop
+    return held.get().plain({name: getattr(loop, name) for name in ("first", "last", "index", "index0", "length")})
+
+
+OWN = {
+    " joined": _joined,
+    " sum": _sum,
+    " difference": _difference,
+    " items": _items,
+    " part": _part,
+    " section": _section,
+    " place": _place,
+}
+
+
+# --- the filters of the language --------------------------------------------------------------------
+
+
+def _lower(text: Any) -> str:
+    return held.get().text(text).lower()
+
+
+def _upper(text: Any) -> str:
+    return held.get().text(text).upper()
+
+
+def _listed(of: Any) -> tuple[Any, ...]:
+    return held.get().items(of)
+
+
+def _reverse(of: Any) -> tuple[Any, ...]:
+    return _listed(of)[::-1]
+
+
+def _length(of: Any) -> int:
+    return len(of) if isinstance(of, str) else len(_listed(of))
+
+
+def _with(of: Any, name: str) -> tuple[Any, ...]:
+    """Those items of a list of which a member counts as true."""
+    return tuple(one for one in _listed(of) if held.get().member(one, name))
+
+
+FILTERS: Mapping[str, Callable[..., Any]] = {
+    "lower": _lower,
+    "upper": _upper,
+    "list": _listed,
+    "reverse": _reverse,
+    "length": _length,
+    "selectattr": _with,
+}
+
+
+def numbers(*ends: int) -> tuple[int, ...]:
+    """The whole numbers of a range.  Raises `TooMuchError` for too many."""
+    found = range(*map(int, ends))
+    if len(found) > MOST_ITEMS:
+        raise TooMuchError
+    return tuple(found)
+
+
+def _said(name: Any) -> str:
+    return name if isinstance(name, str) else type(name).__name__
