@@ -24,7 +24,7 @@ from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, school_folder, templates_hash, word
 from reportgen.cases import open_case, opened
-from reportgen.report.case import Calculation
+from reportgen.report.case import Calculation, bounded
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
@@ -139,7 +139,10 @@ def build_each(
         case = opened(assignment)
         tree = case.document()
         if "pdf" in formats:
-            source, pdf = typeset(tree, engine, letter, ahead)
+            if ahead is not None:
+                source, pdf = typeset(tree, engine, letter, ahead)
+            else:
+                source, pdf = bounded(assignment, typeset, tree, engine, letter)
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
@@ -166,8 +169,8 @@ def made_of(path: Path | str, engine: str, language: Language | None, **more: st
 
 
 def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> AbstractContextManager[Ahead | None]:
-    """The typesetter, if it has something to read while the report is worked out."""
-    if engine != "latex" or letter is None:
+    """The typesetter, if it has something to read while the report is worked out; under a school's templates later."""
+    if engine != "latex" or letter is None or assignment.school is not None:
         return nullcontext()
     from reportgen.writers import latex, pdflatex
 
@@ -185,8 +188,16 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
 
     Raises `TemplateError` for a school's Word file that is refused.
     """
+    from reportgen.workbook.letterhead import LETTERHEAD
+
+    look = school_folder(assignment.school) / LETTERHEAD if assignment.school is not None else None
+    return bounded(assignment, _written, assignment, tree, look)
+
+
+def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes:
+    """The Word file of a report with the look of a school's Word file, if there is one."""
     from reportgen.report import Letter
-    from reportgen.workbook.letterhead import LETTERHEAD, read_letterhead
+    from reportgen.workbook.letterhead import read_letterhead
     from reportgen.writers import typst
     from reportgen.writers import word as writer
     from reportgen.writers.word_elements import Own
@@ -194,8 +205,8 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
     given = assignment.report
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
     own = None
-    if assignment.school is not None and (path := school_folder(assignment.school) / LETTERHEAD).exists():
-        found = read_letterhead(path, tree.language)
+    if look is not None and look.exists():
+        found = read_letterhead(look, tree.language)
         own = Own(found.styles, found.header, found.footer, found.margins)
     drawn = partial(typst.pictures, language=tree.language)
     return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
@@ -246,6 +257,13 @@ def typeset(
     return source, typst.compile(source, system=bool(letter.font))
 
 
+def typeset_sheet(sheet: DrawingSheet, title: str, language: Language) -> bytes:
+    """The PDF of a drawing sheet.  Raises `TypesetterError`."""
+    from reportgen.writers import typst
+
+    return typst.compile(typst.write_sheet(sheet, title, language))
+
+
 # --- products: what a batch makes of an assignment file -----------------------------------------------
 
 
@@ -262,7 +280,7 @@ def report_files(path: Path, engine: Engine, language: Language | None) -> Mappi
     """The complete report."""
     assignment = load(path, language)
     letter = letter_of(assignment, engine)
-    return {"report.pdf": typeset(document(assignment), engine, letter)[1]}
+    return {"report.pdf": bounded(assignment, typeset, document(assignment), engine, letter)[1]}
 
 
 def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
@@ -287,7 +305,8 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     chosen = ask or Ask()
     key = chosen.of(case.key())
     letter = letter_of(case.assignment, engine)
-    files = {"task.pdf": typeset(case.task(key, chosen.by_section), engine, letter)[1]}
+    task = case.task(key, chosen.by_section)
+    files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}
     return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
 
 
@@ -306,7 +325,7 @@ def key_files(
     case = open_case(path, language)
     key = (ask or Ask()).of(case.key())
     makers: Mapping[str, Callable[[], bytes]] = {
-        "pdf": lambda: typeset(files.key_document(key, case.title), engine)[1],
+        "pdf": lambda: bounded(case.assignment, typeset, files.key_document(key, case.title), engine)[1],
         "xlsx": lambda: write_xlsx(files.key_book(key)),
         "csv": lambda: write_csv(files.key_rows(key)),
         "json": lambda: files.key_json(key).encode(),
@@ -334,12 +353,11 @@ def sheet_files(
     `SheetError` where there is nothing to draw, and `AssignmentError` where a plate has no place on the size.
     """
     from reportgen.sheets import dxf
-    from reportgen.writers import typst
 
     case = open_case(path, language)
     sheets = case.sheets(size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: typst.compile(typst.write_sheet(sheet, case.title, case.assignment.language)),
+        "pdf": lambda sheet: bounded(case.assignment, typeset_sheet, sheet, case.title, case.assignment.language),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {

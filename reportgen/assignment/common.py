@@ -28,9 +28,9 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding
-from reportgen.base.files import leads_out
+from reportgen.base.files import school_strays
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
-from reportgen.base.words import is_school, named_school, school_files
+from reportgen.base.words import is_school, named_school
 
 POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""
@@ -382,7 +382,7 @@ def school_of(path: Path) -> Check:
         if not isinstance(named, str):
             return
         folder = path.parent / named
-        if leads_out(folder, path.parent) or any(leads_out(inner, folder) for inner in school_files(folder)):
+        if school_strays(folder, path.parent):
             yield Finding("path-outside", where, {"text": named})
         elif not is_school(folder):
             yield Finding("no-templates", where, {"place": str(folder.absolute())})

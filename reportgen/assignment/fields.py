@@ -17,7 +17,7 @@ from typing import Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from reportgen.base.files import leads_out
+from reportgen.base.files import school_strays
 from reportgen.base.source import Quoted
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
 from reportgen.base.words import school_folder, schools, templates
@@ -120,7 +120,7 @@ class SchoolFolder(Reader):
         if value not in known:
             raise fault("no-such-school", text=str(value), known=", ".join(known) or "–", place=str(templates()))
         folder = school_folder(str(value))
-        if leads_out(folder, folder.parent) or any(leads_out(path, folder) for path in folder.rglob("*")):
+        if school_strays(folder, folder.parent):
             raise fault("path-outside", text=str(value))
         return str(value)
 

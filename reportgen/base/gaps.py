@@ -8,6 +8,8 @@ from numbers import Real
 from string import Formatter
 from typing import Any
 
+from reportgen.base.errors import Mark
+
 FILLS = (str, Real)
 """What a gap is filled with."""
 _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
@@ -38,6 +40,14 @@ def filled(text: str, values: Sequence[Any], named: Mapping[str, Any]) -> str:
     if _ENTRY.search(text) or not all(isinstance(value, FILLS) for value in (*values, *named.values())):
         return _Filling().vformat(text, values, named)
     return str.format(text, *values, **named)
+
+
+def place_of(text: str, words: Any) -> Mark | None:
+    """Where a text stands among words that know their places; None where it does not."""
+    if isinstance(words, str):
+        return getattr(words, "mark", None) if words == text else None
+    inner = words.values() if isinstance(words, Mapping) else words if isinstance(words, list) else ()
+    return next(filter(None, (place_of(text, one) for one in inner)), None)
 
 
 class _Filling(Formatter):

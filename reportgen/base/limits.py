@@ -11,11 +11,12 @@ import pickle
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from threading import Thread, Timer
 from typing import Any, TypeVar
 
 Argument = TypeVar("Argument")
@@ -62,41 +63,97 @@ class LimitError(Exception):
     """A call took more time or memory than it may, or its process died."""
 
 
+_bounded = False
+"""Whether this process is one that serves a call."""
+
+
 def call_within(limits: Limits, function: Callable[[Argument], Result], argument: Argument) -> Result:
     """What `function`, named in a module, makes of an argument that can be pickled.
 
-    Seconds are those of the processor.  Raises what the call raises, and `LimitError`.
+    Seconds are those of the processor.  All that the call starts is of its group and ends with it; a call within a
+    call is made in the same process, whose limits hold for both.  Raises what the call raises, and `LimitError`.
     """
+    if _bounded:
+        return function(argument)
     # Isolated: neither the folder that it runs in nor the environment says which modules are loaded.
     command = [sys.executable, "-I", "-W", "ignore", "-c", _BEGIN, *sys.path]
     request = pickle.dumps((limits, function, argument))
-    try:
-        done = subprocess.run(
-            command,
-            input=request,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            env=os.environ | ONE_THREAD,
-            timeout=PATIENCE * limits.seconds,
-            check=False,
-        )
-    except subprocess.TimeoutExpired as error:
-        raise LimitError from error
-    if done.returncode:
+    with _group(command) as process:
+        late = Timer(PATIENCE * limits.seconds, _end, (process,))
+        late.daemon = True
+        late.start()
+        try:
+            assert process.stdin
+            assert process.stdout
+            # Its standard input stays open: that it closes says that nobody waits any more.
+            with suppress(BrokenPipeError):
+                process.stdin.write(request)
+                process.stdin.flush()
+            data = process.stdout.read()
+            _await(process)
+        finally:
+            late.cancel()
+    if process.returncode:
         raise LimitError
-    answer, fault = pickle.loads(done.stdout)
+    answer, fault = pickle.loads(data)
     if fault is not None:
         raise fault
     result: Result = answer
     return result
 
 
+@contextmanager
+def _group(command: Sequence[str]) -> Iterator[subprocess.Popen[bytes]]:
+    """A process that begins a group of its own, which is ended whole with the block, whatever it has started."""
+    process = subprocess.Popen(
+        command,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        env=os.environ | ONE_THREAD,
+        start_new_session=True,
+        creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
+    )
+    try:
+        yield process
+    finally:
+        _end(process)
+        with suppress(BrokenPipeError):
+            process.communicate()
+
+
+def _await(process: subprocess.Popen[bytes]) -> None:
+    """Wait for the end of a process; where the system can, its number stays its own, by which its group is ended."""
+    if hasattr(os, "waitid"):
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+    else:
+        process.wait()
+
+
+def _end(process: subprocess.Popen[bytes]) -> None:
+    """End a process with all of its group."""
+    if process.returncode is None:
+        _end_group(process.pid)
+
+
+def _end_group(number: int) -> None:
+    if os.name == "nt":
+        every = ("taskkill", "/F", "/T", "/PID", str(number))
+        subprocess.run(every, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        return
+    with suppress(ProcessLookupError, PermissionError):
+        os.killpg(number, signal.SIGKILL)
+
+
 def serve() -> None:
     """The other side of `call_within`: one call from standard input, its outcome to standard output."""
+    global _bounded
+    _bounded = True
     outcome: tuple[Any, Exception | None]
     stream = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
     limits, function, argument = pickle.load(sys.stdin.buffer)
+    Thread(target=_end_alone, daemon=True).start()
     limit_memory(limits.megabytes)
     _limit_time(limits.seconds)
     try:
@@ -110,6 +167,15 @@ def serve() -> None:
         data = pickle.dumps((None, LimitError()))
     with stream:
         stream.write(data)
+
+
+def _end_alone() -> None:
+    """End this process and its group where the one that called has ended: nobody waits for an answer."""
+    with suppress(OSError):
+        while os.read(0, 1):
+            pass
+    if os.name == "nt" or os.getpgid(0) == os.getpid():
+        _end_group(os.getpid())
 
 
 def limit_memory(megabytes: int) -> None:

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
+from reportgen.base.files import OF_SCHOOL, school_strays
 from reportgen.base.gaps import filled, gaps, plain_gaps
 from reportgen.base.source import (
     MappingNode,
@@ -80,8 +81,8 @@ def templates_hash() -> str:
 
 def school_files(folder: Path) -> list[Path]:
     """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
-    patterns = ("vi.md", "en.md", "blocks/*.yaml", "report.docx") if os.path.isdir(folder) else ()
-    return sorted(path for pattern in patterns for path in folder.glob(pattern))
+    found = (path for pattern in filter(None, OF_SCHOOL) for path in folder.glob(pattern))
+    return sorted(path for path in found if path.name != "blocks") if os.path.isdir(folder) else []
 
 
 def is_school(folder: Path) -> bool:
@@ -101,10 +102,17 @@ def school_folder(school: Path | str) -> Path:
 
 
 def named_school() -> Path | None:
-    """The school's folder that was named for all files of a run.  Raises `TemplateError` where it is none."""
+    """The school's folder that was named for all files of a run.
+
+    Raises `TemplateError` where it is none, and where a link in it leads out.
+    """
     if not (named := os.environ.get(TEMPLATES)):
         return None
-    if not is_school(folder := Path(named).absolute()):
+    folder = Path(named).absolute()
+    if strays := school_strays(folder):
+        mark = Mark(str(strays[0]))
+        raise TemplateError(str(as_problem(Fault("path-outside", mark, {"text": strays[0].name}), None)))
+    if not is_school(folder):
         raise TemplateError(word("no_templates", None, place=folder))
     return folder
 
@@ -204,14 +212,6 @@ class _Word(str):
 def unfilled(text: str, known: Iterable[str], language: Language) -> str:
     """What is said of a gap that nothing fills."""
     return word("template_gap", language, text=_shown(text), known=", ".join(known) or "–")
-
-
-def place_of(text: str, words: Any) -> Mark | None:
-    """Where a text stands among words; None where it does not."""
-    if isinstance(words, _Word):
-        return words.mark if words == text else None
-    inner = words.values() if isinstance(words, Mapping) else words if isinstance(words, list) else ()
-    return next(filter(None, (place_of(text, one) for one in inner)), None)
 
 
 def of_file(file: Path) -> Language:

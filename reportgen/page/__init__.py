@@ -5,7 +5,7 @@ from __future__ import annotations
 from reportgen.page import html
 from reportgen.page.html import Live, Panel
 from reportgen.report import Document
-from reportgen.report.case import Case
+from reportgen.report.case import Case, bounded
 
 
 def panels(case: Case) -> tuple[Panel, ...]:
@@ -20,4 +20,5 @@ def panels(case: Case) -> tuple[Panel, ...]:
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:
     """The whole page of a case, of its `document` if that is composed already."""
-    return html.write(document or case.document(), case.words["page"], panels(case), live)
+    tree = document or case.document()
+    return bounded(case.assignment, html.write, tree, case.words["page"], panels(case), live)

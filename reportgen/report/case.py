@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from enum import StrEnum
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar, get_args
 
@@ -182,6 +182,30 @@ class Case(Protocol):
 Made = TypeVar("Made")
 
 
+def bounded(assignment: Assignment, make: Callable[..., Made], *arguments: Any) -> Made:
+    """What `make`, named in a module, makes of arguments that can be pickled.
+
+    Under a school's templates that is done in a process that can be ended.  Raises `TemplateError` where it was.
+    """
+    if assignment.school is None:
+        return make(*arguments)
+    from reportgen.base.limits import TEMPLATES, LimitError, call_within
+    from reportgen.report.numbering import DocumentError
+
+    file = search_path(assignment.language, assignment.kind, assignment.school)[0]
+    try:
+        return call_within(TEMPLATES, partial(_called, make), arguments)
+    except LimitError as error:
+        told = word("template_limits", assignment.language, **asdict(TEMPLATES))
+        raise TemplateError(f"{file}:1: {told}") from error
+    except DocumentError as error:
+        raise TemplateError("\n".join(f"{file}:1: {fault}" for fault in error.faults)) from error
+
+
+def _called(make: Callable[..., Made], arguments: tuple[Any, ...]) -> Made:
+    return make(*arguments)
+
+
 @dataclass(frozen=True)
 class Opened:
     """An assignment with its words; each part is computed when it is first asked for."""
@@ -197,14 +221,7 @@ class Opened:
         """
         if self.assignment.school is None:
             return make(self)
-        from reportgen.base.limits import TEMPLATES, LimitError, call_within
-
-        school, *_, common = self.places
-        try:
-            return call_within(TEMPLATES, make, type(self)(self.assignment, root=common.parent))
-        except LimitError as error:
-            told = word("template_limits", self.assignment.language, **asdict(TEMPLATES))
-            raise TemplateError(f"{school}:1: {told}") from error
+        return bounded(self.assignment, make, type(self)(self.assignment, root=self.places[-1].parent))
 
     @property
     def places(self) -> tuple[Path, ...]:

@@ -33,6 +33,9 @@ class DocumentError(ReportgenError):
         self.faults = tuple(faults)
         super().__init__("\n".join(faults))
 
+    def __reduce__(self) -> tuple[type[DocumentError], tuple[list[str]]]:
+        return type(self), (list(self.faults),)
+
 
 def finished(case: Opened, blocks: Iterable[tree.Block], close: bool = False, title: str = "") -> tree.Document:
     """The numbered document of a case with its header and footer, under the title of a report unless another is given.

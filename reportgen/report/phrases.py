@@ -13,10 +13,11 @@ from string import Formatter
 from typing import TYPE_CHECKING, Any, get_args
 
 from reportgen.base.errors import TemplateError
+from reportgen.base.gaps import place_of
 from reportgen.base.shown import member
 from reportgen.base.shown import text as as_text
 from reportgen.base.units import MM
-from reportgen.base.words import place_of, unfilled
+from reportgen.base.words import unfilled
 from reportgen.formula import Chain, Expression, Number, Symbol, ids, vocabulary
 from reportgen.machine.loads import ConstantLaw, Law, Opposing, TableLaw
 from reportgen.plans.motion import POLES

@@ -73,8 +73,10 @@ _values: ContextVar[list[Emitted]] = ContextVar("values")
 """What the templates being rendered have emitted so far."""
 
 
-LARGEST_OUTPUT = 30_000_000
-"""Characters of a section with its marks, of which a short piece has more than words."""
+LONGEST_SECTION = 4_000_000
+"""Characters of a section; one with 360 positions worked out has a quarter of them."""
+MARKS = 8
+"""So many times as long a text may be with its marks, of which a short piece has more than words."""
 LONGEST_TOLD = 200
 """Characters of an error that are told."""
 ENVIRONMENTS = 8
@@ -216,7 +218,7 @@ def _within(pieces: Iterable[str]) -> str:
     for piece in pieces:
         found.append(piece)
         size += len(piece)
-        if size > LARGEST_OUTPUT:
+        if size > MARKS * LONGEST_SECTION:
             break
     return "".join(found)
 
@@ -239,7 +241,8 @@ def _told(error: Exception, places: tuple[Path, ...]) -> str:
 
 
 def _too_much(places: tuple[Path, ...]) -> str:
-    return word("template_long", _language(places), longest=LONGEST, items=MOST_ITEMS, steps=MOST_STEPS)
+    bounds = {"text": LONGEST, "section": LONGEST_SECTION, "items": MOST_ITEMS, "steps": MOST_STEPS}
+    return word("template_long", _language(places), **bounds)
 
 
 def _language(places: tuple[Path, ...]) -> Language:
@@ -296,7 +299,7 @@ def _emit(value: object) -> str:
 
 def _emit_text(text: str) -> str:
     """Marked parts of a string as they are, all between them as plain text."""
-    if len(text) > LARGEST_OUTPUT:
+    if len(text) > MARKS * LONGEST:
         raise TooMuchError
     result, end = [], 0
     for piece in _PIECE.finditer(text):
@@ -414,7 +417,7 @@ def _assemble(output: str, name: str, values: Sequence[Emitted], search: tuple[P
     """
     so_far, places = _Lines(lines=[(name, 1)]), {}
     place, end = (name, 1), 0
-    left = LONGEST if len(output) <= LARGEST_OUTPUT else 0
+    left = LONGEST_SECTION if len(output) <= MARKS * LONGEST_SECTION else 0
     for piece in _PIECE.finditer(output):
         if piece.start() != end:
             break

@@ -6,7 +6,8 @@ fields that could.  Of its text nothing is taken, of header and footer the text 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
@@ -29,11 +30,28 @@ FIELDS = frozenset({"PAGE", "NUMPAGES", "SECTION", "SECTIONPAGES", "STYLEREF", "
 """What a header may have Word fill in; other fields can reach for files or change from day to day."""
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
 _XML = "http://www.w3.org/XML/1998/namespace"
-_ROOTS = frozenset(f"{{{WORD}}}{name}" for name in ("styles", "hdr", "ftr"))
+_W = f"{{{WORD}}}"
+_BLOCKS = frozenset({"p", "tbl", "sdt", "bookmarkStart", "bookmarkEnd"})
+_CONTENTS = {"styles": frozenset({"docDefaults", "latentStyles", "style"}), "hdr": _BLOCKS, "ftr": _BLOCKS}
+"""What a part is called inside, with what stands in it directly."""
+_KINDS = frozenset({"paragraph", "character", "table", "numbering"})
+_LENGTHS = frozenset(
+    {"left", "right", "start", "end", "firstLine", "hanging", "before", "after", "line", "pos", "w", "h"}
+)
+"""Attributes that are lengths, in twips as a rule."""
+_VALUES = {"sz": (2, 3276), "szCs": (2, 3276), "kern": (0, 3276), "position": (-3276, 3276), "outlineLvl": (0, 9)}
+"""Elements whose value is a whole number, with the least and the greatest that Word takes."""
+FARTHEST = 31_680
+"""Twips of the longest length that Word takes: 22 inches."""
+_NUMBER = re.compile(r"[+-]?\d+")
 _PICTURES = frozenset({"drawing", "pict"})
 _OBJECTS = frozenset({"object", "control", "altChunk", "subDoc"})
 _CODES = {name: f"letterhead-{name}" for name in ("bomb", "macros", "links", "entities")}
 _TWIPS = 1440 / 25.4
+PAGE = {("left", "right"): 210.0, ("top", "bottom"): 297.0}
+"""The page of a report, in mm, along its margins."""
+LEAST_ROOM = 100.0
+"""Millimetres between two margins that the widest words of a report need."""
 MARGINS = {"top": "top", "bottom": "bottom", "left": "left", "right": "right", "header": "above", "footer": "below"}
 """The margins of a section by the names that pages have for them."""
 
@@ -81,10 +99,10 @@ def _read(path: Path) -> Letterhead:
     margins: dict[str, float] = {}
     for tag, attributes in _last_section(package):
         if tag == "pgMar":
-            margins = dict(_margins(attributes, package))
+            margins = _margins(attributes, package)
         elif attributes.get("type") == "default" and (name := named.get(attributes.get("id", ""), "")) in package:
-            parts[tag.removesuffix("Reference")] = _part(package, name)
-    return Letterhead(_part(package, "word/styles.xml"), margins=margins, **parts)
+            parts[tag.removesuffix("Reference")] = _part(package, name, "hdr" if tag == "headerReference" else "ftr")
+    return Letterhead(_part(package, "word/styles.xml", "styles"), margins=margins, **parts)
 
 
 def _last_section(package: Package) -> Iterator[tuple[str, Attributes]]:
@@ -96,16 +114,25 @@ def _last_section(package: Package) -> Iterator[tuple[str, Attributes]]:
             yield tag, attributes
 
 
-def _margins(attributes: Attributes, package: Package) -> Iterator[tuple[str, float]]:
+def _margins(attributes: Attributes, package: Package) -> dict[str, float]:
+    """The margins by the names that pages have for them (mm); they leave room on the page of a report."""
+    found = {}
     for name, own in MARGINS.items():
         if name in attributes:
-            try:
-                yield own, abs(int(attributes[name])) / _TWIPS
-            except ValueError:
-                raise package.refused("letterhead-damaged") from None
+            if not _NUMBER.fullmatch(attributes[name]):
+                raise package.refused("letterhead-value", text=f"{name}={attributes[name]}")
+            found[own] = abs(float(attributes[name])) / _TWIPS
+    for sides, size in PAGE.items():
+        # What a file does not say is as in reports; half a page is enough for any single one.
+        if sum(found.get(side, 0.0) for side in sides) > size - LEAST_ROOM:
+            told = ", ".join(f"{found[side]:.6g}" for side in sides if side in found)
+            raise package.refused("letterhead-margins", text=told)
+    if max((found.get(side, 0.0) for side in ("above", "below")), default=0.0) > LEAST_ROOM:
+        raise package.refused("letterhead-margins", text=", ".join(f"{found[side]:.6g}" for side in ("above", "below")))
+    return found
 
 
-def _part(package: Package, name: str) -> str:
+def _part(package: Package, name: str, called: str) -> str:
     """A part with nothing in it but Word's own elements and attributes, none of which names another part."""
     builder = ElementTree.TreeBuilder()
     codes: list[str] = []
@@ -157,7 +184,61 @@ def _part(package: Package, name: str) -> str:
         if (code.split() or [""])[0].upper() not in FIELDS:
             raise package.refused("letterhead-field", text=code.strip(), known=", ".join(sorted(FIELDS)))
     root: ElementTree.Element | None = builder.close()
-    if root is None or root.tag not in _ROOTS:
-        raise package.refused("letterhead-damaged")
+    if root is None or root.tag != f"{_W}{called}":
+        raise package.refused("letterhead-part", text=name)
+    _judge(root, called, package, name)
     ElementTree.register_namespace("w", WORD)
     return ElementTree.tostring(root, encoding="unicode")
+
+
+def _judge(root: ElementTree.Element, called: str, package: Package, name: str) -> None:
+    """Refuse a part that Word would call damaged: what stands where, ids and names that are there twice, ranges."""
+    if any(one.tag.removeprefix(_W) not in _CONTENTS[called] for one in root) or (called != "styles" and not len(root)):
+        raise package.refused("letterhead-part", text=name)
+    if any(not len(cell) or cell[-1].tag != f"{_W}p" for cell in root.iter(f"{_W}tc")):
+        raise package.refused("letterhead-part", text=name)
+    marks = [one.get(f"{_W}fldCharType") for one in root.iter(f"{_W}fldChar")]
+    if marks.count("begin") != marks.count("end"):
+        raise package.refused("letterhead-part", text=name)
+    for element in root.iter():
+        if (wrong := _wrong_value(element)) is not None:
+            raise package.refused("letterhead-value", text=wrong)
+    if called == "styles":
+        _judge_styles(root.findall(f"{_W}style"), package, name)
+
+
+def _wrong_value(element: ElementTree.Element) -> str | None:
+    """A number of an element that is out of Word's range; None where there is none."""
+    local = element.tag.removeprefix(_W)
+    for key, value in element.attrib.items():
+        attribute = key.removeprefix(_W)
+        ends = (-FARTHEST, FARTHEST) if attribute in _LENGTHS else _VALUES.get(local) if attribute == "val" else None
+        if ends and _NUMBER.fullmatch(value) and not (len(value) < 9 and ends[0] <= int(value) <= ends[1]):
+            return f"{local} {attribute}={value[:20]}"
+        if attribute == "val" and local in _VALUES and not re.fullmatch(r"[+-]?[\d.]+(mm|cm|in|pt|pc|pi)?", value):
+            return f"{local} {attribute}={value[:20]}"
+    return None
+
+
+def _judge_styles(styles: Sequence[ElementTree.Element], package: Package, name: str) -> None:
+    """Each has a kind, an id and a name of its own, and none is based on itself."""
+    bases: dict[str, str] = {}
+    names = set[str]()
+    for style in styles:
+        id, kind, title = style.get(f"{_W}styleId", ""), style.get(f"{_W}type", ""), style.find(f"{_W}name")
+        named = "" if title is None else title.get(f"{_W}val", "")
+        if not id or not named or kind not in _KINDS:
+            raise package.refused("letterhead-part", text=name)
+        if id in bases or named.casefold() in names:
+            raise package.refused("letterhead-twice", text=id if id in bases else named)
+        base = style.find(f"{_W}basedOn")
+        bases[id] = "" if base is None else base.get(f"{_W}val", "")
+        names.add(named.casefold())
+    for id in bases:
+        met = set[str]()
+        at = id
+        while at:
+            if at in met:
+                raise package.refused("letterhead-part", text=name)
+            met.add(at)
+            at = bases.get(at, "")

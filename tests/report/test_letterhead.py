@@ -162,6 +162,29 @@ def nested(name: str, part: bytes) -> bytes:
     return part.replace(b"</w:p>", b"<w:r>" * 100 + b"</w:r>" * 100 + b"</w:p>") if "header" in name else part
 
 
+def instead(of: str, xml: str) -> Callable[[str, bytes], bytes]:
+    return lambda name, part: xml.encode() if name == of else part
+
+
+def in_styles(inserted: str) -> Callable[[str, bytes], bytes]:
+    def edit(name: str, part: bytes) -> bytes:
+        return part.replace(b"</w:styles>", inserted.encode() + b"</w:styles>") if name == "word/styles.xml" else part
+
+    return edit
+
+
+def margin(side: str, value: str) -> Callable[[str, bytes], bytes]:
+    def edit(name: str, part: bytes) -> bytes:
+        given = rf'(<w:pgMar [^>]*w:{side}=")[^"]*'.encode()
+        return re.sub(given, rb"\g<1>" + value.encode(), part) if name == "word/document.xml" else part
+
+    return edit
+
+
+HEADER = f"<w:hdr {NAMESPACE}><w:p/></w:hdr>"
+STYLE = '<w:style w:type="paragraph" w:styleId="{}"><w:name w:val="{}"/></w:style>'
+
+
 REFUSED: Mapping[str, tuple[str, Callable[[bytes], bytes]]] = {
     "macros": ("letterhead-macros", lambda one: changed(one, {"word/vbaProject.bin": b"x"})),
     "template": ("letterhead-links", lambda one: changed(one, {"word/_rels/settings.xml.rels": EXTERNAL})),
@@ -185,10 +208,46 @@ REFUSED: Mapping[str, tuple[str, Callable[[bytes], bytes]]] = {
     "large": ("letterhead-bomb", lambda _: b"PK" + bytes(LARGEST)),
     "no zip": ("letterhead-damaged", lambda _: b"{\\rtf1}"),
     "damaged": ("letterhead-damaged", lambda one: one[: len(one) // 2]),
-    "another root": (
-        "letterhead-damaged",
-        lambda one: changed(one, {}, lambda name, part: b"<x/>" if name == "word/styles.xml" else part),
+    "another root": ("letterhead-part", lambda one: changed(one, {}, instead("word/styles.xml", "<x/>"))),
+    "styles that are a header": ("letterhead-part", lambda one: changed(one, {}, instead("word/styles.xml", HEADER))),
+    "a header that is styles": (
+        "letterhead-part",
+        lambda one: changed(one, {}, instead("word/header1.xml", f"<w:styles {NAMESPACE}/>")),
     ),
+    "an empty header": (
+        "letterhead-part",
+        lambda one: changed(one, {}, instead("word/header1.xml", f"<w:hdr {NAMESPACE}/>")),
+    ),
+    "a field without end": (
+        "letterhead-part",
+        lambda one: changed(
+            one, {}, in_header('<w:r><w:fldChar w:fldCharType="begin"/></w:r><w:instrText>PAGE</w:instrText>')
+        ),
+    ),
+    "a style twice": ("letterhead-twice", lambda one: changed(one, {}, in_styles(STYLE.format("Normal", "Other")))),
+    "a name twice": ("letterhead-twice", lambda one: changed(one, {}, in_styles(STYLE.format("Other", "normal")))),
+    "a style without name": (
+        "letterhead-part",
+        lambda one: changed(one, {}, in_styles('<w:style w:type="paragraph" w:styleId="Other"/>')),
+    ),
+    "a style on itself": (
+        "letterhead-part",
+        lambda one: changed(
+            one, {}, in_styles(STYLE.format("A", "a").replace("</w:style>", '<w:basedOn w:val="A"/></w:style>'))
+        ),
+    ),
+    "a size": (
+        "letterhead-value",
+        lambda one: changed(
+            one,
+            {},
+            in_styles(STYLE.format("A", "a").replace("</w:style>", '<w:rPr><w:sz w:val="99999"/></w:rPr></w:style>')),
+        ),
+    ),
+    "a margin in words": ("letterhead-value", lambda one: changed(one, {}, margin("left", "wide"))),
+    "a margin beyond all": ("letterhead-margins", lambda one: changed(one, {}, margin("left", "999999999999"))),
+    "a margin beyond the page": ("letterhead-margins", lambda one: changed(one, {}, margin("top", "16000"))),
+    "a header below the page": ("letterhead-margins", lambda one: changed(one, {}, margin("header", "16000"))),
     "no styles": (
         "letterhead-damaged",
         lambda one: changed(one, {}, lambda name, part: b"<" if "styles" in name else part),
