@@ -148,6 +148,12 @@ class Ledger:
         number = self.quantity(id, position).number
         return Number(abs(number.value), number.decimals, number.unit) if size else number
 
+    def result(self, id: str, position: int | None = None) -> Number:
+        """The number of a quantity where it is a result: lines may go on from more decimals than its kind has."""
+        number, usual = self.number(id, position), self.families[id].how.decimals
+        carried = usual is not None and number.decimals is not None and number.decimals > usual
+        return Number(number.shown, usual, number.unit) if carried else number
+
     def symbol(self, id: str) -> Symbol:
         return self.families[id].symbol
 

@@ -251,6 +251,8 @@ def level(node: Expression, linear: bool = False) -> int:
             return QUOTIENT
         case Call() | Root():
             return ATOM if linear else QUOTIENT
+        case Symbol(base) if " " in base:
+            return ATOM if linear else QUOTIENT
         case Symbol():
             return MARKED if node.sup or node.base.endswith(tuple(PRIMES)) else ATOM
         case _:

@@ -29,6 +29,8 @@ STEPS = 4
 FLANK, LINE_OF_ACTION, ACTIVE = Pen(0.45), Pen(0.18, style.RED), Pen(0.7, style.RED)
 WORKING = Pen(0.9, style.BLUE)
 INVOLUTE = Pen(0.12, style.GRAY)
+TOWARDS = 14.0
+"""The line of action is drawn so far beyond its active part (mm) towards an end that is not shown."""
 BEYOND = 6.0
 """Its construction is shown so far around the teeth (mm)."""
 CIRCLES = (
@@ -100,7 +102,7 @@ def mesh(case: SolvedPair, room: complex = MESH_ROOM, enlarged: float = 1.0) -> 
         )
         requests.append(label(min(o, end, key=abs), Symbol("O", str(number + 1)), gap=1.0, prefer=(0.0, math.pi)))
     note = Chain((Symbol("μ", "l"), Number(float(f"{scale * MM / enlarged:.6g}"), None, "mm/mm")))
-    a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.number("gears.a_w")))
+    a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.result("gears.a_w")))
     notes: list[Content] = [note, a_w]
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
 
@@ -191,19 +193,26 @@ def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Ite
 def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item], requests: list[Request]) -> None:
     starts = {"N1": 0.0, "B2": float(pair.rho_p[0]), "B1": float(pair.rho_a[0]), "N2": float(pair.path)}
     points = {name: on_line(pair, rolled) * at for name, rolled in starts.items()}
-    shown = ("N1", "N2") if with_ends else ("B2", "B1")
     way = points["B1"] - points["B2"]
     way /= abs(way)
-    items.append(Line(points[shown[0]] - 6 * way, points[shown[1]] + 6 * way, LINE_OF_ACTION))
-    items.append(Line(points["B2"], points["B1"], ACTIVE))
-    for name, point in points.items():
-        if with_ends or name[0] == "B":
-            items.append(Circle(point, 0.7, None, style.RED))
-            requests.append(label(point, Symbol(name[0], name[1]), gap=1.0))
-    if with_ends:
-        for number, name in enumerate(("N1", "N2")):
+    ends = []
+    for number, (name, start, sense) in enumerate((("N1", "B2", -way), ("N2", "B1", way))):
+        # An end that is farther away than the drawing reaches is pointed at, as the centres are.
+        if with_ends or abs(points[name] - points[start]) <= TOWARDS:
             foot = points[name] - centre(pair, number) * at
             items.append(Line(points[name], points[name] - foot / abs(foot) * 8, style.CONSTRUCTION))
+            ends.append(points[name] + 6 * sense)
+        else:
+            del points[name]
+            far = points[start] + TOWARDS * sense
+            items.append(Arrow(far - 5 * sense, far, LINE_OF_ACTION))
+            requests.append(label(far, Symbol(name[0], name[1]), gap=1.0, prefer=(float(np.angle(sense)),)))
+            ends.append(far)
+    items.append(Line(ends[0], ends[1], LINE_OF_ACTION))
+    items.append(Line(points["B2"], points["B1"], ACTIVE))
+    for name, point in points.items():
+        items.append(Circle(point, 0.7, None, style.RED))
+        requests.append(label(point, Symbol(name[0], name[1]), gap=1.0))
     items.append(Circle(0j, 0.7, None, style.BLACK))
     requests.append(label(0j, Symbol("P"), gap=1.2))
     items.append(Line(-22 + 0j, 22 + 0j, style.CONSTRUCTION))

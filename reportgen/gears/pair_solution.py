@@ -87,6 +87,8 @@ WHEEL: Mapping[str, tuple[Symbol, str]] = {
     "lambda": (Symbol("λ"), FIGURE),
 }
 """and of what each wheel has."""
+ALIKE = tuple(one for one in WHEEL if one not in ("z", "x", "rho"))
+"""What both wheels have with as many decimals; ρ₂ = g − ρ₁ goes on from that of the other one."""
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
 """What the report sets out of the pair in mesh,"""
 DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
@@ -115,7 +117,8 @@ class SolvedPair(Opened):
     @cached_property
     def ledger(self) -> Ledger:
         sheet = self.sheet
-        made = Ledger(sheet.families, sheet.positions, units=self.words["units"], lines=sheet.lines)
+        units, alike = self.words["units"], tuple(tuple(ids.gear(one, wheel) for wheel in WHEELS) for one in ALIKE)
+        made = Ledger(sheet.families, sheet.positions, units=units, same=alike, lines=sheet.lines)
         return made.in_language(self.words["symbols"])
 
     @cached_property

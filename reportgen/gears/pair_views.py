@@ -53,7 +53,7 @@ class PairPage(DesignPage[SolvedPair]):
             "sliding_table": self.sliding_table,
             "checks": self.checks,
             "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
-            "value": lambda id, k=None: Value(case.printed.number(id, k)),
+            "value": lambda id, k=None: Value(case.printed.result(id, k)),
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
@@ -119,11 +119,11 @@ class PairPage(DesignPage[SolvedPair]):
             symbol = vocabulary.in_language(
                 _without_number(ledger.symbol(ids.gear(one, 1))), self.case.words["symbols"]
             )
-            both = tuple((Value(ledger.number(ids.gear(one, wheel))),) for wheel in WHEELS)
+            both = tuple((Value(ledger.result(ids.gear(one, wheel))),) for wheel in WHEELS)
             rows.append(((Text(words["own"][one]),), (InlineMath(symbol),), *both))
         for one in SHARED:
             id = f"gears.{one}"
-            rows.append((self._said(id), (InlineMath(ledger.symbol(id)),), (Value(ledger.number(id)),), (Text("–"),)))
+            rows.append((self._said(id), (InlineMath(ledger.symbol(id)),), (Value(ledger.result(id)),), (Text("–"),)))
         heads = ((Text(text),) for text in words["pair_head"])
         return self._table("pair", PAIR, heads, rows)
 
@@ -150,7 +150,7 @@ class PairPage(DesignPage[SolvedPair]):
 
         def row(name: str, wheel: int, sign: str, limit: Number, actual: str | Number) -> None:
             text = str(words[name]).format(wheel=wheel)
-            shown = ledger.number(actual) if isinstance(actual, str) else actual
+            shown = ledger.result(actual) if isinstance(actual, str) else actual
             holds = words["no"] if (name, wheel) in broken else words["yes"]
             symbol: Inlines = (InlineMath(ledger.symbol(actual)),) if isinstance(actual, str) else (Text("|λ|"),)
             rows.append(((Text(text),), symbol, (Text(sign), Value(limit)), (Value(shown),), (Text(str(holds)),)))

@@ -84,7 +84,7 @@ class Parameters(Part):
         modules = Fraction(self.m.si / self.second_module.si).limit_denominator(10_000)
         limits = (self.z.from_, self.z.to)
         ratio, share = self.of_input(self.wanted), self.tolerance.si
-        return Demand(self.scheme, ratio, share, self.k, *limits, modules, self.by_carrier)
+        return Demand(self.scheme, ratio, share, self.k, *limits, modules=modules, by_carrier=self.by_carrier)
 
     @property
     def choice(self) -> TrainChoice:

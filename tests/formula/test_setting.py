@@ -10,13 +10,14 @@ import pytest
 
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.formula import Chain, Expression, Number, Symbol, cos, rebuild, sin, sqrt
+from reportgen.formula import Chain, Expression, Number, Symbol, call, cos, rebuild, sin, sqrt
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import Part, laid
 from reportgen.page.elements import MathmlFormulas, Runs
 from reportgen.sheets.dxf import MText
 from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst_math import TypstFormulas
+from reportgen.writers.word_math import OmmlFormulas
 from tests.writers import sample
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -157,3 +158,20 @@ def test_a_missing_parenthesis_would_be_seen() -> None:
 def test_an_extreme_number_has_a_power_of_ten(expression: Expression, text: str) -> None:
     """It is a product, and has parentheses where a product has them."""
     assert Plain("vi").math(expression) == text
+
+
+def test_inv_stands_upright_in_every_look() -> None:
+    """A function's name in a symbol, inv α_w, is set as that of a function that is applied, arcinv(inv α_w)."""
+    involute = Symbol("inv α", "w")
+    line = Chain((Symbol("α", "w"), call("arcinv", involute)))
+    assert TypstFormulas("en").math(line).count('op("inv")') == 1
+    assert TypstFormulas("en").math(line).count('op("arcinv")') == 1
+    assert r"\operatorname{arcinv}(\operatorname{inv} α" in LatexFormulas("en").math(line)
+    assert '<mi mathvariant="normal">inv</mi>' in MathmlFormulas("en").math(line)
+    named = OmmlFormulas("en").math(involute)
+    assert re.search(r"<m:fName><m:r><m:rPr>.*<m:nor/>.*inv.*</m:fName>", named)
+    label = Runs("en").math(involute)
+    assert "".join(run.text for run in label) == "inv αw"
+    assert [run.italic for run in label if run.text in ("inv", "α")] == [False, True]
+    assert MText("en").math(involute).startswith("inv α")
+    assert Plain("en").math(line) == "α_w = arcinv(inv α_w)"

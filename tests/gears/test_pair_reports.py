@@ -15,9 +15,10 @@ from reportgen.api import load
 from reportgen.base.words import sample
 from reportgen.cases import open_case, opened
 from reportgen.drawing import Label, Line, Polyline
-from reportgen.formula import Chain, Number, Symbol, ids, walk
+from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, ids, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.gears.pair_case import PairCase
+from reportgen.gears.pair_drawings import mesh
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "gears").glob("pair-*.yaml"))
@@ -82,13 +83,13 @@ def test_every_value_recomputes_and_is_the_pair_s(name: str) -> None:
 
 @pytest.mark.parametrize("name", [file.stem for file in FILES])
 def test_tables_print_what_the_lines_say(name: str) -> None:
-    """Every number in the table of the pair is the result of a line, or given."""
+    """Every number in the table of the pair is the result of a line with the figures of its kind, or given."""
     case = pair_case(name)
     printed = {
         (number.shown, number.unit)
         for id, family in case.printed.families.items()
         for k in range(1, len(family.values) + 1)
-        for number in [case.printed.number(id, k)]
+        for number in (case.printed.number(id, k), case.printed.result(id, k))
     }
     tables = [block for block in case.document().blocks if isinstance(block, tree.Table)]
     values = [
@@ -181,3 +182,34 @@ def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
     touching = film.values[1].values.values
     # Over a turn the mean number of pairs is the contact ratio.
     assert touching[:-1].mean() == pytest.approx(float(case.gears.epsilon), abs=0.02)
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_involutes_are_worked_out_in_radians(language: str) -> None:
+    """tan 20° − 0.34906585, which is true on a calculator; tan 20° − 20° is not."""
+    printed = pair_case("pair-equal-sliding", language).printed
+    for id in ("gears.inv", *(ids.gear("inv_a", wheel) for wheel in (1, 2))):
+        *_, numbers, result = printed.chain(id).parts
+        assert isinstance(numbers, Sum)
+        assert isinstance(result, Number)
+        tangent, arc = numbers.terms
+        assert isinstance(tangent, Call)
+        assert isinstance(arc, Negative)
+        assert isinstance(arc.of, Number)
+        [angle] = tangent.arguments
+        assert isinstance(angle, Number)
+        assert (angle.unit, arc.of.unit) == ("°", "")
+        assert arc.of.shown == pytest.approx(math.radians(angle.shown), abs=arc.of.half_unit * 1.001)
+        by_hand = math.tan(math.radians(angle.shown)) - arc.of.shown
+        assert by_hand == pytest.approx(result.shown, abs=result.half_unit * 1.001)
+
+
+@pytest.mark.parametrize("data", ["z1: 20, z2: 90, shifts: {x1: 0.2, x2: 0.1}", "z1: 13, z2: 36"])
+def test_the_mesh_names_what_the_text_names(data: str, tmp_path: Path) -> None:
+    """Also the ends of the line of action that lie beyond the drawing: there is the direction in which they are."""
+    file = tmp_path / "pair.yaml"
+    file.write_text(f"kind: gear-pair\nparameters: {{m: 4 mm, {data}}}\n", encoding="utf-8")
+    case = open_case(file, "en")
+    assert isinstance(case, PairCase)
+    found = {item.content for item in mesh(case).items if isinstance(item, Label)}
+    assert {Symbol("N", "1"), Symbol("N", "2"), Symbol("B", "1"), Symbol("B", "2"), Symbol("P")} <= found
