@@ -315,7 +315,7 @@ class CamPage(DesignPage[SolvedCam]):
         return Table(columns, heads, tuple(rows), self.caption(name), f"tab.{name}")
 
     def _bare(self, id: str, k: int) -> Inlines:
-        number = self.case.printed.number(id, k)
+        number = self.case.printed.result(id, k)
         if not math.isfinite(number.value):
             return (Text("–"),)
         return (Value(Number(number.value, number.decimals)),)

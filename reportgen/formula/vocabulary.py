@@ -51,7 +51,7 @@ KINDS: dict[str, QuantityKind] = {
     "product of lengths": QuantityKind("m²"),
     "segment": QuantityKind("mm", 1e-3, decimals=2),
     "cam length": QuantityKind("mm", 1e-3, decimals=3),
-    "radius of curvature": QuantityKind("mm", 1e-3, decimals=2),
+    "radius of curvature": QuantityKind("mm", 1e-3),
     "reduced velocity": QuantityKind("mm/rad", 1e-3, decimals=3),
     "reduced acceleration": QuantityKind("mm/rad²", 1e-3, decimals=3),
     "angle on paper": QuantityKind("rad/mm", 1e3, digits=6),
