@@ -271,7 +271,7 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
 
     case = open_case(path, language)
     chosen = ask or Ask()
-    key = chosen.of(case.key())
+    key = chosen.on_paper(case.key())
     letter = letter_of(case.assignment, engine)
     files = {"task.pdf": typeset(case.task(key, chosen.by_section), engine, letter)[1]}
     return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
