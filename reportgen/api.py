@@ -303,7 +303,7 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
 
     case = open_case(path, language)
     chosen = ask or Ask()
-    key = chosen.of(case.key())
+    key = chosen.on_paper(case.key())
     letter = letter_of(case.assignment, engine)
     task = case.task(key, chosen.by_section)
     files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}

@@ -149,7 +149,7 @@ def grade(
             problems += error.problems
     # Whose values a sheet has, shows beside all the others.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
-    markings = {name: mark(_asked(room.scheme(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
+    markings = {name: mark(asked_of(room.scheme(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
     missing = tuple(key for key in room.keys if key.id not in markings)
     order = {name: index for index, name in enumerate(room.files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
@@ -162,7 +162,7 @@ def grade(
     return Graded(tuple(marked), tuple(problems), missing, owners, emails)
 
 
-def _asked(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
+def asked_of(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
     """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
     policy = scheme.policy
     filled = {id for id, _ in (*submission.values, *submission.problems)}

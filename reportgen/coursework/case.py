@@ -303,7 +303,15 @@ class Coursework:
         rows, parts = list(machine.rows), [PartOfKey(MACHINE, machine, self.title)]
         for member in self.members:
             key = relettered(member.case.key(), self.letters[member.name])
-            own = [replace(row, id=member.id(row.id), size=member.id(row.size) if row.size else "") for row in key.rows]
+            own = [
+                replace(
+                    row,
+                    id=member.id(row.id),
+                    size=member.id(row.size) if row.size else "",
+                    plans=tuple(map(member.id, row.plans)),
+                )
+                for row in key.rows
+            ]
             rows += own
             parts.append(PartOfKey(member.name, replace(key, rows=tuple(own)), member.title, member.part.head))
         return replace(machine, rows=tuple(rows), parts=tuple(parts))

@@ -106,6 +106,30 @@ def measuring_errors(
     return errors
 
 
+def plans_read(ledger: Ledger) -> dict[str, frozenset[str]]:
+    """The ids of the scales of the plans, and of the mechanism's drawing, that each quantity is read from.
+
+    That is what is measured there, and all that stands on it.
+    """
+    measured = measuring_errors(ledger)
+    read: dict[str, list[str]] = {}
+    for size, vector in ledger.vectors.items():
+        read.setdefault(vector, []).append(size)
+    found: dict[str, frozenset[str]] = {}
+    for id in ledger.families:
+        before = [size for name in ledger.inputs[id] for size in (name, *read.get(name, ())) if size in found]
+        own = {_measured_on(ledger, id)} if id in measured else set()
+        found[id] = frozenset(own).union(*(found[name] for name in before))
+    return found
+
+
+def _measured_on(ledger: Ledger, id: str) -> str:
+    """The scale of the plan that something measured is read from, or of the drawing if it lies on no plan."""
+    if is_direction(id):
+        id = _on_paper(ledger, id).id
+    return vocabulary.plan(id) or "mu.l"
+
+
 def _may_be_measured(family: Family) -> bool:
     """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
     plan, found = vocabulary.plan(family.id), ids.segment.read(family.id)

@@ -30,6 +30,7 @@ from reportgen.marking.bands import (
     is_chosen_length,
     is_round_scale,
     is_workable,
+    plans_read,
     trapezoid_errors,
 )
 from reportgen.report.case import INSTANT, Calculation, Key, KeyRow, Opened, Role, Span
@@ -70,7 +71,7 @@ def make_key(
     """
     assignment, words, worked = case.assignment, case.words, span.worked
     by_rule = trapezoid_errors(ledger)
-    on_paper, by_rounding = drawn_bands(ledger), computed_bands(ledger)
+    on_paper, by_rounding, read = drawn_bands(ledger), computed_bands(ledger), plans_read(ledger)
     complete = set(worked) == set(range(1, len(span.labels) + 1))
 
     def row(id: str) -> KeyRow:
@@ -104,6 +105,7 @@ def make_key(
             what=phrase(id, ledger, words),
             positive=words["signs"].get(sense, sense),
             open_sense=is_open(values, sense),
+            plans=tuple(sorted(read[id])) if role is Role.asked else (),
             formula=_formula(ledger, id) if sense in BY_FORMULA else None,
         )
 
@@ -313,6 +315,22 @@ class Ask:
         """The key with the cells that are chosen, and those of the rows whose ids are in `also`."""
         rows = (row if row.id in also or self.wants(row) else replace(row, positions=()) for row in key.rows)
         return replace(key, rows=tuple(rows))
+
+    def on_paper(self, key: Key) -> Key:
+        """The same as a student is handed it: with the scales of all plans that something asked for is read from.
+
+        They may be left empty, and earn nothing; what was measured is judged with them.
+        """
+        chosen = self.of(key)
+        plans = {plan for row in chosen.asked for plan in row.plans}
+        optional = words_of(key)["signs"]["optional"]
+        rows = (
+            replace(row, positive="; ".join(filter(None, (row.positive, optional))))
+            if row.id in plans and not self.wants(row)
+            else row
+            for row in key.rows
+        )
+        return self.of(replace(key, rows=tuple(rows)), plans)
 
     def check(self, keys: Iterable[Key], language: Language | None = None) -> None:
         """Raises `AssignmentError`, located in the policy, for patterns that fit nothing in any of the keys.

@@ -37,7 +37,7 @@ from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working
 from reportgen.marking.parts import joined, sheets_of
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working, lay_out
-from reportgen.report.case import Case, KeyRow
+from reportgen.report.case import Case, KeyRow, Role
 
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,
@@ -176,8 +176,10 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
     """
     scheme = marking_scheme(case, Policy(guard=False))
     submission = read_submission(sheet, scheme.key, scheme.key.language)
-    # What the sheet has no row for is not missing.
-    scheme = replace(scheme, key=Ask(()).of(scheme.key, submission.rows))
+    # What the sheet has no row for is not missing, nor is a scale.
+    filled = {id for id, _ in (*submission.values, *submission.problems)}
+    rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}
+    scheme = replace(scheme, key=Ask(()).of(scheme.key, rows))
     marking = mark(scheme, submission)
     # A blank value does not disagree, nor does one that follows from a right one.
     agrees = not (marking.submission.problems or any(cell.verdict is Verdict.wrong for cell in marking.cells))

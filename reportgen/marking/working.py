@@ -27,15 +27,15 @@ class Working:
     """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
 
     Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
-    are those of the plans as they were drawn, by id, in SI, `shown` where the sheet leaves no doubt of them; `bands`
-    are the tolerances of such drawings.
+    are those of the plans as they were drawn, by id, in SI; `drawn` are the multiples of the report's scales that the
+    tolerances follow, `bands` these.
     """
 
     scheme: MarkingScheme
     submission: Submission
     values: Values
     scales: Values
-    shown: Values
+    drawn: Values
 
     @cached_property
     def _units(self) -> dict[str, np.ndarray]:
@@ -50,9 +50,7 @@ class Working:
     @cached_property
     def bands(self) -> Mapping[str, np.ndarray]:
         """The tolerances (SI) [N] of every row, at the student's own scales."""
-        # Nobody gets wider tolerances by a scale that nothing was drawn at.
-        factors = {id: np.where(self.shown[id], one, np.minimum(one, 1.0)) for id, one in self.factors.items()}
-        other = {id: factor for id, factor in factors.items() if (np.abs(factor - 1) > CONFIRMED).any()}
+        other = {id: factor for id, factor in self.drawn.items() if (np.abs(factor - 1) > CONFIRMED).any()}
         return self.scheme.bands_at(other) if other else self.scheme.bands
 
     def unit(self, id: str) -> np.ndarray:
@@ -188,13 +186,13 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
     asked = [row.id for row in scheme.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
-    shown: dict[str, np.ndarray] = {}
+    drawn: dict[str, np.ndarray] = {}
     for scale in asked:
         usual = scheme.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
         first = next((id for id in plan if makes_scale(scheme.ledger, id, scale)), None)
         stated = values.get(scale, np.full(len(usual), np.nan))
-        factor, shown[scale] = np.ones(len(usual)), np.zeros(len(usual), dtype=bool)
+        factor, drawn[scale] = np.ones(len(usual)), np.ones(len(usual))
         for place in range(len(usual)):
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
@@ -205,12 +203,17 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
                 with np.errstate(divide="ignore"):
                     tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
             plan_of_place = [id for id in plan if id != first]
-            factor[place], shown[scale][place] = drawn_at(scheme, values, plan_of_place, tried, own)
+            factor[place], shown = drawn_at(scheme, values, plan_of_place, tried, own)
+            if any(np.isfinite(values[id][own]).any() for id in plan):
+                # Nobody gets wider tolerances by a scale that nothing was drawn at.
+                drawn[scale][place] = factor[place] if shown else min(factor[place], 1.0)
+            elif 1 / FURTHEST <= factor[place] <= FURTHEST:
+                drawn[scale][place] = factor[place]
         scales[scale] = factor * usual
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
             values[scale] = stated / factor
-    return Working(scheme, submission, values, scales, shown)
+    return Working(scheme, submission, values, scales, drawn)
 
 
 def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.ndarray:
@@ -229,6 +232,9 @@ def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.nd
 # --- at which scale a student drew a plan ---------------------------------------------------------
 # What was read from it tells, a scale written down, or the report's.
 # A length stands for a quantity at a scale that is the student's own choice; only sizes over lengths can be judged.
+
+FURTHEST = 5.0
+"""A scale that no length on the sheet shows is a slip in its unit if it differs more than this from the report's."""
 
 LARGEST_SCALE = 1e6
 """A student's own scale that differs more than this from the report's is no scale."""

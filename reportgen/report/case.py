@@ -405,6 +405,8 @@ class KeyRow:
     """Which sense counts as positive, in words; "" where there is none, or where the general rule says it."""
     open_sense: bool = False
     """Whether its sign is not judged, because the papers do not say which sense is positive."""
+    plans: tuple[str, ...] = ()
+    """The ids of the scales of the plans that its value is read from, itself or what it stands on."""
     formula: Expression | None = None
     """The formula in symbols of what is defined by it alone, as the papers say it: w of w = s′ − e."""
 

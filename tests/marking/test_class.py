@@ -164,8 +164,8 @@ def test_answers_are_kept_back_if_the_policy_says_so(graded: Graded, tmp_path: P
     """Neither file of a student with a slip then tells the right value."""
     marking = next(one for one in graded.markings if one.key.id == "K225520103004")
     slip = next(cell for cell in marking.cells if cell.id == "omega.1")
-    right = marking.key.row("omega.1")
-    shown = f"{slip.expected:.{right.decimals}f}".replace(".", ",")
+    # To the figures of its tolerance, half a per cent: 0.16 rad/s.
+    shown = f"{slip.expected:.2f}".replace(".", ",")
     texts = {}
     for show in (True, False):
         one = Graded((marking,), (), ())

@@ -1,0 +1,120 @@
+"""Plans drawn at other scales than the report's: the sheet asks for these, and tolerances follow them both ways."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from reportgen.classes.assess import asked_of
+from reportgen.marking.key import Ask
+from reportgen.marking.marking import mark
+from reportgen.marking.marks import Answer, Marking, MarkingScheme, Submission, Verdict
+from reportgen.report.case import Role
+from tests.lanes import matrix
+from tests.marking import hands, students
+from tests.marking.machines import MACHINES
+from tests.marking.rates import STEADY
+
+POSITIONS = (2, 4, 7)
+TELLING = [("four-bar-01", 3.0), ("shaper-02", 1 / 3)]
+
+
+def drawn_at(scheme: MarkingScheme, factor: float, seed: int) -> Submission:
+    """The sheet that a class is handed, of a good hand whose plans are all so many times coarser."""
+    asked, ledger = replace(scheme, key=Ask().on_paper(scheme.key)), scheme.ledger
+
+    def how(position: int) -> dict[str, Any]:
+        def coarser(id: str) -> float:
+            values = ledger[id].values
+            return factor * float(values[position - 1 if len(values) > 1 else 0].real)
+
+        chosen: dict[str, Any] = {
+            "plan_scales": {what: coarser(f"mu.{what}") for what in "va" if ledger[f"mu.{what}"].definition is None},
+            "force_scale": {id.removeprefix("mu.R"): coarser(id) for id in ledger.families if id.startswith("mu.R")},
+        }
+        paper = [id for id, family in ledger.families.items() if id.startswith("drawn.") and family.definition is None]
+        return chosen | {"paper": float(ledger[paper[0]].values[0]) / factor} if paper else chosen
+
+    return hands.handed_in(
+        asked, {k: hands.at_work(scheme, k, seed=100 * seed + k, **STEADY | how(k)) for k in POSITIONS}
+    )
+
+
+def graded(scheme: MarkingScheme, sheet: Submission, stated: bool = True) -> Marking:
+    """The sheet marked as `grade` marks it, with the scales left empty if they are not `stated`."""
+    scales = {row.id for row in scheme.key.rows if row.role is Role.scale}
+    values = {place: one for place, one in sheet.values.items() if stated or place[0] not in scales}
+    sheet = replace(sheet, values=values)
+    return mark(asked_of(scheme, sheet), sheet)
+
+
+def wrong(marking: Marking) -> Counter[str]:
+    return Counter(cell.id for cell in marking.cells if cell.given is not None and cell.points < cell.worth)
+
+
+@pytest.mark.parametrize(("name", "factor"), matrix([(name, by) for name in MACHINES for by in (3.0, 1 / 3)], TELLING))
+def test_who_states_the_scale_is_judged_by_it(name: str, factor: float) -> None:
+    """± 0.3 mm at each end of a length, on paper a third or three times as large: no cell is marked wrong."""
+    scheme = students.scheme(name, POSITIONS)
+    for seed in range(2 if (name, factor) in TELLING else 12):
+        assert wrong(graded(scheme, drawn_at(scheme, factor, seed))) == {}
+
+
+def test_the_sheet_asks_for_the_scales_of_plans_that_carry_marks() -> None:
+    """Of all plans that something asked for is read from, and of no other; the cells may be left empty."""
+    full = students.scheme("four-bar-01", POSITIONS).key
+    scales = {row.id: row for row in Ask().on_paper(full).asked if row.role is Role.scale}
+    assert set(scales) == {"mu.l", "mu.v", "mu.a", "mu.R23", "mu.R1"}
+    assert all(row.named.endswith("có thể để trống") for row in scales.values())
+    # A velocity is read from its own plan; an acceleration takes n = v²/l from it, a force both.
+    found = {
+        section: {row.id for row in Ask((section,)).on_paper(full).asked if row.role is Role.scale}
+        for section in ("velocity", "acceleration", "cycle")
+    }
+    assert {"mu.v"} <= found["velocity"] <= {"mu.v", "mu.l"}
+    assert {"mu.v", "mu.a"} <= found["acceleration"]
+    assert not any(one.startswith("mu.R") for one in found["acceleration"])
+    everything = Ask(("*",)).on_paper(full)
+    assert [row.described for row in everything.rows] == [row.described for row in full.rows]
+
+
+def test_a_scale_costs_nothing() -> None:
+    """Left empty, or with a slip in its unit, it changes no mark and is worth none."""
+    scheme = students.scheme("four-bar-01", POSITIONS)
+    sheet = drawn_at(scheme, 1.0, 0)
+    right = graded(scheme, sheet)
+    assert wrong(right) == {}
+    for factor in (1e3, 1e-3, 0.0, -1.0):
+        values = {
+            place: Answer(factor * one.value, "", one.mark) if place[0].startswith("mu.") else one
+            for place, one in sheet.values.items()
+        }
+        slipped = graded(scheme, replace(sheet, values=values))
+        assert (slipped.points, slipped.out_of) == (right.points, right.out_of)
+    empty = graded(scheme, sheet, stated=False)
+    assert (empty.points, empty.out_of) == (right.points, right.out_of)
+
+
+@pytest.mark.parametrize(
+    ("factor", "off", "is_right"), [(1 / 3, 0.9, False), (1.0, 0.9, True), (1.0, 2.5, False), (3.0, 2.5, True)]
+)
+def test_tolerances_follow_a_stated_scale_both_ways(factor: float, off: float, is_right: bool) -> None:
+    """A velocity off by so many mm on the report's plan: within 1 mm at its scale, within a third or three times that.
+
+    Three figures and a share of 0.5 % are added, far less than 0.1 mm or 1.5 mm at these scales.
+    """
+    scheme = students.scheme("four-bar-01", POSITIONS)
+    sheet = drawn_at(scheme, 1.0, 0)
+    values = {
+        place: Answer(factor * one.value, "", one.mark) if place[0].startswith("mu.") else one
+        for place, one in sheet.values.items()
+    }
+    key = scheme.key.row("v.C")
+    millimetre = float(scheme.key.row("mu.v").values[0])
+    values["v.C", 4] = Answer(float(key.values[3]) + off * millimetre, "", sheet.values["v.C", 4].mark)
+    marking = graded(scheme, replace(sheet, values=values))
+    (cell,) = (one for one in marking.cells if (one.id, one.position) == ("v.C", 4))
+    assert (cell.verdict is Verdict.right) == is_right
