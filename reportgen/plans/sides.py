@@ -33,7 +33,7 @@ def image(name: str) -> str:
     return name.lower()
 
 
-@view("turns", "way", "state", "guided", "relative", "rod", "known", "omega", "part", "velocity")
+@view("turns", "way", "state", "guided", "relative", "rod", "known", "omega", "part", "pair", "velocity")
 @dataclass(frozen=True, slots=True)
 class Side:
     """One of the two ways in which the motion of a `point` is written: with its `base`, and relative to it.
