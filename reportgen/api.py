@@ -30,8 +30,10 @@ if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
-    from reportgen.report import Document, Letter
-    from reportgen.report.case import Case, Key
+    from reportgen.report import Document
+    from reportgen.report.case import Case
+    from reportgen.report.key import Key
+    from reportgen.report.layout import Letter
     from reportgen.writers.pdflatex import Ahead
 
 Engine = Literal["typst", "latex"]
@@ -196,7 +198,7 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
 
 def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes:
     """The Word file of a report with the look of a school's Word file, if there is one."""
-    from reportgen.report import Letter
+    from reportgen.report.layout import Letter
     from reportgen.workbook.letterhead import read_letterhead
     from reportgen.writers import typst
     from reportgen.writers import word as writer
@@ -214,7 +216,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
     """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
-    from reportgen.report import Letter
+    from reportgen.report.layout import Letter
 
     font = assignment.report.font or ""
     if font and font not in (known := _fonts(engine)):
@@ -243,7 +245,7 @@ def typeset(
 
     LaTeX may have read `ahead` what the source begins with.
     """
-    from reportgen.report import Letter
+    from reportgen.report.layout import Letter
 
     letter = letter or Letter()
     if engine == "latex":

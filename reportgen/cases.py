@@ -22,7 +22,8 @@ from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
 from reportgen.report import Document
-from reportgen.report.case import Calculation, Case, Key, Pitfalls
+from reportgen.report.case import Calculation, Case, Pitfalls
+from reportgen.report.key import Key
 from reportgen.report.shafts import Shaft
 
 if TYPE_CHECKING:

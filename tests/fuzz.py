@@ -32,7 +32,8 @@ from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
 from reportgen.marking.marks import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.case import Calculation, Key
+from reportgen.report.case import Calculation
+from reportgen.report.key import Key
 from reportgen.report.outline import names
 from reportgen.report.prose import Prose
 from reportgen.report.report import Report

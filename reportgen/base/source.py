@@ -11,8 +11,8 @@ from __future__ import annotations
 import codecs
 import re
 import unicodedata
-from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import islice
 from operator import attrgetter
 from pathlib import Path
@@ -20,7 +20,7 @@ from typing import Any, NoReturn
 
 import yaml
 
-from reportgen.base.errors import Fault, Mark, Where
+from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
@@ -347,162 +347,3 @@ def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:
 def mark_after(before: str, file: str) -> Mark:
     """The place right after a piece of text from the beginning of a file."""
     return Mark(file, before.count("\n") + 1, len(before) - before.rfind("\n"))
-
-
-# --- assignment files with values put into them ---------------------------------------------------
-# First as nodes, then as text.
-# What was not changed stays as it stands in the source, comments included, wherever a key has lines of its own; the
-# rest is written anew. `text_of` reads its own text again: a form it could not keep is written anew as a whole.
-
-WIDTH = 100
-_PLAIN = re.compile(r"[^\W\d_][\w/^²³⁴·.@-]*( [\w/^²³⁴·.@-]+)*|[+-]?[0-9.][\w./^²³⁴·+-]*( [\w./^²³⁴·*+-]+)*")
-_RESERVED = re.compile(r"(~|null|true|false|yes|no|on|off|)", re.IGNORECASE)
-_ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
-
-
-def at(node: Node | None, where: Where) -> Node | None:
-    """The node at a place; None if there is none."""
-    for step in where:
-        if isinstance(node, MappingNode):
-            entry = node.find(step)
-            node = entry[1] if entry else None
-        elif isinstance(node, SequenceNode) and isinstance(step, int) and step < len(node.items):
-            node = node.items[step]
-        else:
-            return None
-    return node
-
-
-def put(node: Node, where: Where, value: Node) -> Node:
-    """The node with `value` at a place; missing tables on the way are made, lists are not made longer."""
-    if not where:
-        return value
-    step, rest = where[0], where[1:]
-    if isinstance(node, SequenceNode):
-        items = tuple(put(item, rest, value) if k == step else item for k, item in enumerate(node.items))
-        return replace(node, items=items)
-    entries = node.entries if isinstance(node, MappingNode) else ()
-    if step not in [key.text for key, _ in entries]:
-        entries = (*entries, (Scalar(str(step), value.mark), MappingNode((), value.mark)))
-    changed = tuple((key, put(old, rest, value) if key.text == step else old) for key, old in entries)
-    return MappingNode(changed, node.mark)
-
-
-def without(table: MappingNode, keys: Collection[str]) -> MappingNode:
-    """The table without some of its keys."""
-    return replace(table, entries=tuple(entry for entry in table.entries if entry[0].text not in keys))
-
-
-def path_text(where: Where) -> str:
-    """A place as users write it: parameters.H, parameters.groups.0.length."""
-    return ".".join(map(str, where))
-
-
-def text_of(table: MappingNode, source: str, original: MappingNode) -> str:
-    """The file of a table whose unchanged parts are those of `original`, which was read from `source`."""
-    kept = _block(table, original, source.splitlines(), 0)
-    read = read_own(kept)
-    agrees = not read.faults and read.top is not None and plain(read.top) == plain(table)
-    return kept if agrees else _lines(table, 0)
-
-
-def quoted(text: str, always: bool = False) -> str:
-    """A scalar of YAML that is read as exactly this text."""
-    if not always and _PLAIN.fullmatch(text) and not _RESERVED.fullmatch(text):
-        return text
-    return f'"{"".join(map(_escaped, text))}"'
-
-
-def _escaped(letter: str) -> str:
-    if letter in _ESCAPES:
-        return _ESCAPES[letter]
-    if letter.isprintable():
-        return letter
-    return f"\\u{ord(letter):04x}" if ord(letter) < 0x10000 else f"\\U{ord(letter):08x}"
-
-
-def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], depth: int) -> str:
-    """A table in block form: entries that are the very ones of the source by their lines, others anew."""
-    spans = _spans(original, lines)
-    text = ""
-    for key, value in table.entries:
-        entry = original.find(key.text)
-        span = spans.get(key.text)
-        if entry is None or span is None:
-            # Before the blank lines that separate this table from what follows it.
-            full = text.rstrip("\n") + "\n" if text.strip() else text
-            text = full + _entry(key, value, depth) + text[len(full) :]
-        elif value is entry[1]:
-            text += _joined(span)
-        elif isinstance(value, MappingNode) and isinstance(entry[1], MappingNode) and _is_block(entry[0], entry[1]):
-            start = entry[0].mark.line - 1
-            text += _joined(lines[start : entry[1].mark.line - 1])
-            text += _block(value, entry[1], lines[: start + len(span)], entry[1].mark.column - 1)
-        else:
-            text += _with_comment(_entry(key, value, depth), span, value)
-    return text
-
-
-def _joined(lines: Sequence[str]) -> str:
-    return "".join(f"{line}\n" for line in lines)
-
-
-def _is_block(key: Scalar, table: MappingNode) -> bool:
-    return bool(table.entries) and table.mark.line > key.mark.line and table.mark == table.entries[0][0].mark
-
-
-def _spans(table: MappingNode, lines: Sequence[str]) -> dict[str, Sequence[str]]:
-    """The lines of each entry, up to the next; none for entries that share lines."""
-    keys = [key for key, _ in table.entries]
-    starts = [key.mark.line for key in keys]
-    shared = any(lines[key.mark.line - 1][: key.mark.column - 1].strip() for key in keys)
-    if not keys or shared or len(set(starts)) < len(starts):
-        return {}
-    ends = [*(line - 1 for line in starts[1:]), len(lines)]
-    return {key.text: lines[start - 1 : end] for key, start, end in zip(keys, starts, ends, strict=True)}
-
-
-def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
-    """An entry written anew, with the comment of its old line and the lines of comment after it."""
-    after = []
-    for line in reversed(span[1:]):
-        if line.strip() and not line.lstrip().startswith("#"):
-            break
-        after.append(line)
-    comment = re.search(r"\s+#[^'\"]*$", span[0]) if isinstance(value, Scalar) else None
-    return _joined([entry.rstrip("\n") + (comment[0] if comment else ""), *reversed(after)])
-
-
-def _entry(key: Scalar, value: Node, depth: int) -> str:
-    """A key and its value, in one line if that is short or there is nothing in it."""
-    name, space = quoted(key.text), " " * depth
-    flow = _flow(value)
-    if isinstance(value, Scalar) or flow in ("[]", "{}") or len(space) + len(name) + len(flow) + 2 <= WIDTH:
-        return f"{space}{name}: {flow}".rstrip() + "\n"
-    if isinstance(value, MappingNode):
-        return f"{space}{name}:\n{_lines(value, depth + 2)}"
-    return _joined([f"{space}{name}:", *(line for item in value.items for line in _item(item, depth + 2))])
-
-
-def _item(item: Node, depth: int) -> list[str]:
-    """An item of a list in one line; a long table with tables in it by its entries."""
-    flow = _flow(item)
-    nested = isinstance(item, MappingNode) and any(isinstance(value, MappingNode) for _, value in item.entries)
-    if depth + 2 + len(flow) <= WIDTH or not isinstance(item, MappingNode) or not nested:
-        return [f"{' ' * depth}- {flow}"]
-    first, *others = _lines(item, depth + 2).splitlines()
-    return [f"{' ' * depth}- {first.lstrip()}", *others]
-
-
-def _lines(table: MappingNode, depth: int) -> str:
-    return "".join(_entry(key, value, depth) for key, value in table.entries)
-
-
-def _flow(node: Node) -> str:
-    match node:
-        case Scalar(text, null=null, quoted=in_marks):
-            return "" if null else quoted(text, in_marks)
-        case SequenceNode(items):
-            return f"[{', '.join(_flow(item) for item in items)}]"
-        case MappingNode(entries):
-            return "{" + ", ".join(f"{quoted(key.text)}: {_flow(value)}".rstrip() for key, value in entries) + "}"

@@ -23,18 +23,8 @@ from typing import Any
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
 from reportgen.base.files import OF_SCHOOL, school_strays
 from reportgen.base.gaps import filled, gaps, plain_gaps
-from reportgen.base.source import (
-    MappingNode,
-    Scalar,
-    Source,
-    at,
-    path_text,
-    plain,
-    read_own,
-    read_words,
-    scalars,
-    text_in,
-)
+from reportgen.base.source import MappingNode, Scalar, Source, plain, read_own, read_words, scalars, text_in
+from reportgen.base.source_text import at, path_text
 from reportgen.base.units import Language
 
 DEFAULT_LANGUAGE: Language = "vi"

@@ -20,7 +20,8 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Document
-from reportgen.report.case import Key, Pitfalls, Span
+from reportgen.report.case import Pitfalls
+from reportgen.report.key import Key, Span
 from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
 

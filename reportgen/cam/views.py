@@ -20,8 +20,8 @@ from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, ids, substitute, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.report.case import Key
 from reportgen.report.design import DesignPage
+from reportgen.report.key import Key
 from reportgen.report.prose import Prose
 
 DATA = (95.0, 25.0, 40.0)

@@ -7,27 +7,25 @@ loads; `linkage_file` says what each key means.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Any
 
 import numpy as np
 
 from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.base.errors import Finding
-from reportgen.base.shown import view
 from reportgen.base.units import nice_up
 from reportgen.catalogue import linkage_checks
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import GivenSheet, as_typed, needs_loads, outline
+from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
 from reportgen.catalogue.linkage_file import Parameters
+from reportgen.catalogue.linkage_words import arms, facts
 from reportgen.catalogue.loops import ClosedLoops
-from reportgen.formula import Number, Symbol, ids, turned, vocabulary
+from reportgen.formula import Symbol, ids, turned
 from reportgen.formula.ids import Name
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
-from reportgen.machine import DRIVER, DyadKind, Guide, Linkage
+from reportgen.machine import DRIVER, Linkage
 from reportgen.machine.analysis import Machine, lettered
 from reportgen.machine.loads import (
     FULL_TURN,
@@ -273,240 +271,3 @@ def _law(
     # A crank has an angular velocity of its own, a slide has none.
     turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
     return found if turns else Resistance(abs(size.si), rate, found.reversals)
-
-
-# --- what the words of a declared linkage name ----------------------------------------------------
-# Rows of plain values, quantities as they were typed.
-
-
-@view("drawing")
-@dataclass(frozen=True, slots=True)
-class GroupRow:
-    """A group: its links, kind, joints and the lengths of its rods, each with its ends."""
-
-    links: tuple[int, int]
-    kind: DyadKind
-    joints: tuple[str, ...]
-    lengths: tuple[tuple[str, Number], ...] = ()
-    choice: str = ""
-    """Which of two ways it is assembled: left, right, far, near, towards, away, or ""."""
-    offset: Number | None = None
-    across: Number | None = None
-
-    @property
-    def drawing(self) -> str:
-        """Which words say how it is drawn."""
-        return "RPR-offset" if self.offset else self.kind
-
-
-@dataclass(frozen=True, slots=True)
-class GuideRow:
-    """A guide: the link that slides, the link that has it, a point of it, its direction."""
-
-    slider: int
-    carrier: int
-    x: Number
-    y: Number
-    angle: Number
-
-
-@dataclass(frozen=True, slots=True)
-class PointRow:
-    """A point of a link by its distances from a joint, along the way to another or along a guide or slot (`way`)."""
-
-    name: str
-    link: int
-    origin: str
-    way: str
-    along: Number
-    across: Number
-
-
-@view("phrase", "table")
-@dataclass(frozen=True, slots=True)
-class LoadRow:
-    """A load: its link, how it is given, where and in which direction it acts, its size or its table."""
-
-    id: str
-    link: int
-    by: str
-    torque: bool
-    point: str = ""
-    direction: Number | None = None
-    size: Number | None = None
-    against: bool = False
-    nodes: tuple[float, ...] = ()
-    rows: tuple[tuple[float, ...], ...] = ()
-    bore: Number | None = None
-    intake: str = ""
-
-    @property
-    def phrase(self) -> str:
-        """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
-        acting = "torque" if self.torque else "force"
-        match self.by:
-            case "constant":
-                return f"{acting}-against" if self.against else acting
-            case "gas":
-                return f"gas-{self.intake}".replace(" ", "-")
-            case "stroke":
-                return "stroke"
-        return f"{acting}-{self.by}"
-
-    @property
-    def table(self) -> str:
-        """The key of the table of its values."""
-        return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
-
-
-@view()
-@dataclass(frozen=True, slots=True)
-class MotionRow:
-    """How a link moves: "rotation" about a fixed point, "translation" along a fixed guide,
-    "shift" without rotation, or "plane" motion.
-    """
-
-    link: int
-    kind: str
-    point: str = ""
-
-
-def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]) -> dict[str, Any]:
-    """What the words of the kind name; `loads` are the ids of the loads in the order of the file.
-
-    Only those that are `acting` are told of.
-    """
-    rows = tuple(map(_group, given.groups))
-    axes = _axes(given)
-    shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
-    return {
-        "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
-        "quantities": tuple(_quantities(given, rows)),
-        "groups": rows,
-        "guides": tuple(_guides(given)),
-        "points": tuple(
-            PointRow(name, one.link, *axes[one.link], *map(as_typed, one.at)) for name, one in given.points.items()
-        ),
-        "motions": tuple(_motions(given)),
-        "listed": "given" if given.masses else "massless",
-        "loads": shown,
-        "interpolated": tuple(load for load in shown if load.nodes),
-        "two_turns": given.turns == 2,
-        "gases": tuple(load for load in shown if load.by == "gas"),
-    }
-
-
-def arms(given: file.Parameters) -> Iterator[str]:
-    """The lengths that do not change, by their ends: crank, rods, points of the links."""
-    if isinstance(given.driver, file.CrankDriver):
-        yield f"{given.driver.centre}{given.driver.pin}"
-    for group in given.groups:
-        yield from (rod for rod, _ in _group(group).lengths)
-    axes = _axes(given)
-    yield from (f"{axes[point.link][0]}{name}" for name, point in given.points.items())
-
-
-def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[tuple[str, str, str]]:
-    """Ids of given quantities, what they are, and of which link or between which points."""
-    driver = given.driver
-    if isinstance(driver, file.CrankDriver):
-        yield ids.length(driver.centre, driver.pin), "crank", ""
-        yield "n", "n", ""
-        yield "omega.1", "omega1", ""
-    else:
-        yield ids.velocity(driver.pin), "speed", ""
-        yield "span", "span", ""
-    for row in rows:
-        yield from ((ids.length(rod), "length", rod) for rod, _ in row.lengths)
-    for body in given.masses:
-        for id, what in ((ids.weight(body.link), "G"), (ids.mass(body.link), "m"), (ids.inertia(body.link), "J")):
-            yield id, what, str(body.link)
-    yield "g", "g", ""
-
-
-def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
-    """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
-    driver = given.driver
-    found = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
-    for group in given.groups:
-        first, last = group.joints[0], group.joints[-1]
-        match group:
-            case file.RRR():
-                ways = group.joints[1], group.joints[1]
-            case file.RRP():
-                ways = last, "guide"
-            case file.RPR():
-                ways = "slot", "slot"
-            case _:
-                ways = "guide", "guide"
-        found |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
-    return found
-
-
-def _motions(given: file.Parameters) -> Iterator[MotionRow]:
-    # Links that do not turn: the frame, a sliding driver, and what slides on such a link.
-    level = {0} if isinstance(given.driver, file.CrankDriver) else {0, 1}
-    for group in given.groups:
-        dyad = group.dyad
-        turns_alike = isinstance(group, file.RPP) and group.guide.on in level
-        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
-            slides_level = isinstance(end, Guide) and end.link in level
-            if turns_alike or slides_level:
-                level.add(link)
-            if isinstance(end, Guide):
-                yield MotionRow(link, "translation" if end.link == 0 else "shift" if slides_level else "plane")
-            elif turns_alike:
-                yield MotionRow(link, "shift")
-            else:
-                yield MotionRow(link, "rotation", end) if end in given.frame else MotionRow(link, "plane")
-
-
-def _group(group: file.Group) -> GroupRow:
-    joints = group.joints
-    row = partial(GroupRow, group.dyad.links, group.type, joints)
-    match group:
-        case file.RRR():
-            ends = f"{joints[0]}{joints[1]}", f"{joints[2]}{joints[1]}"
-            return row(tuple(zip(ends, map(as_typed, group.lengths), strict=True)), group.side)
-        case file.RRP():
-            return row(((f"{joints[0]}{joints[1]}", as_typed(group.length)),), group.end)
-        case file.RPR():
-            return row(choice=group.axis, offset=as_typed(group.offset) if group.offset.si else None)
-        case file.RPP():
-            return row(across=as_typed(group.across))
-    return row()
-
-
-def _guides(given: file.Parameters) -> Iterator[GuideRow]:
-    if isinstance(given.driver, file.SlideDriver):
-        yield _guide(1, given.driver.guide)
-    for group in given.groups:
-        yield from (_guide(link, guide) for link, guide, _ in file.rails(group))
-
-
-def _guide(slider: int, guide: file.GuideSection) -> GuideRow:
-    return GuideRow(slider, guide.on, *map(as_typed, (*guide.at, guide.angle)))
-
-
-def _load(load: file.Loading, name: str) -> LoadRow:
-    match load:
-        case file.OverStroke():
-            return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
-        case file.Gas():
-            return LoadRow(name, load.link, "gas", False, bore=as_typed(load.D), intake=load.intake)
-    torque, way = load.at is None, as_typed(load.direction)
-    if isinstance(load, file.Constant):
-        size = load.F or load.M
-        assert size is not None
-        return LoadRow(
-            name,
-            link=load.link,
-            by=load.by,
-            torque=torque,
-            point=load.at or "",
-            direction=way,
-            size=as_typed(size),
-            against=load.against is not None,
-        )
-    nodes = tuple(node.value for node in (load.angle if isinstance(load, file.OverAngle) else load.way))
-    return LoadRow(name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,))

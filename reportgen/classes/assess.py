@@ -27,7 +27,7 @@ from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, MarkingScheme, Policy, Submission, marking_scheme
 from reportgen.marking.parts import check_shares
 from reportgen.marking.sheet import read_submission
-from reportgen.report.case import Key
+from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 
 

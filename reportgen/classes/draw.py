@@ -27,7 +27,7 @@ from dataclasses import dataclass, field
 from reportgen import catalogue
 from reportgen.assignment.common import PARTS
 from reportgen.base.errors import Fault
-from reportgen.base.source import path_text
+from reportgen.base.source_text import path_text
 from reportgen.cases import opened
 from reportgen.classes.roster import Roster, RosterEntry
 from reportgen.classes.spec import DRAWN_SECTIONS, Settings, Spec, place

@@ -28,19 +28,8 @@ from reportgen.assignment.reading import doubtful, words_beside
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, overwritten, put_file, put_set, version
 from reportgen.base.limits import Limits
-from reportgen.base.source import (
-    MappingNode,
-    Node,
-    Scalar,
-    Source,
-    at,
-    path_text,
-    put,
-    quoted,
-    read_source,
-    text_of,
-    without,
-)
+from reportgen.base.source import MappingNode, Node, Scalar, Source, read_source
+from reportgen.base.source_text import at, path_text, put, quoted, text_of, without
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem, word
 from reportgen.cases import opened

@@ -27,7 +27,8 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.marking.key import phrase
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, Key, Opened, PartOfKey, Pitfalls, capitalised
+from reportgen.report.case import Case, Opened, Pitfalls
+from reportgen.report.key import Key, PartOfKey, capitalised
 from reportgen.report.occurring import explained, is_explained, occurring
 from reportgen.report.shafts import Shaft
 

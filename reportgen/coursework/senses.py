@@ -11,7 +11,7 @@ from typing import Any
 from reportgen.formula import Number
 from reportgen.marking.feedback import sentence
 from reportgen.report import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
-from reportgen.report.case import capitalised
+from reportgen.report.key import capitalised
 from reportgen.report.shafts import Shaft
 
 KEY = "tab.shafts"

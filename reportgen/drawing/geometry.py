@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline
-from reportgen.formula import Symbol, setting
+from reportgen.formula import Symbol, setter, setting
 from reportgen.formula.vocabulary import numbered, runs
 
 Complexes = NDArray[np.complex128]
@@ -406,7 +406,7 @@ def _letters(text: str, em: float) -> Box:
     return whole
 
 
-class Boxes(setting.Setter[Box]):
+class Boxes(setter.Setter[Box]):
     """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
 
     def __init__(self, em: float, displayed: bool = False) -> None:
@@ -450,7 +450,7 @@ class Boxes(setting.Setter[Box]):
                 half = sum(line.height + line.depth for line in lines) / 2
                 width = max((line.width for line in lines), default=0.0)
                 return Box(width, half + 0.25 * em, half - 0.25 * em)
-            case setting.Mark(mark, tall):
+            case setting.Parenthesis(mark, tall):
                 return self.text(mark).beside(_gap(0.35 * em * tall))
             case setting.Note(text):
                 # Both typesetters set the note in parentheses, a quad away.

@@ -33,7 +33,8 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.case import Key, Pitfalls
+from reportgen.report.case import Pitfalls
+from reportgen.report.key import Key
 from reportgen.report.numbering import finished
 from reportgen.report.prose import NamedPoint, Prose
 

@@ -19,7 +19,8 @@ from reportgen.formula import (
     Symbol,
     VectorEquation,
 )
-from reportgen.formula.setting import Sign, TextSetter, Written, known_of, written
+from reportgen.formula.setter import TextSetter
+from reportgen.formula.setting import Sign, Written, known_of, written
 
 
 class Plain(TextSetter):

@@ -7,11 +7,10 @@ place, too: a fraction of a sum becomes 1/denominator times the sum, which break
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import repeat
-from typing import ClassVar, Generic, Literal, TypeVar
+from typing import Literal
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.units import Language, by_power_of_ten, write
@@ -139,14 +138,14 @@ class Note:
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class Parenthesis:
     """A parenthesis of a sum that goes on over several lines; `tall` beside terms higher than a line."""
 
     of: Literal["(", ")"]
     tall: bool
 
 
-Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note | Mark
+Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note | Parenthesis
 Fits = Callable[[Sequence[Part]], bool]
 """Whether parts have room beside each other in a line."""
 
@@ -277,7 +276,7 @@ def is_tall(part: Part) -> bool:
             return True
         case MathRow(parts):
             return any(map(is_tall, parts))
-        case Mark(tall=tall):
+        case Parenthesis(tall=tall):
             return tall
         case Raised(base, exponent):
             return is_tall(base) or is_tall(exponent)
@@ -332,7 +331,11 @@ def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
 
 def _marked(part: Part) -> tuple[Part, ...]:
     """A sum between marks, so that its terms stand in the row itself."""
-    return (Mark("(", is_tall(part)), *(part.parts if isinstance(part, MathRow) else (part,)), Mark(")", is_tall(part)))
+    return (
+        Parenthesis("(", is_tall(part)),
+        *(part.parts if isinstance(part, MathRow) else (part,)),
+        Parenthesis(")", is_tall(part)),
+    )
 
 
 def _is_sum(part: Part) -> bool:
@@ -371,7 +374,7 @@ def pieces(part: Part) -> list[Part]:
     found: list[list[Part]] = [[]]
     within = False
     for one in every:
-        if isinstance(one, Mark):
+        if isinstance(one, Parenthesis):
             within = one.of == "("
         elif isinstance(one, Sign) and (one.role == "sum" or (one.role == "product" and not within)):
             found.append([])
@@ -424,120 +427,3 @@ def known_of(term: Term, equation: VectorEquation) -> tuple[Expression | str | N
     """What is known of a term, an entry for each of the equation's rows."""
     rows = len(equation.rows)
     return (*term.known, *("",) * (rows - len(term.known)))[:rows]
-
-
-# --- looks ----------------------------------------------------------------------------------------
-
-Look = TypeVar("Look")
-
-
-class Setter(ABC, Generic[Look]):
-    """What the parts of formulas look like in one language: a typesetter's text, runs of a label, a box."""
-
-    linear: ClassVar[bool] = False
-    """Whether it sets letters in a line alone: fractions with a slash, roots without a bar."""
-
-    def __init__(self, language: Language) -> None:
-        self.language: Language = language
-
-    def math(self, node: Expression, slashed: bool = False) -> Look:
-        """The formula of an expression.
-
-        Raises `TypesetterError` for a reference that nobody has substituted, or a character without a glyph.
-        """
-        return self.part(laid(node, self.language, slashed, self.linear))
-
-    def content(self, content: Expression | str, slashed: bool = False) -> Look:
-        """A formula in a line, or a plain text."""
-        return self.text(content) if isinstance(content, str) else self.inline(self.math(content, slashed))
-
-    def known(self, entry: Expression | str | None) -> Look:
-        """What is known of a vector, in the row below its term: "?" for nothing; a fraction keeps to the line."""
-        return self.content("?" if entry is None else entry, slashed=True)
-
-    def inline(self, mathematics: Look) -> Look:
-        """Mathematics as it stands within words."""
-        return mathematics
-
-    @abstractmethod
-    def text(self, text: str) -> Look: ...
-
-    @abstractmethod
-    def part(self, part: Part) -> Look: ...
-
-
-class TextSetter(Setter[str]):
-    """A look in letters, operands in the places of "%s"."""
-
-    BELOW: ClassVar[str] = "%s%s"
-    RAISED: ClassVar[str] = "%s^%s"
-    POWER: ClassVar[str] = "%s^%s"
-    """Of a function."""
-    QUOTIENT: ClassVar[str] = "(%s)/(%s)"
-    RADICAL: ClassVar[str] = "√%s"
-    FENCES: ClassVar[Mapping[str, str]] = {"": "%s", "(": "(%s)", "|": "|%s|", "[": "[%s]"}
-    ENTRY: ClassVar[str] = "; "
-    LINE: ClassVar[str] = " | "
-    """Between the entries and the rows of a matrix."""
-    APPLIED: ClassVar[str] = "%s%s"
-    """A function and what it is applied to without a fence."""
-    CALL: ClassVar[str] = "%s%s"
-    NOTE: ClassVar[str] = " %s"
-
-    def part(self, part: Part) -> str:
-        of = self.part
-        match part:
-            case Symbol():
-                return self.symbol(part)
-            case Written():
-                return self.number(part)
-            case Sign():
-                return self.sign(part)
-            case MathRow(parts):
-                return "".join(map(of, parts))
-            case Raised(base, exponent):
-                return self.RAISED % (of(base), of(exponent))
-            case Quotient(top, bottom):
-                return self.QUOTIENT % (of(top), of(bottom))
-            case Radical(inner):
-                return self.RADICAL % of(inner)
-            case Fence():
-                return self.fence(part)
-            case Function(name, exponent, to):
-                function = self.function(name)
-                function = self.POWER % (function, of(exponent)) if exponent else function
-                return (self.CALL if isinstance(to, Fence) else self.APPLIED) % (function, of(to))
-            case Grid(rows):
-                return self.LINE.join(self.ENTRY.join(map(of, row)) for row in rows)
-            case Note(text):
-                return self.NOTE % self.text(f"({text})")
-            case Mark():
-                return self.mark(part)
-
-    def lowered(self, pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
-        """A symbol's letters with the digits of points below them, no smaller than an index."""
-        return "".join(
-            self.BELOW % (shown(letters), self.upright(digits)) if digits else shown(letters)
-            for letters, digits in pieces
-        )
-
-    def upright(self, letters: str) -> str:
-        return self.text(letters)
-
-    def fence(self, fence: Fence) -> str:
-        return self.FENCES[fence.left] % self.part(fence.of)
-
-    def mark(self, mark: Mark) -> str:
-        return self.text(mark.of)
-
-    @abstractmethod
-    def symbol(self, node: Symbol) -> str: ...
-
-    @abstractmethod
-    def number(self, number: Written) -> str: ...
-
-    @abstractmethod
-    def sign(self, sign: Sign) -> str: ...
-
-    @abstractmethod
-    def function(self, name: str) -> str: ...

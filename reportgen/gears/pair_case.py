@@ -49,7 +49,7 @@ from reportgen.gears.pair_drawings import (
 )
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
 from reportgen.report import Block, Document
-from reportgen.report.case import Key, Span
+from reportgen.report.key import Key, Span
 from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn, on_sheet

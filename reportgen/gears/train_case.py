@@ -23,8 +23,8 @@ from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
 from reportgen.report import Block, Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
-from reportgen.report.case import Key
 from reportgen.report.design import DesignPage
+from reportgen.report.key import Key
 from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn

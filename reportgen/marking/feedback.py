@@ -18,7 +18,7 @@ from reportgen.marking.marks import Marked, Marking, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
 from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
 from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
-from reportgen.report.case import Key, KeyRow
+from reportgen.report.key import Key, KeyRow
 from reportgen.workbook import Book, BookSheet, Entry
 from reportgen.workbook.writing import Style
 

@@ -19,7 +19,7 @@ from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Scale, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
 from reportgen.report import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Table, Text
-from reportgen.report.case import Key, KeyRow, capitalised
+from reportgen.report.key import Key, KeyRow, capitalised
 
 Value = str | float | None
 

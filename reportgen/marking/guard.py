@@ -26,7 +26,7 @@ from reportgen.marking.bands import is_direction
 from reportgen.marking.marks import Cells, Marked, MarkingScheme, Notice, Place, Submission, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
 from reportgen.marking.working import Working, last_half_unit
-from reportgen.report.case import Key, KeyRow, Role
+from reportgen.report.key import Key, KeyRow, Role
 
 FOREIGN_SHARE = 0.8
 """The share of a sheet's, a column's or a chapter's values that are not its own."""

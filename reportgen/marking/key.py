@@ -33,8 +33,9 @@ from reportgen.marking.bands import (
     plans_read,
     trapezoid_errors,
 )
-from reportgen.report.case import INSTANT, Calculation, Key, KeyRow, Opened, Role, Span
+from reportgen.report.case import Calculation, Opened
 from reportgen.report.equations import heading_words
+from reportgen.report.key import INSTANT, Key, KeyRow, Role, Span
 from reportgen.report.report import Report
 
 

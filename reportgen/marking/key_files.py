@@ -29,7 +29,7 @@ from reportgen.marking.paper import (
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
 from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text, plain
-from reportgen.report.case import Key, KeyRow, PartOfKey
+from reportgen.report.key import Key, KeyRow, PartOfKey
 from reportgen.workbook import Book, BookSheet, Entry
 
 FORMAT = "reportgen-key/1"

@@ -37,7 +37,8 @@ from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working
 from reportgen.marking.parts import joined, sheets_of
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working, lay_out
-from reportgen.report.case import Case, KeyRow, Role
+from reportgen.report.case import Case
+from reportgen.report.key import KeyRow, Role
 
 SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
     slips_of_writing,

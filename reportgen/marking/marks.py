@@ -23,7 +23,8 @@ from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
 from reportgen.marking.bands import DIGITS, PAPER_ERROR, computed_bands, drawn_bands, is_chosen_length, is_direction
 from reportgen.marking.key import Ask
-from reportgen.report.case import Case, Key, KeyRow, Pitfalls, Role
+from reportgen.report.case import Case, Pitfalls
+from reportgen.report.key import Key, KeyRow, Role
 
 Place = tuple[str, int]
 """A quantity's id and a position from 1; 0 for a quantity that is the same at all positions."""

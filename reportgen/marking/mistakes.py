@@ -20,7 +20,7 @@ from reportgen.formula.sheet import Family
 from reportgen.marking.bands import is_direction
 from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Values, Verdict
 from reportgen.marking.working import Change, Working
-from reportgen.report.case import Role
+from reportgen.report.key import Role
 
 WRONG_DATUM = "wrong-datum"
 """The name of a given datum taken wrongly."""

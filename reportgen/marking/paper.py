@@ -15,8 +15,9 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
 from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
-from reportgen.report.case import Calculation, Key, KeyRow, Opened, Role
+from reportgen.report.case import Calculation, Opened
 from reportgen.report.design import DesignPage
+from reportgen.report.key import Key, KeyRow, Role
 from reportgen.report.numbering import number
 from reportgen.report.outline import names as names_of
 from reportgen.report.report import PLATES_UP_TO, Report

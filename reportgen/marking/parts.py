@@ -16,7 +16,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marks import Marked, Marking, MarkingScheme, Notice, Place, Policy, Submission
-from reportgen.report.case import Key, PartOfKey
+from reportgen.report.key import Key, PartOfKey
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,19 +13,20 @@ from dataclasses import dataclass, field
 from functools import cache
 from itertools import groupby, pairwise
 from pathlib import Path
-from typing import Literal, get_args
+from typing import get_args
 
 import numpy as np
 
 from reportgen.base import units
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.units import Dimension, Language, QuantityFault
+from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, load_words, search_path
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.marking.numbers import DecimalMark, decimal_mark, is_blank, read_number
 from reportgen.report import plain
-from reportgen.report.case import Key, KeyRow, Role
+from reportgen.report.key import Key, KeyRow, Role
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
 NAMES = 5
@@ -177,7 +178,6 @@ def _answer_page(key: Key, name: str, by_section: bool) -> BookSheet:
 # and the label at the head of its column, in either language. Numbers may be written as students write them: with a
 # decimal comma or point, thousands apart, powers of ten, a unit behind.
 
-DecimalMark = Literal[".", ","]
 
 HEAD_WITHIN = 60
 """Rows among which the head of a sheet is looked for."""
@@ -401,112 +401,3 @@ def _label(text: str) -> str | None:
         if match:
             return match[1].strip()
     return plain if re.fullmatch(r"[0-9]+[a-z′']*|[a-z]′?", plain) else None
-
-
-# --- numbers as students write them ---------------------------------------------------------------
-
-BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
-"""What a cell without an answer holds."""
-LONGEST = 60
-"""Characters of a number."""
-
-_SPACES = re.compile(r"[\s\u00a0\u2007\u2009\u202f]+")
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
-_RAISED_POWER = re.compile(r"(?<![0-9])10([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
-_POWER = re.compile(r"(?:(?<=[0-9])\s*[x×·⋅*.]\s*|^([+-]?))10\s*\^\s*\(?\s*([+-]?[0-9]{1,3})\s*\)?", re.IGNORECASE)
-_NUMBER = re.compile(
-    r"(?P<sign>[+-]?)\s*(?P<body>[0-9]+(?:[ '][0-9]{3}(?![0-9])|[.,][0-9]+)*[.,]?|[.,][0-9]+)"
-    r"(?:[eE](?P<power>[+-]?[0-9]{1,3}))?(?P<unit>\s*[^\s0-9].*|\s+1/.*)?"
-)
-
-
-def is_blank(text: str) -> bool:
-    """Whether a cell's text says that there is no answer."""
-    return text.strip() in BLANKS
-
-
-def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
-    """The decimal mark that a sheet's texts agree on, and whether they do; else that of the language."""
-    found: set[DecimalMark] = set()
-    for text in texts:
-        match = _matched(text)
-        marks = re.findall("[.,]", match["body"]) if match else []
-        if match and len(marks) == 1 and not _plain(match["body"], ".", text)[2]:
-            found.add("." if marks == ["."] else ",")
-    if len(found) == 1:
-        return found.pop(), True
-    return ("," if language == "vi" else "."), False
-
-
-def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -> tuple[float, bool]:
-    """A cell's number in `unit` ("" for a pure number), and whether it is doubtful.
-
-    `mark` decides what 1.234 means where the text itself does not; that is doubtful unless the whole sheet
-    `agreed` on the mark.  Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
-    """
-    match = _matched(text)
-    if match is None:
-        raise QuantityFault("not-a-number", text=text)
-    plain, thousands, open_question = _plain(match["body"], mark, text)
-    value = float(f"{match['sign']}{plain}e{match['power'] or 0}")
-    given = (match["unit"] or "").strip()
-    if given:
-        value *= _factor(given, unit, text)
-    if not math.isfinite(value):
-        raise QuantityFault("not-finite", text=text)
-    return value, open_question and (thousands or not agreed)
-
-
-def _matched(text: str) -> re.Match[str] | None:
-    return _NUMBER.fullmatch(_tidy(text)) if len(text) <= LONGEST else None
-
-
-def _tidy(text: str) -> str:
-    """One kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
-    result = _SPACES.sub(" ", text).strip().lstrip("≈~= ")
-    result = re.sub(r"^[−–—]", "-", result)
-    result = _RAISED_POWER.sub(lambda match: f"10^{match[1].translate(_RAISED)}", result)
-    result = re.sub(r"\^\s*\(?\s*−", "^-", result)
-    return _POWER.sub(lambda match: f"{'' if match[1] is None else match[1] + '1'}e{match[2]}", result)
-
-
-def _plain(body: str, mark: DecimalMark, text: str) -> tuple[str, bool, bool]:
-    """The digits with a decimal point; whether thousands were parted; whether `mark` had to decide it."""
-    joined = body.replace(" ", "").replace("'", "")
-    marks = re.findall("[.,]", joined)
-    whole, *rest = re.split("[.,]", joined)
-    if not marks:
-        return joined, False, False
-    grouped = 1 <= len(whole) <= 3 and all(len(part) == 3 for part in rest[:-1])
-    if len(set(marks)) == 2:
-        # The last mark is the decimal one: 1.234,5 or 1,234.5.
-        if len(set(marks[:-1])) > 1 or marks[-1] in marks[:-1] or not grouped:
-            raise QuantityFault("not-a-number", text=text)
-        return f"{whole}{''.join(rest[:-1])}.{rest[-1] or 0}", True, False
-    if len(marks) > 1:
-        if not grouped or len(rest[-1]) != 3:
-            raise QuantityFault("not-a-number", text=text)
-        return whole + "".join(rest), True, False
-    fits = grouped and len(rest[0]) == 3 and not whole.startswith("0") and joined == body
-    if fits and marks[0] != mark:
-        return whole + rest[0], True, True
-    return f"{whole or 0}.{rest[0] or 0}", False, fits
-
-
-def _factor(given: str, unit: str, text: str) -> float:
-    """What one of the unit given is in the unit asked for."""
-    if not unit:
-        raise QuantityFault("unexpected-unit", text=text)
-    try:
-        factor, dimension = units.scale(given)
-    except ValueError:
-        raise QuantityFault("unknown-unit", given=given, unit=unit) from None
-    wanted_factor, wanted = units.scale(unit)
-    if dimension not in (wanted, _without_radian(wanted)):
-        raise QuantityFault("wrong-unit", given=given, unit=unit)
-    return factor / wanted_factor
-
-
-def _without_radian(dimension: Dimension) -> Dimension:
-    """1/s is commonly written for rad/s; nothing but a bare number would be left of an angle."""
-    return tuple(power for power in dimension if power[0] != "radian") or dimension

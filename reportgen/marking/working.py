@@ -13,7 +13,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit
 from reportgen.marking.marks import MarkingScheme, Place, Submission, Values, makes_scale
-from reportgen.report.case import KeyRow, Role
+from reportgen.report.key import KeyRow, Role
 
 Change = Callable[[np.ndarray, Values], np.ndarray]
 """A quantity's value (SI) from what it comes to and all values before it."""

@@ -15,18 +15,18 @@ from reportgen.base.units import Language
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import POINT, SCRIPT, box, frame
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
-from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setting
+from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setter, setting
+from reportgen.formula.setter import TextSetter
 from reportgen.formula.setting import (
     EQUALS,
     NARROW,
     NEGATIVE,
     PRIMES,
     Fence,
-    Mark,
     MathRow,
+    Parenthesis,
     Role,
     Sign,
-    TextSetter,
     Written,
     columns,
     displayed,
@@ -37,7 +37,7 @@ from reportgen.formula.setting import (
     sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report import fits
+from reportgen.report.layout import fits
 
 COLOURS = {
     style.BLACK: "ink",
@@ -230,7 +230,7 @@ class Painter:
         return "".join(shown)
 
 
-class Runs(setting.Setter[tuple[Run, ...]]):
+class Runs(setter.Setter[tuple[Run, ...]]):
     """Formulas as labels have them: in one line, indices beside their letters."""
 
     linear = True
@@ -263,7 +263,7 @@ class Runs(setting.Setter[tuple[Run, ...]]):
             case setting.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
                 return _parted(list(lines), " | ")
-            case setting.Mark(mark):
+            case setting.Parenthesis(mark):
                 return self.text(mark)
             case setting.Note(note):
                 return text(f"  ({note})")
@@ -361,7 +361,7 @@ class MathmlFormulas(TextSetter):
     def function(self, name: str) -> str:
         return f'<mi mathvariant="normal">{escape(name)}</mi>'
 
-    def mark(self, mark: Mark) -> str:
+    def mark(self, mark: Parenthesis) -> str:
         form = "prefix" if mark.of == "(" else "postfix"
         size = ' minsize="2em" maxsize="2em"' if mark.tall else ' stretchy="false"'
         return f'<mo form="{form}"{size}>{mark.of}</mo>'

@@ -23,6 +23,7 @@ from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import NARROW, written
 from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
+from reportgen.report import layout
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
@@ -330,7 +331,7 @@ class Blocks:
     def inline(self, inline: tree.Inline) -> str:
         match inline:
             case tree.Text(text):
-                parts = tree.UNIT.split(text)
+                parts = layout.UNIT.split(text)
                 return "".join(
                     f'<span class="nb">{escape(part)}</span>' if index % 2 else escape(part)
                     for index, part in enumerate(parts)
@@ -360,7 +361,7 @@ class Blocks:
 
     def equation(self, equation: tree.Equation, room: float) -> str:
         """Rows that are set alike in one block each; the number beside the last."""
-        groups = "".join(map(self.group, tree.in_groups(equation.rows, room)))
+        groups = "".join(map(self.group, layout.in_groups(equation.rows, room)))
         number = f'<span class="number">({escape(equation.number)})</span>' if equation.number else ""
         return f'<div class="equation"{_id(equation.key)}><div class="rows">{groups}</div>{number}</div>'
 

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
-from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table, contents
-from reportgen.report.case import Key, Opened
+from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table
+from reportgen.report.case import Opened
+from reportgen.report.key import Key
+from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
 

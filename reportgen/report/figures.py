@@ -43,8 +43,9 @@ from reportgen.machine.loads import FULL_TURN, Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
-from reportgen.report import FIGURE_HEIGHT, TEXT_WIDTH, in_rows
+from reportgen.report import TEXT_WIDTH
 from reportgen.report.groups import GroupView, PlaneLink
+from reportgen.report.layout import FIGURE_HEIGHT, in_rows
 from reportgen.report.report import DENSE, Report
 
 A3_UPRIGHT, A3_ACROSS = (297.0, 420.0), (420.0, 297.0)

@@ -30,7 +30,6 @@ from reportgen.report import (
     Text,
     chapters,
     comments,
-    contents,
     curves,
     equations,
     figures,
@@ -46,6 +45,7 @@ from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
+from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
 from reportgen.report.occurring import occurring
 from reportgen.report.report import Report

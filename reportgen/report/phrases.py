@@ -29,7 +29,7 @@ from reportgen.report.prose import NamedPoint, lower_digits
 from reportgen.report.report import Report
 
 if TYPE_CHECKING:
-    from reportgen.catalogue.linkage import GroupRow
+    from reportgen.catalogue.linkage_words import GroupRow
 
 
 def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:

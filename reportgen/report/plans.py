@@ -31,9 +31,10 @@ from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.motion import POLES, What
 from reportgen.plans.sides import Side, image
-from reportgen.report import SCENE_GAP, Inlines
+from reportgen.report import Inlines
 from reportgen.report.figures import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper, scale_note
 from reportgen.report.groups import GroupView
+from reportgen.report.layout import SCENE_GAP
 from reportgen.report.phrases import counted
 from reportgen.report.report import Report
 

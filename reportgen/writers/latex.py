@@ -19,6 +19,7 @@ from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setting import columns
+from reportgen.report import layout
 from reportgen.writers.drawing import paint_latex
 from reportgen.writers.latex_math import LatexFormulas, declarations, escape, hexadecimal
 
@@ -47,7 +48,7 @@ FAMILIES: Mapping[str, tuple[str, str, str]] = dict.fromkeys(
 """Fonts by their names elsewhere: a package with its family, and where that is missing the family that VnTeX brings."""
 
 
-def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
+def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> str:
     """The complete LaTeX source, which compiles as it stands.
 
     Raises `TypesetterError` for a character the fonts do not have.
@@ -55,7 +56,7 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
     return "".join(pieces(document, letter))
 
 
-def pieces(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> Iterator[str]:
+def pieces(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> Iterator[str]:
     """The source as it is written: all up to the end of the contents, then each block.
 
     Raises `TypesetterError` for a character the fonts do not have.
@@ -67,7 +68,7 @@ def pieces(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> It
         header=[escape(text) for text in document.header],
         footer=[escape(text) for text in document.footer],
         characters=declarations(),
-        gap=f"{tree.ABREAST:g}",
+        gap=f"{layout.ABREAST:g}",
         close=document.close,
         **_type(letter),
     )
@@ -83,19 +84,19 @@ def pieces(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> It
     yield _command("closing", identity.hexdigest()[:32])
 
 
-def opening(letter: tree.Letter, close: bool) -> str:
+def opening(letter: layout.Letter, close: bool) -> str:
     """What the source of every document in this letter begins with, whatever it says: LaTeX's own files."""
     frame = _frame()
     return "".join(frame.blocks["opening"](frame.new_context({"close": close, **_type(letter)})))
 
 
-def _type(letter: tree.Letter) -> Mapping[str, object]:
+def _type(letter: layout.Letter) -> Mapping[str, object]:
     """The letter as the frame is told it."""
     return {
         "family": FAMILIES.get(letter.font),
         "size": f"{letter.size:g}",
         "lead": f"{letter.size * LEADING:.4g}",
-        "larger": letter.size != tree.TEXT_SIZE,
+        "larger": letter.size != layout.TEXT_SIZE,
     }
 
 
@@ -147,7 +148,7 @@ class _Writer:
         if isinstance(block, tree.Section):
             room = self.room_to_table(blocks)
             return (_command("needed", f"{room:g}mm") if room else "") + self.block(block)
-        if not tree.leads(block, following, self.language):
+        if not layout.leads(block, following, self.language):
             return self.block(block)
         if isinstance(block, tree.List):
             return self.list(block, r"\keeplist")
@@ -163,10 +164,10 @@ class _Writer:
         for block, following in pairwise(blocks):
             if isinstance(block, tree.Section):
                 room += HEADING
-            elif not tree.leads(block, following, self.language):
+            elif not layout.leads(block, following, self.language):
                 return 0.0
             elif isinstance(block, tree.Equation):
-                room += LINE * tree.lines(block.rows, tree.room_for(tree.TEXT_WIDTH, self.document.close))
+                room += LINE * layout.lines(block.rows, layout.room_for(tree.TEXT_WIDTH, self.document.close))
             else:
                 room += WORDS if isinstance(following, tree.Equation) else OPENING
             if isinstance(following, tree.Table):
@@ -294,7 +295,7 @@ class _Writer:
     def equation(self, equation: tree.Equation) -> str:
         place = rf"\place{{{self.places[equation.key]}}}" if equation.key else ""
         number = place + (f"({escape(equation.number)})" if equation.number else "")
-        *before, last = tree.in_groups(equation.rows, tree.room_for(tree.TEXT_WIDTH, self.document.close))
+        *before, last = layout.in_groups(equation.rows, layout.room_for(tree.TEXT_WIDTH, self.document.close))
         return "\n".join([*(self.aligned(group, "") for group in before), self.aligned(last, number)])
 
     def aligned(self, group: Sequence[Expression], number: str) -> str:
@@ -326,13 +327,13 @@ class _Writer:
             shown = _command("turned", drawing, self.caption(self.document.words.figure, figure))
             return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
         word = self.document.words.figure
-        first, *others = tree.in_parts(figure)
+        first, *others = layout.in_parts(figure)
         further = (self.rows(rows, self.again(word, figure)) for rows in others)
         return "\n".join((self.rows(first, self.caption(word, figure)), *further))
 
     def rows(self, rows: Sequence[Sequence[Scene]], caption: str) -> str:
         """Rows of scenes with the caption below."""
-        gap = rf"\hskip{tree.SCENE_GAP:g}mm "
+        gap = rf"\hskip{layout.SCENE_GAP:g}mm "
         drawn = "\n\\scenegap\n".join(_command("scenerow", gap.join(map(self.scene, row))) for row in rows)
         return "\n".join([r"\begin{scenes}", drawn, _command("figurecaption", caption), r"\end{scenes}"])
 
@@ -359,13 +360,13 @@ class _Writer:
             head = f"{title}\n{head}"
         environment.append(NoEscape(head + r"\endhead"))
         environment.append(NoEscape(r"\bottomrule\endfoot"))
-        unbroken = len(block.rows) <= tree.WHOLE_TABLE
+        unbroken = len(block.rows) <= layout.WHOLE_TABLE
         for index, row in enumerate(block.rows):
             end = r"\\*[0pt]"
             # A rule between rows would leave gaps in the sides of a frame.
             if index < len(block.rows) - 1 and not block.framed:
                 # The first and the last rows never stand alone on a page.
-                together = unbroken or not tree.TOGETHER - 1 <= index < len(block.rows) - tree.TOGETHER
+                together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
                 end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
         framed = r"\framedtable" if block.framed else ""
@@ -414,7 +415,7 @@ def _beginning(block: tree.Block | None) -> float:
 
 def _height(block: tree.Table) -> float:
     """About how much paper (mm) a table needs with its caption, up to its first possible break."""
-    rows = len(block.rows) if len(block.rows) <= tree.WHOLE_TABLE else tree.TOGETHER
+    rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
     return TITLE + ROW * (len(block.head) + rows)
 
 

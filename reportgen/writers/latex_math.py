@@ -16,14 +16,14 @@ from typing import ClassVar, Literal
 from reportgen.base.errors import TypesetterError
 from reportgen.base.units import MINUS
 from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.setter import TextSetter
 from reportgen.formula.setting import (
     NAMED,
     Fence,
-    Mark,
+    Parenthesis,
     Role,
     Sign,
     TermColumn,
-    TextSetter,
     Written,
     columns,
     is_tall,
@@ -32,7 +32,7 @@ from reportgen.formula.setting import (
     sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report import fits
+from reportgen.report.layout import fits
 
 NARROW_TERMS = 5
 """A vector equation of at most so many terms fits any line."""
@@ -144,7 +144,7 @@ class LatexFormulas(TextSetter):
             return rf"\mathopen{{}}\left({self.part(fence.of)}\right)"
         return super().fence(fence)
 
-    def mark(self, mark: Mark) -> str:
+    def mark(self, mark: Parenthesis) -> str:
         return {"(": r"\Bigl(", ")": r"\Bigr)"}[mark.of] if mark.tall else mark.of
 
     def function(self, name: str) -> str:

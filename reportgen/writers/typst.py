@@ -24,6 +24,7 @@ from reportgen.drawing.geometry import box, moved
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.formula.setting import NARROW, columns, displayed, sides, written
+from reportgen.report import layout
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_fonts import breadth, lacking, needs_system_fonts
 from reportgen.writers.typst_math import TypstFormulas, literal
@@ -46,7 +47,7 @@ SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 
 
-def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str:
+def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> str:
     """The complete Typst source of a document; it needs no other file but fonts of the system.
 
     Raises `TypesetterError` if the frame is missing.
@@ -65,12 +66,12 @@ def write(document: tree.Document, letter: tree.Letter = tree.OWN_LETTER) -> str
     return f"{_frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
 
 
-def _in(letter: tree.Letter) -> Iterator[str]:
+def _in(letter: layout.Letter) -> Iterator[str]:
     """The letter as the frame is told it; tables in a broad font are set smaller, since their columns are as wide."""
     if letter.font:
         yield f"font: {literal(letter.font)}"
         yield f"narrower: {breadth(letter.font):.4g}"
-    if letter.size != tree.TEXT_SIZE:
+    if letter.size != layout.TEXT_SIZE:
         yield f"size: {letter.size:g}pt"
 
 
@@ -103,7 +104,7 @@ class _Blocks:
         self,
         language: Language,
         words: tree.Words,
-        letter: tree.Letter = tree.OWN_LETTER,
+        letter: layout.Letter = layout.OWN_LETTER,
         close: bool = False,
         room: float = tree.TEXT_WIDTH,
     ) -> None:
@@ -126,10 +127,10 @@ class _Blocks:
                     lines.append(f"#K[{run_in}]")
                     run_in = ""
                 continue
-            if not tree.leads(block, following, self.language):
+            if not layout.leads(block, following, self.language):
                 lines.append(run_in + self.block(block))
             elif isinstance(block, tree.List):
-                *others, last = tree.parted(block)
+                *others, last = layout.parted(block)
                 lines += [self.block(part) for part in others]
                 lines.append(f"#K(above:{'0.72em' if others else 'auto'})[{self.block(last)}]")
             else:
@@ -154,7 +155,7 @@ class _Blocks:
                 label = self.caption(self.words.figure, block)
                 if turned:
                     return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
-                first, *others = tree.in_parts(block)
+                first, *others = layout.in_parts(block)
                 again = f"{self.again(self.words.figure, block)},[]"
                 figures = [f"#W({literal(key)},{label},\n{self.rows(first)})"]
                 figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
@@ -230,7 +231,7 @@ class _Blocks:
 
     def equation(self, equation: tree.Equation) -> str:
         """Rows that are set alike in one block each; the number on the last."""
-        groups = tree.in_groups(equation.rows, tree.room_for(self.room, self.close))
+        groups = layout.in_groups(equation.rows, layout.room_for(self.room, self.close))
         lines = []
         for index, group in enumerate(groups):
             number = equation.number if index == len(groups) - 1 else ""
@@ -239,7 +240,7 @@ class _Blocks:
                 lines.append(f"#V({literal(number)},{self.room:g},{self.vector_equation(first)})")
             else:
                 rows = ",".join(_array(self.row(row)) for row in group)
-                lines.append(f"#{self.setter(group, number)}{literal(number)},{tree.ABREAST:g},{rows})")
+                lines.append(f"#{self.setter(group, number)}{literal(number)},{layout.ABREAST:g},{rows})")
         return "\n".join(lines) + _label(equation.key)
 
     def setter(self, rows: Sequence[Expression], number: str) -> str:
@@ -257,7 +258,7 @@ class _Blocks:
 
         below, two = aligned(0, 1), math.inf
         if len(rows) > 1 and not number:
-            two = aligned(0, 2) + tree.ABREAST + aligned(1, 2)
+            two = aligned(0, 2) + layout.ABREAST + aligned(1, 2)
         room = self.room - (NUMBER_ROOM if number else 0.0)
         if two + _doubt(two) <= room:
             return "A("
@@ -267,7 +268,7 @@ class _Blocks:
 
     def head(self, row: Expression) -> float:
         """What a displayed row takes before its first relation (mm)."""
-        if not isinstance(row, Chain) or len(displayed(row, self.language, tree.fits)) == 1:
+        if not isinstance(row, Chain) or len(displayed(row, self.language, layout.fits)) == 1:
             return 0.0
         return box(row.parts[0], self.size, displayed=True).width
 
@@ -275,7 +276,7 @@ class _Blocks:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         part = self.formulas.part
         return [
-            _array(f"${part(piece).strip()}$" for piece in side) for side in displayed(row, self.language, tree.fits)
+            _array(f"${part(piece).strip()}$" for piece in side) for side in displayed(row, self.language, layout.fits)
         ]
 
     def vector_equation(self, equation: VectorEquation) -> str:
@@ -292,7 +293,7 @@ class _Blocks:
         aligns = _array(column.align for column in table.columns)
         head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
-        whole = "0" if len(table.rows) <= tree.WHOLE_TABLE else str(tree.TOGETHER)
+        whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
         again = self.again(self.words.table, table) if table.number else "none"
         framed = "framed:true," if table.framed else ""
         low = [not self.letter.font and self.is_low(row, table.columns) for row in table.rows]
@@ -349,7 +350,7 @@ def _doubt(width: float) -> float:
 
 def _text(text: str) -> str:
     """A text as a string, but its units in boxes: lines would break behind a slash."""
-    parts = tree.UNIT.split(text)
+    parts = layout.UNIT.split(text)
     return "".join(
         f"#box({literal(part)})" if index % 2 else f"#{literal(part)}"
         for index, part in enumerate(parts)

@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 from reportgen.formula import Symbol
-from reportgen.formula.setting import NAMED, PRIMES, Mark, Sign, TextSetter, Written, parted
+from reportgen.formula.setter import TextSetter
+from reportgen.formula.setting import NAMED, PRIMES, Parenthesis, Sign, Written, parted
 from reportgen.formula.vocabulary import numbered, runs
 
 
@@ -52,7 +53,7 @@ class TypstFormulas(TextSetter):
     def function(self, name: str) -> str:
         return name if name in NAMED else f"op({literal(name)})"
 
-    def mark(self, mark: Mark) -> str:
+    def mark(self, mark: Parenthesis) -> str:
         role = "opening" if mark.of == "(" else "closing"
         return f' class("{role}", lr(size: #{200 if mark.tall else 100}%, \\{mark.of})) '
 

@@ -13,6 +13,7 @@ from itertools import groupby, pairwise
 from reportgen import report as tree
 from reportgen.drawing import Scene
 from reportgen.formula.setting import NARROW, written
+from reportgen.report import layout
 from reportgen.writers.word_elements import (
     A4,
     BOLD,
@@ -51,10 +52,10 @@ Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
 
 
 def write(
-    document: tree.Document, pictures: Pictures, letter: tree.Letter | None = None, own: Own | None = None
+    document: tree.Document, pictures: Pictures, letter: layout.Letter | None = None, own: Own | None = None
 ) -> bytes:
     """The file of a document, byte for byte the same from run to run; what a school has of its `own` goes before."""
-    letter, own = letter or tree.Letter(FONT, SIZES[document.language]), own or Own()
+    letter, own = letter or layout.Letter(FONT, SIZES[document.language]), own or Own()
     usual = styles(letter.font, letter.size, document.language, document.close, A4.room)
     blocks = _Blocks(document, own.page)
     body, pages = blocks.sections()
@@ -176,7 +177,7 @@ class _Blocks:
         run_in = ""
         for block, following in pairwise((*blocks, None)):
             assert block is not None
-            setting = _Setting(level, tree.leads(block, following, self.language))
+            setting = _Setting(level, layout.leads(block, following, self.language))
             match block:
                 case tree.Section(level=depth) if depth > CONTENTS_LEVEL:
                     run_in = self.run_in(block)
@@ -258,7 +259,7 @@ class _Blocks:
         for index, blocks in enumerate(block.items, start=1):
             first = blocks[0] if blocks and isinstance(blocks[0], tree.Paragraph) else tree.Paragraph(())
             others = blocks[1:] if blocks and first is blocks[0] else blocks
-            leads = tree.leads(first, others[0] if others else None, self.language)
+            leads = layout.leads(first, others[0] if others else None, self.language)
             kept = KEPT if leads or (setting.kept and index == len(block.items)) else ""
             found.append(paragraph("List", self.inlines(first.inlines), kept + item))
             found.append(self.write(others, setting.level + 1))
@@ -359,11 +360,11 @@ class _Blocks:
     def table(self, table: tree.Table) -> str:
         """A ruled table below its caption; its head is repeated on each page, a short one stays on one."""
         caption = self.caption(self.words.table, table)
-        whole = len(table.rows) <= tree.WHOLE_TABLE
+        whole = len(table.rows) <= layout.WHOLE_TABLE
         found = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
         for index, row in enumerate(table.rows):
             left = len(table.rows) - 1 - index
-            kept = left > 0 and (whole or index < tree.TOGETHER - 1 or left < tree.TOGETHER)
+            kept = left > 0 and (whole or index < layout.TOGETHER - 1 or left < layout.TOGETHER)
             found.append(self.table_row(row, table, False, kept))
         sides = rule("left", HEAVY), rule("right", HEAVY)
         outer = (rule("top", HEAVY), sides[0], rule("bottom", HEAVY), sides[1], rule("insideH", 0))
@@ -392,7 +393,7 @@ class _Blocks:
         """Its rows with the caption below; where it has several parts, the later ones go on."""
         self._figure = figure.key
         found = []
-        for index, part in enumerate(tree.in_parts(figure)):
+        for index, part in enumerate(layout.in_parts(figure)):
             caption = self.again(figure) if index else self.caption(self.words.figure, figure)
             found += [self.row(row, figure) for row in part]
             found.append(paragraph("Caption", caption))
@@ -405,7 +406,7 @@ class _Blocks:
         titled = any(scene.title for scene in scenes)
         if len(scenes) == 1:
             return drawn[0] + (titles[0] if titled else "")
-        widths = [scene.width + tree.SCENE_GAP for scene in scenes]
+        widths = [scene.width + layout.SCENE_GAP for scene in scenes]
         rows = [drawn, titles] if titled else [drawn]
         lines = (
             "".join(grid_cell(content, width, align="bottom") for content, width in zip(row, widths, strict=True))

@@ -14,23 +14,24 @@ from typing import ClassVar
 from reportgen.base.units import Language
 from reportgen.drawing.geometry import POINT, Boxes
 from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.setter import TextSetter
 from reportgen.formula.setting import (
     EQUALS,
     NARROW,
     Fence,
-    Mark,
     MathRow,
+    Parenthesis,
     Part,
     Sign,
     TermColumn,
-    TextSetter,
     Written,
     columns,
     displayed,
     parted,
 )
 from reportgen.formula.vocabulary import numbered, runs
-from reportgen.report import ABREAST, TEXT_WIDTH, fits, in_groups
+from reportgen.report import TEXT_WIDTH
+from reportgen.report.layout import ABREAST, fits, in_groups
 from reportgen.writers.word_elements import GRID, ITALIC, KEPT, LIGHT, MATH_FONT, escape, paragraph, rule, run, twips
 from reportgen.writers.word_styles import EQUATION_SIZE, KNOWN_SIZE
 
@@ -96,7 +97,7 @@ class OmmlFormulas(TextSetter):
     def function(self, name: str) -> str:
         return upright(name)
 
-    def mark(self, mark: Mark) -> str:
+    def mark(self, mark: Parenthesis) -> str:
         return letters(mark.of)
 
     def symbol(self, node: Symbol) -> str:

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from reportgen.base.errors import AssignmentError, Mark
-from reportgen.base.source import MappingNode, Scalar, SequenceNode, plain, quoted, read_text, text_of
+from reportgen.base.source import MappingNode, Scalar, SequenceNode, plain, read_text
+from reportgen.base.source_text import quoted, text_of
 from reportgen.base.units import Language
 from reportgen.classes.spec import Spec, read_spec
 from reportgen.cli import app

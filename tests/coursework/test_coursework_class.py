@@ -25,7 +25,7 @@ from reportgen.marking.key import Ask
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Policy, marking_scheme, read_policy
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.case import Key
+from reportgen.report.key import Key
 from reportgen.workbook import Book, write_csv, write_xlsx
 from tests.lanes import proof
 

@@ -20,7 +20,7 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.marks import Answer, MarkingScheme, Place, Submission, marking_scheme
 from reportgen.marking.mistakes import mistakes_in
 from reportgen.marking.sheet import NAMES, asked_positions
-from reportgen.report.case import Key
+from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.marking import students
 from tests.marking.keys import csv_rows

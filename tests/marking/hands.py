@@ -15,7 +15,7 @@ from reportgen.base.errors import Mark
 from reportgen.cases import opened
 from reportgen.marking.key import Ask
 from reportgen.marking.marks import Answer, MarkingScheme, Submission
-from reportgen.report.case import Role
+from reportgen.report.key import Role
 from tests.marking import students
 from tests.marking.hand import Change, Hand
 from tests.marking.machines import WAYS

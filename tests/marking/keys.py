@@ -11,7 +11,7 @@ from reportgen.base.units import Language, rounded
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.sheet import HEAD, answer_book
-from reportgen.report.case import Key, KeyRow, Role
+from reportgen.report.key import Key, KeyRow, Role
 
 LABELS = ("1", "2", "3", "4")
 

@@ -24,7 +24,7 @@ from reportgen.marking.key import words_of
 from reportgen.marking.marks import Answer, MarkingScheme, Submission, marking_scheme
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.sheet import asked_positions, grid, info_page, page, rows_shown
-from reportgen.report.case import Key, KeyRow
+from reportgen.report.key import Key, KeyRow
 from reportgen.workbook import Book, Entry
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"

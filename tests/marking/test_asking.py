@@ -18,7 +18,7 @@ from reportgen.marking.marks import Policy, Scale, Verdict, marking_scheme, read
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import PageBreak, text_of
-from reportgen.report.case import Key
+from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 from tests.lanes import matrix, proof
 from tests.marking import students

@@ -12,7 +12,7 @@ from reportgen.cases import opened
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
 from reportgen.marking.mistakes import Mistake
-from reportgen.report.case import KeyRow
+from reportgen.report.key import KeyRow
 from tests.lanes import matrix
 from tests.marking import students
 

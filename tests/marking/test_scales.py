@@ -12,7 +12,7 @@ from reportgen.classes.assess import asked_of
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, MarkingScheme, Submission, Verdict
-from reportgen.report.case import Role
+from reportgen.report.key import Role
 from tests.lanes import matrix
 from tests.marking import hands, students
 from tests.marking.machines import MACHINES

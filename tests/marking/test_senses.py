@@ -15,7 +15,7 @@ import pytest
 from reportgen.cases import MachineCase, open_case
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, MarkingScheme, Verdict, marking_scheme
-from reportgen.report.case import KeyRow
+from reportgen.report.key import KeyRow
 from tests.lanes import matrix
 from tests.marking import students
 

@@ -15,7 +15,7 @@ from reportgen.base.units import Language, write
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book, number_format
 from reportgen.report import Document, Table, plain, text_of
-from reportgen.report.case import Key, Role
+from reportgen.report.key import Key, Role
 from reportgen.workbook import write_xlsx
 from tests.marking.keys import small_key
 from tests.report import built

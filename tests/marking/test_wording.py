@@ -16,7 +16,7 @@ from reportgen.formula import vocabulary
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book
 from reportgen.report import plain
-from reportgen.report.case import Key
+from reportgen.report.key import Key
 from tests.lanes import matrix
 from tests.marking import students
 from tests.report import built

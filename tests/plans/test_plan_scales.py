@@ -14,7 +14,7 @@ from reportgen.marking.marking import mark
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.plans.scales import SHEET_BOXES, TEXT_BOX
-from reportgen.report.case import KeyRow
+from reportgen.report.key import KeyRow
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
 from tests.marking import students

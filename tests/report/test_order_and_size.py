@@ -11,7 +11,8 @@ from reportgen.base.words import templates
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import Mark, displayed
-from reportgen.report import FIGURE_HEIGHT, Figure, Paragraph, Section, Table, fits, height, in_parts, plain
+from reportgen.report import Figure, Paragraph, Section, Table, plain
+from reportgen.report.layout import FIGURE_HEIGHT, fits, height, in_parts
 from tests.report import built
 from tests.report.built import Report, Written
 from tests.report.test_report_figures import captions

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from reportgen import report as layout
 from reportgen.formula import Chain, Fraction, Number, Symbol, Term, VectorEquation
-from reportgen.report import Block, Cell, Column, Equation, Paragraph, Table, Text, Words
+from reportgen.report import Block, Cell, Column, Equation, Paragraph, Table, Text, Words, layout
 from reportgen.writers.latex_math import LatexFormulas
 from reportgen.writers.typst import _Blocks
 

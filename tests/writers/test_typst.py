@@ -27,8 +27,8 @@ from reportgen.report import (
     Table,
     Text,
     Value,
-    in_rows,
 )
+from reportgen.report.layout import in_rows
 from reportgen.writers import typst
 from reportgen.writers.typst_math import literal
 from tests.writers import sample

@@ -13,7 +13,8 @@ import pytest
 
 from reportgen.drawing import Scene
 from reportgen.formula import Matrix, Symbol, VectorEquation
-from reportgen.report import Block, Equation, Figure, Letter, Paragraph, Plate, Section, Table, Text, plain
+from reportgen.report import Block, Equation, Figure, Paragraph, Plate, Section, Table, Text, plain
+from reportgen.report.layout import Letter
 from reportgen.writers import typst, word
 from tests.writers import sample
 from tests.writers.pages import document

@@ -1,0 +1,201 @@
+"""What all writers decide alike about a document: which rows share a line, what stays together, where figures part."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby
+
+from reportgen.base.units import Language
+from reportgen.drawing import Scene
+from reportgen.drawing.geometry import POINT, Boxes, box
+from reportgen.formula import Expression, VectorEquation
+from reportgen.formula.setting import MathRow, Part
+from reportgen.report import (
+    TEXT_WIDTH,
+    Block,
+    Contents,
+    Equation,
+    Figure,
+    List,
+    PageBreak,
+    Paragraph,
+    Plate,
+    Section,
+    Table,
+    plain,
+)
+
+SCENE_GAP = 4.0
+"""Between scenes side by side, mm."""
+ABREAST = 8.0
+"""Between two short rows of an equation side by side, mm."""
+TEXT_SIZE = 12.0
+"""Of running text and formulas, points."""
+CLOSE_SIZE = 11.0
+"""Of those of a document that is set close."""
+CERTAIN = 0.96
+"""Rows are measured to about so much: one that is too wide for its pair would part all others."""
+
+
+@dataclass(frozen=True, slots=True)
+class Letter:
+    """The font of running text, "" for the typesetter's own, and its size in points.
+
+    Formulas and the labels of figures keep their own letters, which they are measured by.
+    """
+
+    font: str = ""
+    size: float = TEXT_SIZE
+
+
+OWN_LETTER = Letter()
+WHOLE_TABLE = 12
+"""A table with no more rows than this is kept on one page."""
+TOGETHER = 3
+"""A longer table has at least this many rows on each of its pages."""
+UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
+"""A unit with a slash inside a text."""
+
+TITLE = 5.0
+"""What the titles of a row of scenes take below it (mm)."""
+FIGURE_HEIGHT = 241.0
+"""What of an A4 page a figure may fill above its caption (mm)."""
+TOGETHER_HEIGHT = 155.0
+"""Rows of a figure that are together higher than this (mm) stand in two parts, the later one as its continuation."""
+
+# --- equations --------------------------------------------------------------------------------------
+
+
+CERTAIN_ROOM = TEXT_WIDTH - 16.0
+"""What parts of a row may take (mm) that surely have room in a line: beside a number, or in a list."""
+
+
+def fits(parts: Sequence[Part]) -> bool:
+    """Whether parts of a displayed row surely have room beside each other in a line."""
+    return Boxes(TEXT_SIZE * POINT, displayed=True).part(MathRow(tuple(parts))).width <= CERTAIN_ROOM
+
+
+def room_for(room: float, close: bool) -> float:
+    """How broad a room (mm) is for rows measured in the usual type: the smaller type of close documents has more."""
+    return room * TEXT_SIZE / CLOSE_SIZE * CERTAIN if close else room
+
+
+def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression, ...]]:
+    """The rows of an equation in groups that are set alike: vector equations alone, runs of short rows, others.
+
+    Of short rows two have `room` (mm) side by side; one alone stays with the rows beside it.
+    """
+    groups = [list(run) for _, run in groupby(rows, lambda row: isinstance(row, VectorEquation))]
+    found: list[tuple[Expression, ...]] = []
+    for group in groups:
+        if isinstance(group[0], VectorEquation):
+            found += ((row,) for row in group)
+            continue
+        aligned: list[Expression] = []
+        for short, run in groupby(group, lambda row: _is_short(row, room)):
+            members = tuple(run)
+            if not short or len(members) == 1:
+                aligned += members
+                continue
+            found += [tuple(aligned)] if aligned else []
+            found.append(members)
+            aligned = []
+        found += [tuple(aligned)] if aligned else []
+    return found
+
+
+def lines(rows: Sequence[Expression], room: float) -> int:
+    """How many lines the rows of an equation take, short ones two abreast."""
+    groups = in_groups(rows, room)
+    return sum(-(-len(one) // 2) if all(_is_short(row, room) for row in one) else len(one) for one in groups)
+
+
+def _is_short(row: Expression, room: float) -> bool:
+    return 2 * _width(row) + ABREAST <= room
+
+
+def _width(row: Expression) -> float:
+    """About what a displayed row takes across (mm)."""
+    return box(row, TEXT_SIZE, displayed=True).width
+
+
+# --- contents ----------------------------------------------------------------------------------------
+
+MANY_ENTRIES = 22
+"""So many lines fill about half a page."""
+
+
+def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
+    """The table of contents of some blocks; one that would leave half of its page white is not alone there."""
+    entries = [block for block in blocks if isinstance(block, Section) and block.level <= (2 if brief else 3)]
+    return Contents(title, brief, alone=not brief and len(entries) > MANY_ENTRIES)
+
+
+# --- blocks ---------------------------------------------------------------------------------------
+
+
+def leads(block: Block, following: Block | None, language: Language) -> bool:
+    """Whether a block must stay with the next one: a text that ends in a colon or whose sentence goes on there.
+
+    A vector equation stays with the text that says how it is solved, and any equation with a table that sums it up.
+    """
+    if following is None or isinstance(following, (PageBreak, Plate)):
+        return False
+    match block:
+        case List(items=(*_, (*_, Paragraph(inlines)))):
+            return isinstance(following, Equation) and plain(inlines, language).endswith(":")
+        case Equation(rows=(VectorEquation(), *_)) if isinstance(following, Paragraph):
+            return leads(following, block, language)
+        case Equation():
+            return isinstance(following, Table)
+        case Paragraph(inlines):
+            text = plain(inlines, language).rstrip()
+            goes_on = isinstance(following, (Equation, List, Table))
+            return text.endswith(":") or (goes_on and not text.endswith((".", "!", "?", "…")))
+        case _:
+            return False
+
+
+def parted(block: List) -> tuple[List, ...]:
+    """A list as two lists: the items before the last, if there are any, and the last item."""
+    last = replace(block, items=block.items[-1:], start=block.start + len(block.items) - 1)
+    return (replace(block, items=block.items[:-1]), last) if block.items[:-1] else (last,)
+
+
+def height(rows: Sequence[Sequence[Scene]]) -> float:
+    """Of a figure's rows with their titles and the white between them (mm)."""
+    titles = sum(TITLE for row in rows if any(scene.title for scene in row))
+    return sum(max(scene.height for scene in row) for row in rows) + titles + SCENE_GAP * (len(rows) - 1)
+
+
+def in_parts(figure: Figure) -> list[list[list[Scene]]]:
+    """The rows of a figure in parts: in one or two where pages have room for these, since a high one leaves white."""
+    rows = in_rows(figure.scenes)
+    if height(rows) <= TOGETHER_HEIGHT or len(rows) == 1:
+        return [rows]
+    halves = ([rows[:at], rows[at:]] for at in range(1, len(rows)))
+    least = min(halves, key=lambda parts: max(map(height, parts)))
+    if max(map(height, least)) <= FIGURE_HEIGHT:
+        return least
+    parts: list[list[list[Scene]]] = [[]]
+    for row in rows:
+        if parts[-1] and height([*parts[-1], row]) > FIGURE_HEIGHT:
+            parts.append([])
+        parts[-1].append(row)
+    return parts
+
+
+def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:
+    """Scenes in rows, in order, each row as full as the text block allows."""
+    rows: list[list[Scene]] = []
+    used = 0.0
+    for scene in scenes:
+        if rows and used + SCENE_GAP + scene.width <= TEXT_WIDTH:
+            rows[-1].append(scene)
+            used += SCENE_GAP + scene.width
+        else:
+            rows.append([scene])
+            used = scene.width
+    return rows
