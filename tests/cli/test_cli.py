@@ -225,13 +225,6 @@ def test_solve_at_other_positions_and_to_a_file(tmp_path: Path) -> None:
     assert json.loads(file.read_text(encoding="utf-8")) == solved(SAMPLE)
 
 
-def test_solve_as_tables() -> None:
-    done = reportgen("solve", SAMPLE, "--lang", "en")
-    assert done.returncode == 0
-    assert "by virtual work" in done.stdout
-    assert "R14" in done.stdout
-
-
 @proof
 def test_build_goes_on_after_a_faulty_file(faulty: Path, tmp_path: Path) -> None:
     done = reportgen("build", faulty, SAMPLE, "--out", tmp_path / "out")

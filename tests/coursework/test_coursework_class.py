@@ -24,10 +24,10 @@ from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Policy, marking_scheme, read_policy
-from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.key import Key
-from reportgen.workbook import Book, write_csv, write_xlsx
+from reportgen.marking.sheet import read_submission
+from reportgen.workbook import write_csv
 from tests.lanes import proof
+from tests.marking.filled import filled
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "coursework"
 STUDENTS = [f"K2255201030{number:02d}" for number in range(1, 13)]
@@ -184,34 +184,6 @@ def test_a_job_takes_the_files_of_the_parts_along(tmp_path: Path) -> None:
     edited = replace(job, beside={part.name: content.replace(b"132 mm", b"132")})
     assert edited.assignment != job.assignment
     assert [one.mark.file for one in run_job(edited).problems if not isinstance(one, str)] == [part.name]
-
-
-def filled(key: Key, changed: dict[str, float], cam: Key | None = None, figures: int = 0) -> bytes:
-    """The answer sheet with the key's values, some times a factor, those of the cam perhaps from another key.
-
-    Of each value so many significant figures are written, or those of the report.
-    """
-    book = answer_book(key)
-    pages = []
-    for page in book.sheets:
-        rows = []
-        for row in page.rows:
-            id = getattr(row[0], "value", None) if row else None
-            found = key.find(id) if isinstance(id, str) else None
-            cells = list(row)
-            if found is not None and found.positions:
-                own = next(part for _, part in key.pages if part.find(found.id))
-                places = [0, *sorted({k for one in own.asked for k in one.positions if k})]
-                for column, k in enumerate(places, start=4):
-                    if k in found.positions:
-                        source = cam.row(found.id) if cam and key.owner(found.id) == "cam" else found
-                        shown = source.values if figures else source.printed
-                        value = float(shown[source.at(k)]) * changed.get(found.id, 1.0)
-                        value = float(f"{value:.{figures}g}") if figures else value
-                        cells[column] = replace(cells[column], value=value)  # type: ignore[type-var]
-            rows.append(cells)
-        pages.append(replace(page, rows=rows))
-    return write_xlsx(Book(pages, book.title))
 
 
 def test_a_sheet_goes_out_comes_back_and_is_marked_by_parts(tmp_path: Path) -> None:

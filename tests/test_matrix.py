@@ -1,0 +1,67 @@
+"""Every kind and every sample coursework answers every command; see `tests/matrix.py`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from reportgen import api
+from reportgen.assignment.common import Extent
+from reportgen.base.units import Language
+from reportgen.base.words import kinds
+from tests import matrix
+from tests.lanes import matrix as lanes
+from tests.report.built import MARKS
+
+CASES = list(matrix.cases())
+BRIEF = [case for case in CASES if case[2] == matrix.OWN]
+WHOLE = "whole-shaper-whole"
+"""A coursework with a part of each kind; the others, and what takes long of it, are for `make proof`."""
+SOON = {"check", "solve", "solve_json", "solve_format", "compare"}
+TELLING = [case for case in BRIEF if case[0] in kinds() or (case[0] == WHOLE and case[1] in SOON)]
+
+
+def named(case: tuple[str, ...]) -> str:
+    """A case by its file, so that those of one file are run by one process."""
+    subject, *others = filter(None, case)
+    return "-".join((matrix.subjects()[subject].stem, *others))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def one_case() -> Iterator[None]:
+    with matrix.shared():
+        yield
+
+
+@pytest.fixture(scope="module")
+def folders(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
+    """The folder of each subject in the first lane: its case is that of a file in one place."""
+    return cache(lambda subject: tmp_path_factory.mktemp(subject))
+
+
+@pytest.mark.parametrize(
+    ("subject", "command", "language", "engine", "extent"),
+    lanes([pytest.param(*case, marks=MARKS[case[3]], id=named(case)) for case in CASES], TELLING),
+)
+def test_every_command_answers(
+    folders: Callable[[str], Path],
+    capsys: pytest.CaptureFixture[str],
+    subject: str,
+    command: str,
+    language: Language,
+    engine: api.Engine,
+    extent: Extent,
+) -> None:
+    at = matrix.desk(subject, folders(subject), capsys, language=language, engine=engine, extent=extent)
+    matrix.do(command, at)
+
+
+def test_a_kind_enters_by_being_there() -> None:
+    """All kinds have every command in the first lane, all courseworks of the samples at least in the second."""
+    commands = [command.__name__ for command in matrix.COMMANDS]
+    assert {case[:2] for case in TELLING} >= {(kind, command) for kind in kinds() for command in commands}
+    assert {case[:2] for case in CASES} == {(subject, command) for subject in matrix.subjects() for command in commands}
+    assert {path.stem for name, path in matrix.subjects().items() if name not in kinds()} >= {"shaper", "engine-twin"}
