@@ -264,7 +264,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     circles: 0,
     modules: 204,
     longest_module: 500,
-    lines_of_code: 40890,
+    lines_of_code: 41000,
     template_files: 61,
     words_of_architecture: 1500,
     ids_by_f_string: 0,
