@@ -131,6 +131,17 @@ class TemplateError(ReportgenError):
     exit_code = 1
 
 
+class DocumentError(ReportgenError):
+    """A finished tree does not hold together; `faults` are all that is wrong with it."""
+
+    def __init__(self, faults: list[str]) -> None:
+        self.faults = tuple(faults)
+        super().__init__("\n".join(faults))
+
+    def __reduce__(self) -> tuple[type[DocumentError], tuple[list[str]]]:
+        return type(self), (list(self.faults),)
+
+
 class SheetError(ReportgenError):
     """A plate has no place on drawing sheets of the size asked for."""
 

@@ -344,14 +344,11 @@ class LoadRow:
     def phrase(self) -> str:
         """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
         acting = "torque" if self.torque else "force"
-        match self.by:
-            case "constant":
-                return f"{acting}-against" if self.against else acting
-            case "gas":
-                return f"gas-{self.intake}".replace(" ", "-")
-            case "stroke":
-                return "stroke"
-        return f"{acting}-{self.by}"
+        if self.by == "constant":
+            return f"{acting}-against" if self.against else acting
+        if self.by == "gas":
+            return f"gas-{self.intake}".replace(" ", "-")
+        return "stroke" if self.by == "stroke" else f"{acting}-{self.by}"
 
     @property
     def table(self) -> str:
@@ -362,9 +359,7 @@ class LoadRow:
 @view()
 @dataclass(frozen=True, slots=True)
 class MotionRow:
-    """How a link moves: "rotation" about a fixed point, "translation" along a fixed guide,
-    "shift" without rotation, or "plane" motion.
-    """
+    """How a link moves: "rotation" about a point, "translation" along a guide, "shift" without rotation, "plane"."""
 
     link: int
     kind: str

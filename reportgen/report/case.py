@@ -18,7 +18,7 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.errors import NotOfferedError, TemplateError
+from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
@@ -156,7 +156,6 @@ def bounded(assignment: Assignment, make: Callable[..., Made], *arguments: Any) 
     if assignment.school is None:
         return make(*arguments)
     from reportgen.base.limits import TEMPLATES, LimitError, call_within
-    from reportgen.report.numbering import DocumentError
 
     file = search_path(assignment.language, assignment.kind, assignment.school)[0]
     try:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
 from reportgen import report as tree
-from reportgen.base.errors import ReportgenError
+from reportgen.base.errors import DocumentError
 from reportgen.report import plain
 
 if TYPE_CHECKING:
@@ -24,17 +24,6 @@ _COUNTED_LEVELS = 3
 _Kind = Literal["equation", "table", "figure"]
 Blocks = tuple[tree.Block, ...]
 Change = Callable[[tree.Inlines], tree.Inlines]
-
-
-class DocumentError(ReportgenError):
-    """A finished tree does not hold together; `faults` are all that is wrong with it."""
-
-    def __init__(self, faults: list[str]) -> None:
-        self.faults = tuple(faults)
-        super().__init__("\n".join(faults))
-
-    def __reduce__(self) -> tuple[type[DocumentError], tuple[list[str]]]:
-        return type(self), (list(self.faults),)
 
 
 def finished(case: Opened, blocks: Iterable[tree.Block], close: bool = False, title: str = "") -> tree.Document:

@@ -56,7 +56,7 @@ from reportgen.report.dialect import (
     short,
 )
 from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
-from reportgen.report.values import PLAIN, Function, Token, Values, held
+from reportgen.report.values import PLAIN, FunctionToken, Token, Values, held
 
 _PRIVATE = re.compile("[\ue000-\ue004]")
 _PIECE = re.compile(
@@ -272,7 +272,7 @@ def _finalize(context: Context, value: object) -> str:
 def _emit(value: object) -> str:
     """The text that stands for a value in the Markdown; raises `TypeError` for what has no place in words."""
     match value:
-        case Function():
+        case FunctionToken():
             raise TypeError("a function has no place in words")
         case Token():
             return _emit(held.get().own(value))

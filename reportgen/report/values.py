@@ -37,7 +37,7 @@ class Token:
         return type(self).__name__
 
 
-class Function(Token):
+class FunctionToken(Token):
     """Stands for what a template may call."""
 
     __slots__ = ()
@@ -55,7 +55,7 @@ class Values:
     def names(self, names: Mapping[str, Any]) -> dict[str, Any]:
         """The names of a template with what it holds for them; what can be called is a function."""
         return {
-            name: self._token(value, Function) if callable(value) else self.plain(value)
+            name: self._token(value, FunctionToken) if callable(value) else self.plain(value)
             for name, value in names.items()
         }
 
@@ -78,7 +78,7 @@ class Values:
             case float():
                 return float(value)
             case MethodType():
-                return self._token(value, Function)
+                return self._token(value, FunctionToken)
             case np.generic():
                 return self.plain(value.item())
             case tuple() | list() | Set() | Iterator() | range():
@@ -117,7 +117,7 @@ class Values:
 
     def call(self, called: Any, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
         """What a function gives.  Raises `SecurityError` for what is none."""
-        if not isinstance(called, Function):
+        if not isinstance(called, FunctionToken):
             self.own(called)
             raise SecurityError("not a function")
         function: Callable[..., Any] = self.own(called)

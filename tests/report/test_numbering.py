@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from reportgen.base.errors import DocumentError
 from reportgen.drawing import Scene
 from reportgen.formula import Symbol
 from reportgen.report import (
@@ -25,7 +26,7 @@ from reportgen.report import (
     Words,
     text_of,
 )
-from reportgen.report.numbering import DocumentError, number, unreferenced
+from reportgen.report.numbering import number, unreferenced
 
 X = Symbol("x")
 SCENE = Scene(10, 10)

@@ -17,7 +17,7 @@ from reportgen.base.shown import MEMBERS
 from reportgen.cases import opened
 from reportgen.report.dialect import FILTERS
 from reportgen.report.prose import GLOBALS, Prose
-from reportgen.report.values import PLAIN, Function, Token, Values, held
+from reportgen.report.values import PLAIN, FunctionToken, Token, Values, held
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -54,7 +54,7 @@ def reached(values: Values, names: Names) -> Iterator[Any]:
             waiting += value
         elif isinstance(value, Token) and value.number not in met:
             met.add(value.number)
-            waiting += [] if isinstance(value, Function) else members(values, value)
+            waiting += [] if isinstance(value, FunctionToken) else members(values, value)
 
 
 def members(values: Values, token: Token) -> list[Any]:
@@ -72,8 +72,8 @@ def member(values: Values, token: Token, name: str) -> Any:
 def test_all_that_a_template_reaches_is_plain(file: str) -> None:
     values, names = handed(file)
     kinds = {type(value) for value in reached(values, names)}
-    assert kinds <= {*PLAIN, tuple, Token, Function}
-    assert {str, int, Token, Function} <= kinds
+    assert kinds <= {*PLAIN, tuple, Token, FunctionToken}
+    assert {str, int, Token, FunctionToken} <= kinds
 
 
 @pytest.mark.parametrize("file", matrix(FILES, FILES[:1]))
@@ -87,7 +87,7 @@ def test_nothing_of_it_refers_to_an_object_of_the_program(file: str) -> None:
         if id(value) in met or isinstance(value, type):
             continue
         met.add(id(value))
-        assert type(value) in {*PLAIN, tuple, Token, Function}
+        assert type(value) in {*PLAIN, tuple, Token, FunctionToken}
         waiting += gc.get_referents(value)
 
 
@@ -126,7 +126,8 @@ def test_every_member_that_is_shown_exists() -> None:
     for kind, names in MEMBERS.items():
         fields = {*getattr(kind, "__dataclass_fields__", ()), *getattr(kind, "model_fields", ())}
         # What a view sets when it is made stands in no class.
-        made = kind.__init__.__code__.co_names if hasattr(kind.__init__, "__code__") else ()
+        made = getattr(vars(kind).get("__init__"), "__code__", None)
+        made = made.co_names if made else ()
         assert {name for name in names if name not in fields and not hasattr(kind, name) and name not in made} == set()
 
 
@@ -228,8 +229,13 @@ def test_attempts_at_random_neither_run_nor_leak(part: int, tmp_path: Path) -> N
     case = opened(api.load(ASSIGNMENTS / FILES[0]))
     seen: list[Mapping[str, object]] = []
     render = Prose.render
+
+    def noted(prose: Prose, name: str, names: Mapping[str, object]) -> Any:
+        seen.append(names)
+        return render(prose, name, names)
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Prose, "render", lambda prose, name, names: seen.append(names) or render(prose, name, names))
+        patch.setattr(Prose, "render", noted)
         case.document()
     names = {**GLOBALS, **seen[-1]}
     for number in range(part, ATTEMPTS, 10):
