@@ -12,8 +12,6 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from reportgen.base.shown import shown
-
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
 
 GROUND = 0
@@ -94,7 +92,6 @@ class Dyad:
     slide_angle: float = 0.0
 
 
-@shown("link", "centre")
 @dataclass(frozen=True, slots=True)
 class Inertia:
     """Mass, mass centre (a named point of the link) and moment of inertia about it; kg, kg·m²."""
@@ -105,7 +102,6 @@ class Inertia:
     moment: float = 0.0
 
 
-@shown("inertias")
 @dataclass(frozen=True, slots=True)
 class Linkage:
     """A whole mechanism.
@@ -150,7 +146,6 @@ class Joint:
     group: tuple[int, ...] = ()
 
 
-@shown("n", "lower_pairs", "W", "higher_pairs", "passive", "redundant")
 @dataclass(frozen=True, slots=True)
 class Mobility:
     """W = 3n − (2t + c) + r − s: n moving links, t lower and c higher pairs, r passive constraints, s

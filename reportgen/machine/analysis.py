@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.shown import shown
 from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
@@ -227,7 +226,6 @@ SAME_POSITION = 1e-6
 """Positions nearer than this (rad) are one."""
 
 
-@shown("__str__")
 class Position(int):
     """The number of a position, from 1, that is written as its label."""
 
@@ -246,7 +244,6 @@ def no_formulas(q: Sheet) -> None:
     """A machine without closed formulas."""
 
 
-@shown("applied", "torques", "linkage", "sliders")
 @dataclass(frozen=True, slots=True)
 class Machine:
     """A mechanism with its drive, its loads and the outline of its report.

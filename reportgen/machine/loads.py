@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.assignment.common import Positions
-from reportgen.base.shown import shown
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Dyad, Guide, Linkage
 from reportgen.machine.gas import AngleIndicator, Indicator, StrokeIndicator, crossings
@@ -402,7 +401,6 @@ class Piston(Stroke):
         return TableLaw(self, self.indicator, self.area)
 
 
-@shown("name", "link", "point")
 @dataclass(frozen=True)
 class Applied:
     """A force that is neither weight nor inertia: its law times the unit vector `direction`, at `point`."""
@@ -414,7 +412,6 @@ class Applied:
     law: Law
 
 
-@shown("name", "link")
 @dataclass(frozen=True)
 class Torque:
     """A torque on a link that is no inertia couple: its law (N·m), anticlockwise positive."""

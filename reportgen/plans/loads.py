@@ -12,7 +12,6 @@ from enum import IntEnum
 
 import numpy as np
 
-from reportgen.base.shown import shown
 from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
@@ -283,7 +282,6 @@ class Edge:
         return found["part"] if found else ""
 
 
-@shown("carried")
 @dataclass(frozen=True, slots=True)
 class Polygon:
     """A group's force plan: its edges head to tail and the joints read from it.

@@ -23,7 +23,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from reportgen.base.shown import view
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Linkage, owners, under
 
@@ -33,7 +32,6 @@ def image(name: str) -> str:
     return name.lower()
 
 
-@view("turns", "way", "state", "guided", "relative", "rod", "known", "omega", "part", "pair", "velocity")
 @dataclass(frozen=True, slots=True)
 class Side:
     """One of the two ways in which the motion of a `point` is written: with its `base`, and relative to it.

@@ -12,10 +12,23 @@ from reportgen.base.shown import shown, view
 from reportgen.formula import ids, refs
 from reportgen.formula.ids import Name
 from reportgen.formula.ledger import Ledger
-from reportgen.machine import DRIVER, Crank, Dyad, Guide, Linkage
+from reportgen.machine import DRIVER, Crank, Dyad, Guide, Inertia, Linkage, Mobility
+from reportgen.machine.analysis import Machine, Position
+from reportgen.machine.loads import Applied, Torque
 from reportgen.plans.loads import Polygon
 from reportgen.plans.sides import Scheme, Side, image, sides
 from reportgen.report.prose import NamedPoint
+
+# What knows nothing of words is shown here.
+shown("__str__")(Position)
+shown("applied", "torques", "linkage", "sliders")(Machine)
+shown("inertias")(Linkage)
+shown("link", "centre")(Inertia)
+shown("n", "lower_pairs", "W", "higher_pairs", "passive", "redundant")(Mobility)
+shown("name", "link", "point")(Applied)
+shown("name", "link")(Torque)
+view("turns", "way", "state", "guided", "relative", "rod", "known", "omega", "part", "pair", "velocity")(Side)
+shown("carried")(Polygon)
 
 
 @shown("__str__", "name", "link")

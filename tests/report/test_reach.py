@@ -126,7 +126,8 @@ def test_every_member_that_is_shown_exists() -> None:
     for kind, names in MEMBERS.items():
         fields = {*getattr(kind, "__dataclass_fields__", ()), *getattr(kind, "model_fields", ())}
         # What a view sets when it is made stands in no class.
-        made = kind.__init__.__code__.co_names if hasattr(kind.__init__, "__code__") else ()
+        made = getattr(vars(kind).get("__init__"), "__code__", None)
+        made = made.co_names if made else ()
         assert {name for name in names if name not in fields and not hasattr(kind, name) and name not in made} == set()
 
 
@@ -228,8 +229,13 @@ def test_attempts_at_random_neither_run_nor_leak(part: int, tmp_path: Path) -> N
     case = opened(api.load(ASSIGNMENTS / FILES[0]))
     seen: list[Mapping[str, object]] = []
     render = Prose.render
+
+    def noted(prose: Prose, name: str, names: Mapping[str, object]) -> Any:
+        seen.append(names)
+        return render(prose, name, names)
+
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Prose, "render", lambda prose, name, names: seen.append(names) or render(prose, name, names))
+        patch.setattr(Prose, "render", noted)
         case.document()
     names = {**GLOBALS, **seen[-1]}
     for number in range(part, ATTEMPTS, 10):
