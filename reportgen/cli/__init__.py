@@ -15,12 +15,13 @@ from functools import cache
 TYPE_CHECKING = False
 # Until `main` runs Ctrl-C is not heard: `typing` alone takes as long as all that is loaded before.
 if TYPE_CHECKING:
-    from typing import Any, TextIO
+    from typing import Any, NoReturn, TextIO
 
     import typer
 
     app: typer.Typer
 
+LACKING = "reportgen: không đủ bộ nhớ (not enough memory: a limit is set, see ulimit -v)\n"
 STOPPED = "reportgen: đã dừng (interrupted)\n"
 """Said where no words are loaded yet."""
 
@@ -32,6 +33,10 @@ def main() -> None:
     """Entry point of the `reportgen` command, which hears Ctrl-C before it has loaded anything."""
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         signal.signal(signal.SIGINT, _leave)
+    from reportgen.cli.limited import WATCHED, ends_by_itself, is_limited
+
+    if is_limited():
+        _watch()
     import warnings
 
     # What others plug into models is none of ours, and looking for it takes time.
@@ -53,11 +58,26 @@ def main() -> None:
         misused(error)
         sys.exit(WRONG_USAGE)
     except Exception as error:
-        complain_of_program(error)
+        # What is watched over has little memory: libraries that are there cannot be loaded.
+        if WATCHED in os.environ and isinstance(error, (ImportError, MemoryError)):
+            os.write(2, LACKING.encode())
+        else:
+            complain_of_program(error)
         sys.exit(SYSTEM)
     finally:
+        ends_by_itself()
         # All memory goes with the process: no need to look through it once more on the way out.
         gc.freeze()
+
+
+def _watch() -> NoReturn:
+    """Let another process run this command, and say what it cannot say itself where memory ends it."""
+    from reportgen.cli.limited import run_watched
+
+    code = run_watched()
+    if code is None:
+        os.write(2, LACKING.encode())
+    sys.exit(3 if code is None else code)
 
 
 def _leave(*_: object) -> None:

@@ -107,6 +107,8 @@ def ending(lang: Language | None) -> Iterator[None]:
     except MemoryError:
         complain(say("memory", lang))
         code = SYSTEM
+    except ImportError:
+        raise
     except Exception as error:
         complain_of_program(error, lang)
         code = SYSTEM
