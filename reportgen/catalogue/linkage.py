@@ -373,7 +373,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
     Only those that are `acting` are told of.
     """
     rows = tuple(map(_group, given.groups))
-    axes = _axes(given)
+    axes = file.axes(given)
     shown = tuple(_load(load, name) for load, name in zip(given.loads, loads, strict=True) if name in acting)
     return {
         "frame": [(vocabulary.point(name), *map(as_typed, at)) for name, at in given.frame.items()],
@@ -398,7 +398,7 @@ def arms(given: file.Parameters) -> Iterator[str]:
         yield f"{given.driver.centre}{given.driver.pin}"
     for group in given.groups:
         yield from (rod for rod, _ in _group(group).lengths)
-    axes = _axes(given)
+    axes = file.axes(given)
     yield from (f"{axes[point.link][0]}{name}" for name, point in given.points.items())
 
 
@@ -418,25 +418,6 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
         for id, what in ((ids.weight(body.link), "G"), (ids.mass(body.link), "m"), (ids.inertia(body.link), "J")):
             yield id, what, str(body.link)
     yield "g", "g", ""
-
-
-def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
-    """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
-    driver = given.driver
-    found = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
-    for group in given.groups:
-        first, last = group.joints[0], group.joints[-1]
-        match group:
-            case file.RRR():
-                ways = group.joints[1], group.joints[1]
-            case file.RRP():
-                ways = last, "guide"
-            case file.RPR():
-                ways = "slot", "slot"
-            case _:
-                ways = "guide", "guide"
-        found |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
-    return found
 
 
 def _motions(given: file.Parameters) -> Iterator[MotionRow]:

@@ -391,3 +391,22 @@ class Parameters(Part):
             inertias=tuple(one for one in bodies if one.mass or one.moment),
             gravity=-1j * self.g.si,
         )
+
+
+def axes(given: Parameters) -> dict[int, tuple[str, str]]:
+    """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
+    driver = given.driver
+    found = {1: (driver.centre, driver.pin) if isinstance(driver, CrankDriver) else (driver.pin, "guide")}
+    for group in given.groups:
+        first, last = group.joints[0], group.joints[-1]
+        match group:
+            case RRR():
+                ways = group.joints[1], group.joints[1]
+            case RRP():
+                ways = last, "guide"
+            case RPR():
+                ways = "slot", "slot"
+            case _:
+                ways = "guide", "guide"
+        found |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
+    return found

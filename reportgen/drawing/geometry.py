@@ -433,7 +433,7 @@ class Boxes(setting.Setter[Box]):
                 half = sum(line.height + line.depth for line in lines) / 2
                 width = max((line.width for line in lines), default=0.0)
                 return Box(width, half + 0.25 * em, half - 0.25 * em)
-            case setting.Mark(mark, tall):
+            case setting.Bracket(mark, tall):
                 return self.text(mark).beside(_gap(0.35 * em * tall))
             case setting.Note(text):
                 # Both typesetters set the note in parentheses, a quad away.

@@ -1,15 +1,14 @@
 """A formula as it is set: signs, parentheses and places for breaks are put in once, for all writers and labels.
 
 `laid` turns an expression into a few kinds of parts.  A `Setter` says what each of them looks like and decides nothing
-else; pieces, sides and columns are what displayed equations are made of.  What is too wide for a line is a rule of this
-place, too: a fraction of a sum becomes 1/denominator times the sum, which breaks at its terms.
+else; columns are what vector equations are made of, and `rows` makes the lines of all others.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import repeat
 from typing import ClassVar, Generic, Literal, TypeVar
 
@@ -136,16 +135,14 @@ class Note:
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class Bracket:
     """A parenthesis of a sum that goes on over several lines; `tall` beside terms higher than a line."""
 
     of: Literal["(", ")"]
     tall: bool
 
 
-Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note | Mark
-Fits = Callable[[Sequence[Part]], bool]
-"""Whether parts have room beside each other in a line."""
+Part = Symbol | Written | Sign | MathRow | Raised | Quotient | Radical | Fence | Function | Grid | Note | Bracket
 
 NEGATIVE, PLUS, MINUS = Sign("−", "prefix"), Sign("+", "sum"), Sign("−", "sum")
 DOT, SLASH = Sign("·", "product"), Sign("/", "slash")
@@ -202,7 +199,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 signs = [FIRST] + [EQUALS] * (len(parts) - 2)
                 if short_end(node):
                     signs[-1] = LAST
-                return _noted(MathRow(tuple(_joined(map(of, parts), signs))), node)
+                return noted(MathRow(tuple(_joined(map(of, parts), signs))), node)
             case VectorEquation():
                 line: list[Part] = []
                 for before, term in terms(node):
@@ -235,7 +232,7 @@ def _joined(parts: Iterable[Part], signs: Iterable[Sign]) -> Iterator[Part]:
         yield from (sign, part)
 
 
-def _noted(part: Part, node: Expression) -> Part:
+def noted(part: Part, node: Expression) -> Part:
     """A part with the reason that a chain has behind its result."""
     return MathRow((part, Note(node.note))) if isinstance(node, Chain) and node.note else part
 
@@ -269,7 +266,7 @@ def is_tall(part: Part) -> bool:
             return True
         case MathRow(parts):
             return any(map(is_tall, parts))
-        case Mark(tall=tall):
+        case Bracket(tall=tall):
             return tall
         case Raised(base, exponent):
             return is_tall(base) or is_tall(exponent)
@@ -287,88 +284,6 @@ def parted(symbol: Symbol) -> tuple[str, str]:
     """A symbol's letters, and what stands above behind them: their primes and the superscript."""
     letters = symbol.base.rstrip(PRIMES)
     return letters, symbol.base[len(letters) :] + symbol.sup
-
-
-# --- displayed rows -------------------------------------------------------------------------------
-
-
-def sides(node: Expression, language: Language, fits: Fits | None = None, slashed: bool = False) -> list[Part]:
-    """What "=" joins, the note with the last; what does not fit its line is opened."""
-    found = [laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,))]
-    if fits is not None:
-        head = (found[0], EQUALS) if len(found) > 1 else ()
-        found = [opened(part, lambda inner: fits((*head, inner))) for part in found]
-    return [*found[:-1], _noted(found[-1], node)]
-
-
-def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
-    """A side of a row whose fractions that do not fit are products, and its sums that do not fit may break inside.
-
-    (a + b)/c becomes 1/c · (a + b), whose parentheses are marks of one size each.
-    """
-    match part:
-        case _ if fits(part):
-            return part
-        case MathRow(parts):
-            return MathRow(tuple(inner for one in parts for inner in _opened_in_row(one, fits)))
-        case Fence("", inner):
-            found = opened(inner, fits)
-            return part if found == inner else found
-        case Quotient(top, bottom) if _is_sum(top):
-            return MathRow((Quotient(Written("1", ""), bottom), Sign("·", "bound"), *_marked(top)))
-        case Fence("(", inner) if _is_sum(inner):
-            return MathRow(_marked(inner))
-        case _:
-            return part
-
-
-def _marked(part: Part) -> tuple[Part, ...]:
-    """A sum between marks, so that its terms stand in the row itself."""
-    return (Mark("(", is_tall(part)), *(part.parts if isinstance(part, MathRow) else (part,)), Mark(")", is_tall(part)))
-
-
-def _is_sum(part: Part) -> bool:
-    return isinstance(part, MathRow) and any(isinstance(one, Sign) and one.role == "sum" for one in part.parts)
-
-
-def _opened_in_row(part: Part, fits: Callable[[Part], bool]) -> tuple[Part, ...]:
-    found = opened(part, fits)
-    return found.parts if found != part and isinstance(found, MathRow) else (found,)
-
-
-def displayed(node: Expression, language: Language, fits: Fits | None = None) -> list[list[Part]]:
-    """A displayed row: its sides, each in the pieces between which it may break; what does not fit a line is opened.
-
-    A last "= 0" stands with the side before it, but a lone symbol keeps it: there rows are aligned.
-    """
-    found = [
-        pieces(part) for part in sides(replace(node, note="") if isinstance(node, Chain) else node, language, fits)
-    ]
-    if short_end(node) and (len(found) > 2 or (len(found) == 2 and len(found[0]) > 1)):
-        end = found.pop()
-        found[-1][-1] = MathRow((found[-1][-1], EQUALS, *end))
-    found[-1][-1] = _noted(found[-1][-1], node)
-    return found
-
-
-def pieces(part: Part) -> list[Part]:
-    """What a displayed line may break between: terms of a sum, factors of a product; within marks terms alone."""
-    match part:
-        case MathRow((Sign() as sign, Fence("", MathRow(parts)))):
-            every: tuple[Part, ...] = (sign, *parts)
-        case MathRow(parts):
-            every = parts
-        case _:
-            every = (part,)
-    found: list[list[Part]] = [[]]
-    within = False
-    for one in every:
-        if isinstance(one, Mark):
-            within = one.of == "("
-        elif isinstance(one, Sign) and (one.role == "sum" or (one.role == "product" and not within)):
-            found.append([])
-        found[-1].append(one)
-    return [MathRow(tuple(some)) for some in found]
 
 
 def short_end(row: Expression) -> bool:
@@ -503,8 +418,8 @@ class TextSetter(Setter[str]):
                 return self.LINE.join(self.ENTRY.join(map(of, row)) for row in rows)
             case Note(text):
                 return self.NOTE % self.text(f"({text})")
-            case Mark():
-                return self.mark(part)
+            case Bracket():
+                return self.bracket(part)
 
     def lowered(self, pieces: Iterable[tuple[str, str]], shown: Callable[[str], str]) -> str:
         """A symbol's letters with the digits of points below them, no smaller than an index."""
@@ -519,7 +434,7 @@ class TextSetter(Setter[str]):
     def fence(self, fence: Fence) -> str:
         return self.FENCES[fence.left] % self.part(fence.of)
 
-    def mark(self, mark: Mark) -> str:
+    def bracket(self, mark: Bracket) -> str:
         return self.text(mark.of)
 
     @abstractmethod

@@ -16,25 +16,23 @@ from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, L
 from reportgen.drawing.geometry import POINT, SCRIPT, box, frame
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
 from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setting
+from reportgen.formula.rows import displayed, pieces, sides
 from reportgen.formula.setting import (
     EQUALS,
     NARROW,
     NEGATIVE,
     PRIMES,
+    Bracket,
     Fence,
-    Mark,
     MathRow,
     Role,
     Sign,
     TextSetter,
     Written,
     columns,
-    displayed,
     is_tall,
     laid,
     parted,
-    pieces,
-    sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.report import fits
@@ -262,7 +260,7 @@ class Runs(setting.Setter[tuple[Run, ...]]):
             case setting.Grid(rows):
                 lines = (_parted([of(entry) for entry in row], "; ") for row in rows)
                 return _parted(list(lines), " | ")
-            case setting.Mark(mark):
+            case setting.Bracket(mark):
                 return self.text(mark)
             case setting.Note(note):
                 return text(f"  ({note})")
@@ -360,7 +358,7 @@ class MathmlFormulas(TextSetter):
     def function(self, name: str) -> str:
         return f'<mi mathvariant="normal">{escape(name)}</mi>'
 
-    def mark(self, mark: Mark) -> str:
+    def bracket(self, mark: Bracket) -> str:
         form = "prefix" if mark.of == "(" else "postfix"
         size = ' minsize="2em" maxsize="2em"' if mark.tall else ' stretchy="false"'
         return f'<mo form="{form}"{size}>{mark.of}</mo>'

@@ -199,10 +199,7 @@ class Cover:
 
 @dataclass(frozen=True, slots=True)
 class Contents:
-    """The table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
-
-    It stands on pages of its own unless it is not `alone`: then what follows goes on below it.
-    """
+    """The table of contents with true page numbers: levels 1 to 3, `brief` 1 and 2; `alone` on pages of its own."""
 
     title: str
     brief: bool = False
@@ -350,6 +347,8 @@ SCENE_GAP = 4.0
 """Between scenes side by side, mm."""
 ABREAST = 8.0
 """Between two short rows of an equation side by side, mm."""
+BESIDE = 16.0
+"""What of a line a number or the indent of a list takes, mm."""
 TEXT_SIZE = 12.0
 """Of running text and formulas, points."""
 CLOSE_SIZE = 11.0
@@ -382,18 +381,14 @@ TITLE = 5.0
 FIGURE_HEIGHT = 241.0
 """What of an A4 page a figure may fill above its caption (mm)."""
 TOGETHER_HEIGHT = 155.0
-"""Rows of a figure that are together higher than this (mm) stand in two parts, the later one as its continuation."""
+"""Rows of a figure that are together higher than this (mm) stand in two parts."""
 
 # --- equations --------------------------------------------------------------------------------------
 
 
-CERTAIN_ROOM = TEXT_WIDTH - 16.0
-"""What parts of a row may take (mm) that surely have room in a line: beside a number, or in a list."""
-
-
 def fits(parts: Sequence[Part]) -> bool:
-    """Whether parts of a displayed row surely have room beside each other in a line."""
-    return Boxes(TEXT_SIZE * POINT, displayed=True).part(MathRow(tuple(parts))).width <= CERTAIN_ROOM
+    """Whether parts of a row surely have room beside each other in a line, beside a number or in a list."""
+    return Boxes(TEXT_SIZE * POINT, displayed=True).part(MathRow(tuple(parts))).width <= TEXT_WIDTH - BESIDE
 
 
 def room_for(room: float, close: bool) -> float:
@@ -440,18 +435,6 @@ def _width(row: Expression) -> float:
     return box(row, TEXT_SIZE, displayed=True).width
 
 
-# --- contents ----------------------------------------------------------------------------------------
-
-MANY_ENTRIES = 22
-"""So many lines fill about half a page."""
-
-
-def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
-    """The table of contents of some blocks; one that would leave half of its page white is not alone there."""
-    entries = [block for block in blocks if isinstance(block, Section) and block.level <= (2 if brief else 3)]
-    return Contents(title, brief, alone=not brief and len(entries) > MANY_ENTRIES)
-
-
 # --- blocks ---------------------------------------------------------------------------------------
 
 
@@ -491,19 +474,15 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
 
 def in_parts(figure: Figure) -> list[list[list[Scene]]]:
     """The rows of a figure in parts: in one or two where pages have room for these, since a high one leaves white."""
-    rows = in_rows(figure.scenes)
-    if height(rows) <= TOGETHER_HEIGHT or len(rows) == 1:
+    return _halved(in_rows(figure.scenes), TOGETHER_HEIGHT)
+
+
+def _halved(rows: list[list[Scene]], most: float) -> list[list[list[Scene]]]:
+    if height(rows) <= most or len(rows) == 1:
         return [rows]
-    halves = ([rows[:at], rows[at:]] for at in range(1, len(rows)))
+    halves = ((rows[:at], rows[at:]) for at in range(1, len(rows)))
     least = min(halves, key=lambda parts: max(map(height, parts)))
-    if max(map(height, least)) <= FIGURE_HEIGHT:
-        return least
-    parts: list[list[list[Scene]]] = [[]]
-    for row in rows:
-        if parts[-1] and height([*parts[-1], row]) > FIGURE_HEIGHT:
-            parts.append([])
-        parts[-1].append(row)
-    return parts
+    return [part for half in least for part in _halved(half, FIGURE_HEIGHT)]
 
 
 def in_rows(scenes: Sequence[Scene]) -> list[list[Scene]]:

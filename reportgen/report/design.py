@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
-from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table, contents
+from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table
 from reportgen.report.case import Key, Opened
-from reportgen.report.numbering import finished
+from reportgen.report.numbering import contents, finished
 from reportgen.report.prose import Prose
 
 Designed = TypeVar("Designed", bound=Opened)

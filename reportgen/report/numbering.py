@@ -223,3 +223,15 @@ def _references(blocks: tuple[tree.Block, ...]) -> list[str]:
 
     _each(blocks, note)
     return keys
+
+
+# --- contents ----------------------------------------------------------------------------------------
+
+MANY_ENTRIES = 22
+"""So many lines fill about half a page."""
+
+
+def contents(title: str, blocks: Iterable[tree.Block], brief: bool) -> tree.Contents:
+    """The table of contents of some blocks; one that would leave half of its page white is not alone there."""
+    entries = [block for block in blocks if isinstance(block, tree.Section) and block.level <= (2 if brief else 3)]
+    return tree.Contents(title, brief, alone=not brief and len(entries) > MANY_ENTRIES)

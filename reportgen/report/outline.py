@@ -28,7 +28,6 @@ from reportgen.report import (
     Text,
     chapters,
     comments,
-    contents,
     curves,
     equations,
     figures,
@@ -44,7 +43,7 @@ from reportgen.report import phrases as steps
 from reportgen.report.case import Calculation
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
-from reportgen.report.numbering import finished
+from reportgen.report.numbering import contents, finished
 from reportgen.report.occurring import occurring
 from reportgen.report.report import Report
 

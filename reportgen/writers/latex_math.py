@@ -16,10 +16,11 @@ from typing import ClassVar, Literal
 from reportgen.base.errors import TypesetterError
 from reportgen.base.units import MINUS
 from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.rows import sides
 from reportgen.formula.setting import (
     NAMED,
+    Bracket,
     Fence,
-    Mark,
     Role,
     Sign,
     TermColumn,
@@ -29,7 +30,6 @@ from reportgen.formula.setting import (
     is_tall,
     parted,
     short_end,
-    sides,
 )
 from reportgen.formula.vocabulary import numbered, runs
 from reportgen.report import fits
@@ -144,7 +144,7 @@ class LatexFormulas(TextSetter):
             return rf"\mathopen{{}}\left({self.part(fence.of)}\right)"
         return super().fence(fence)
 
-    def mark(self, mark: Mark) -> str:
+    def bracket(self, mark: Bracket) -> str:
         return {"(": r"\Bigl(", ")": r"\Bigr)"}[mark.of] if mark.tall else mark.of
 
     def function(self, name: str) -> str:

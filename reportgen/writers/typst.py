@@ -23,7 +23,8 @@ from reportgen.drawing import Scene
 from reportgen.drawing.geometry import box, moved
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
-from reportgen.formula.setting import NARROW, columns, displayed, sides, written
+from reportgen.formula.rows import displayed, sides
+from reportgen.formula.setting import NARROW, columns, written
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_fonts import breadth, lacking, needs_system_fonts
 from reportgen.writers.typst_math import TypstFormulas, literal

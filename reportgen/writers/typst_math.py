@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from reportgen.formula import Symbol
-from reportgen.formula.setting import NAMED, PRIMES, Mark, Sign, TextSetter, Written, parted
+from reportgen.formula.setting import NAMED, PRIMES, Bracket, Sign, TextSetter, Written, parted
 from reportgen.formula.vocabulary import numbered, runs
 
 
@@ -52,7 +52,7 @@ class TypstFormulas(TextSetter):
     def function(self, name: str) -> str:
         return name if name in NAMED else f"op({literal(name)})"
 
-    def mark(self, mark: Mark) -> str:
+    def bracket(self, mark: Bracket) -> str:
         role = "opening" if mark.of == "(" else "closing"
         return f' class("{role}", lr(size: #{200 if mark.tall else 100}%, \\{mark.of})) '
 

@@ -14,11 +14,12 @@ from typing import ClassVar
 from reportgen.base.units import Language
 from reportgen.drawing.geometry import POINT, Boxes
 from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.rows import displayed
 from reportgen.formula.setting import (
     EQUALS,
     NARROW,
+    Bracket,
     Fence,
-    Mark,
     MathRow,
     Part,
     Sign,
@@ -26,7 +27,6 @@ from reportgen.formula.setting import (
     TextSetter,
     Written,
     columns,
-    displayed,
     parted,
 )
 from reportgen.formula.vocabulary import numbered, runs
@@ -108,7 +108,7 @@ class OmmlFormulas(TextSetter):
     def function(self, name: str) -> str:
         return upright(name)
 
-    def mark(self, mark: Mark) -> str:
+    def bracket(self, mark: Bracket) -> str:
         return letters(mark.of)
 
     def symbol(self, node: Symbol) -> str:
