@@ -22,7 +22,7 @@ from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
 from reportgen.base.files import OF_SCHOOL, school_strays
-from reportgen.base.gaps import filled, gaps, plain_gaps
+from reportgen.base.gaps import FILLS, filled, gaps, plain_gaps
 from reportgen.base.source import MappingNode, Scalar, Source, plain, read_own, read_words, scalars, text_in
 from reportgen.base.source_text import at, path_text
 from reportgen.base.units import Language
@@ -292,7 +292,8 @@ def messages(language: Language) -> Mapping[str, Any]:
 
 def word(key: str, language: Language | None, /, **arguments: object) -> str:
     """A text of the command line with its arguments filled in."""
-    return str(messages(language or spoken())["cli"][key]).format(**arguments)
+    said = {name: one if isinstance(one, FILLS) else str(one) for name, one in arguments.items()}
+    return str(messages(language or spoken())["cli"][key]).format(**said)
 
 
 def counted(key: str, language: Language | None, count: int, /, **arguments: object) -> str:

@@ -49,15 +49,19 @@ class Values:
     def __init__(self) -> None:
         self._held: list[Any] = []
         self._tokens: dict[tuple[int, type[Token]], Token] = {}
+        self._names: dict[str, tuple[Any, Any]] = {}
         self.steps = 0
         """Steps of the loops of the section that is being rendered."""
 
     def names(self, names: Mapping[str, Any]) -> dict[str, Any]:
         """The names of a template with what it holds for them; what can be called is a function."""
-        return {
-            name: self._token(value, FunctionToken) if callable(value) else self.plain(value)
-            for name, value in names.items()
-        }
+        known = self._names
+        # Most names of a section have the value that they had in the one before.
+        for name, value in names.items():
+            if name not in known or known[name][0] is not value:
+                plain = self._token(value, FunctionToken) if callable(value) else self.plain(value)
+                known[name] = value, plain
+        return {name: known[name][1] for name in names}
 
     def plain(self, value: Any) -> Any:
         """What a template holds for a value: the value itself, a tuple, or a token."""
@@ -65,7 +69,7 @@ class Values:
         if kind in PLAIN:
             return value
         if kind is tuple or kind is list:
-            return tuple([self.plain(one) for one in value])
+            return tuple(map(self.plain, value))
         if shown.members(kind) or isinstance(value, Mapping):
             return self._token(value, Token)
         match value:
@@ -90,7 +94,7 @@ class Values:
         if isinstance(value, Token):
             return self._held[value.number]
         if isinstance(value, tuple):
-            return tuple([self.own(one) for one in value])
+            return tuple(map(self.own, value))
         return str(value) if isinstance(value, Undefined) else value
 
     def member(self, of: Token, name: Any) -> Any:
@@ -121,9 +125,8 @@ class Values:
             self.own(called)
             raise SecurityError("not a function")
         function: Callable[..., Any] = self.own(called)
-        return self.plain(
-            function(*map(self.own, arguments), **{name: self.own(value) for name, value in named.items()})
-        )
+        own = {name: self.own(value) for name, value in named.items()} if named else {}
+        return self.plain(function(*map(self.own, arguments), **own))
 
     def _token(self, value: Any, kind: type[Token]) -> Token:
         # What is held is kept, so that no other value is ever taken for it.

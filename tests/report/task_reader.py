@@ -248,7 +248,7 @@ def _linkage(task: Task, data: Mapping[str, str]) -> File:
         "groups": [_group(row, data, guides, task) for row in task.table("Groups")[1:]],
     }
     points = task.table("Further points")[1:]
-    file["points"] = {_name(row[0]): {"link": row[1], "at": [typed(row[2]), typed(row[3])]} for row in points}
+    file["points"] = {_name(row[0]): {"link": row[1], "at": [typed(row[4]), typed(row[5])]} for row in points}
     centres = re.findall(r"(\w+) of link (\d+)[.,]", task.find(r"Mass centres: (.*)") or "")
     file["masses"] = [_body(_name(centre), link, data) for centre, link in centres]
     file["loads"] = list(_loads(task))

@@ -10,7 +10,7 @@ from reportgen import api
 from reportgen.base.words import templates
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.plain import Plain
-from reportgen.formula.setting import Mark, displayed
+from reportgen.formula.setting import Parenthesis, displayed
 from reportgen.report import Figure, Paragraph, Section, Table, plain
 from reportgen.report.layout import FIGURE_HEIGHT, fits, height, in_parts
 from tests.report import built
@@ -59,7 +59,7 @@ def test_what_is_opened_says_the_same() -> None:
     whole, opened = displayed(row, "en"), displayed(row, "en", lambda parts: False)
     assert [len(side) for side in whole] == [1, 1]
     assert [len(side) for side in opened] == [1, len(terms)]
-    assert not any(isinstance(part, Mark) for part in whole[1])
+    assert not any(isinstance(part, Parenthesis) for part in whole[1])
     text = "".join(Plain("en").part(piece) for piece in opened[1])
     values = {name: 1.5 + i for i, name in enumerate("ABCDEFGH")} | {"ω_1": 4.0} | {f"k_{i}": 0.1 * i for i in range(8)}
     for name, value in sorted(values.items(), reverse=True):

@@ -20,7 +20,9 @@ from reportgen.drawing import Label
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula import plain as plain_notation
 from reportgen.formula.plain import Plain
+from reportgen.formula.setting import sides
 from reportgen.report import Block, Document, Equation, List, Plate, Section, lines_of, plain
+from reportgen.report.layout import fits
 from reportgen.writers import word
 from tests.lanes import matrix
 from tests.report import built
@@ -44,12 +46,14 @@ class Flat(Plain):
 
 
 def flat(node: Expression, language: Language) -> str:
+    if not isinstance(node, VectorEquation):
+        # What is wider than its line is opened there.
+        return "=".join(map(Flat(language).part, sides(node, language, fits)))
     with mock.patch.object(plain_notation, "Plain", Flat):
         text = plain_notation.formula(node, language)
     # The names of a vector equation's rows stand in each of its storeys.
-    names = node.rows if isinstance(node, VectorEquation) else ()
     return "\n".join(
-        [line.removeprefix(f"{name}: ") for line, name in zip(text.split("\n"), ("", *names), strict=True)]
+        [line.removeprefix(f"{name}: ") for line, name in zip(text.split("\n"), ("", *node.rows), strict=True)]
     )
 
 
