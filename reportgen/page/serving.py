@@ -37,7 +37,7 @@ HEADERS = {
 
 
 class Server(ThreadingHTTPServer):
-    """Serves the revisions of a session on a free port, each request in a thread of its own."""
+    """Serves the revisions of a live session on a free port, each request in a thread of its own."""
 
     daemon_threads = True
 

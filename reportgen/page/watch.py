@@ -96,7 +96,7 @@ def _school(path: Path, opens: Opener) -> Path | None:
 
 
 def _follow(path: Path, session: LiveSession, stop: threading.Event, shown: object) -> None:
-    """Renew the session whenever the file of a path is not as it was `shown`.
+    """Renew the live session whenever the file of a path is not as it was `shown`.
 
     The path is asked again and again: what watches files holds on to a folder that was renamed, does not follow links
     and hears nothing of changes that another computer makes.
@@ -131,7 +131,7 @@ def _state(path: Path) -> tuple[float, ...]:
 
 
 def _follow_templates(session: LiveSession, stop: threading.Event, school: Path | None) -> None:
-    """Renew the session whenever a file of the templates changes, or of a school's folder."""
+    """Renew the live session whenever a file of the templates changes, or of a school's folder."""
     from watchfiles import watch as changes
 
     for _ in changes(
