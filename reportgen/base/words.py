@@ -71,8 +71,8 @@ def templates_hash() -> str:
 
 def school_files(folder: Path) -> list[Path]:
     """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
-    found = (path for pattern in filter(None, OF_SCHOOL) for path in folder.glob(pattern))
-    return sorted(path for path in found if path.name != "blocks") if os.path.isdir(folder) else []
+    patterns = OF_SCHOOL if os.path.isdir(folder) else ()
+    return sorted(path for pattern in patterns for path in folder.glob(pattern) if path.name != "blocks")
 
 
 def is_school(folder: Path) -> bool:

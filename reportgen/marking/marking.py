@@ -195,7 +195,7 @@ def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) ->
     counted = Counter(cell.verdict for cell in marking.cells)
     for cell in marking.first_errors:
         given = marking.submission.values[(cell.id, cell.position)]
-        yield words["first"].format(mark=given.mark, symbol=_named(marking, cell), text=given.text)
+        yield words["first"].format(mark=str(given.mark), symbol=_named(marking, cell), text=given.text)
         if hint:
             yield f"    {_hint(scheme, marking, cell)}"
     later = counted[Verdict.wrong] - len(marking.first_errors)
