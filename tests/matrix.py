@@ -30,7 +30,7 @@ from reportgen.base.words import kinds, samples
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.marking.key import Ask
-from reportgen.page.watch import Desk as Watched
+from reportgen.page.live import LiveSession
 from reportgen.report.case import Case
 from reportgen.report.key import Key
 from tests.marking.filled import filled
@@ -224,12 +224,12 @@ def grade(at: Desk) -> None:
 
 def watch(at: Desk) -> None:
     """The first page, before there is a report: what moves, and no fault."""
-    watched = Watched(partial(open_case, at.file, at.language or None))
+    watched = LiveSession(partial(open_case, at.file, at.language or None))
     watched.renew()
-    assert watched.edition.fault == ""
-    assert watched.edition.language == at.spoken
+    assert watched.revision.fault == ""
+    assert watched.revision.language == at.spoken
     assert watched.page().startswith("<!DOCTYPE html>")
-    assert len(watched.edition.panels) >= len(open_case(at.file).films())
+    assert len(watched.revision.panels) >= len(open_case(at.file).films())
 
 
 COMMANDS: tuple[Callable[[Desk], None], ...] = (

@@ -69,7 +69,7 @@ class RequirementView:
 class CamPage(DesignPage[SolvedCam]):
     """A cam as templates name it."""
 
-    NAME, TASK = "cam", "cam-task"
+    NAME, TASK, SUMMARY = "cam", "cam-task", "cam-summary"
     SECTIONS = (
         *("cam-given", "cam-law", "cam-diagrams", "cam-motion-table", "cam-limits", "cam-choice", "cam-pressure"),
         *("cam-profile", "cam-curvature", "cam-checks", "cam-conclusion"),
@@ -92,6 +92,7 @@ class CamPage(DesignPage[SolvedCam]):
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
         found = case.solution.designed
         exceeded, undercut = self.exceeded, self.undercut
+        all_hold = all(one.holds for one in self.required)
         return {
             "words": case.words,
             "full": self.full,
@@ -138,7 +139,8 @@ class CamPage(DesignPage[SolvedCam]):
             "extremes": self.judged,
             "exceeded": exceeded,
             "undercut": undercut,
-            "sound": not (exceeded or undercut) and all(one.holds for one in self.required),
+            "lacking": not (exceeded or undercut or all_hold),
+            "sound": not (exceeded or undercut) and all_hold,
             # symbols, numbers, lines, figures
             "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
             "value": lambda id, k=None: Value(case.printed.number(id, k)),

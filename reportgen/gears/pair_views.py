@@ -28,7 +28,7 @@ OWN = ("x", "d", "d_b", "d_w", "d_a", "d_f", "h_a", "s", "s_w", "s_a", "alpha_a"
 class PairPage(DesignPage[SolvedPair]):
     """A gear pair as templates name it."""
 
-    NAME, TASK = "pair", "pair-task"
+    NAME, TASK, SUMMARY = "pair", "pair-task", "pair-summary"
     SECTIONS = (
         *("pair-given", "pair-shifts", "pair-mesh", "pair-wheels", "pair-contact", "pair-sliding", "pair-region"),
         *("pair-checks", "pair-drawing", "pair-conclusion"),

@@ -41,7 +41,7 @@ SHOWN_SETS = 500
 class TrainPage(DesignPage[SolvedTrain]):
     """A planetary train as templates name it."""
 
-    NAME, TASK = "train", "train-task"
+    NAME, TASK, SUMMARY = "train", "train-task", "train-summary"
     SECTIONS = (
         *("train-given", "train-ratio", "train-conditions", "train-candidates", "train-choice", "train-checks"),
         *("train-total", "train-scheme", "train-rates", "train-triangles", "train-efficiency", "train-conclusion"),

@@ -28,6 +28,8 @@ class DesignPage(ABC, Generic[Designed]):
     """What its words stand under."""
     TASK: ClassVar[str]
     """The section with its task."""
+    SUMMARY: ClassVar[str]
+    """The section with its main results."""
     SECTIONS: ClassVar[Sequence[str]]
     SHORT: ClassVar[frozenset[str]]
     """The sections that a short report goes without."""
@@ -81,7 +83,7 @@ class DesignPage(ABC, Generic[Designed]):
     def summary(cls, case: Designed) -> tuple[Block, ...]:
         """Its main results in a few sentences."""
         page = cls(case)
-        return page.section(f"{cls.NAME}-summary", page.names())
+        return page.section(cls.SUMMARY, page.names())
 
     @classmethod
     def report(cls, case: Designed) -> Document:

@@ -32,23 +32,28 @@ def run(*arguments: object) -> Result:
     return CliRunner().invoke(app, ["sheet", *map(str, arguments)])
 
 
-def test_sheets_are_written_as_both_files_and_an_earlier_set_goes(tmp_path: Path) -> None:
+def test_sheets_are_written_as_both_files_and_those_of_others_stay(tmp_path: Path) -> None:
+    """A sheet that nothing vouches for is named and left."""
     folder = tmp_path / SMALL.stem
     folder.mkdir()
-    for name in ("sheet-9.pdf", "sheet-9.dxf", "sheet-mine.pdf", "report.pdf"):
+    others = ("sheet-9.pdf", "sheet-9.dxf", "sheet-mine.pdf", "report.pdf")
+    for name in others:
         (folder / name).write_bytes(b"earlier")
     done = run(SMALL, "--out", tmp_path)
-    assert (done.exit_code, done.stderr) == (0, "")
+    assert done.exit_code == 0
+    assert [line.split()[-1] for line in done.stderr.splitlines()] == [
+        f"{folder / name}" for name in sorted(others[:2])
+    ]
     names = {path.name for path in folder.iterdir()}
-    assert {"sheet-1.pdf", "sheet-1.dxf", "sheet-mine.pdf", "report.pdf"} <= names
-    assert not {"sheet-9.pdf", "sheet-9.dxf"} & names
-    assert {str(folder / name) for name in names if name[6:7].isdigit()} == set(done.stdout.split())
+    assert {"sheet-1.pdf", "sheet-1.dxf", *others} <= names
+    made = {str(folder / name) for name in names if name[6:7].isdigit()} - {str(folder / name) for name in others}
+    assert made == set(done.stdout.split())
 
 
 def test_a_set_and_a_format_alone(tmp_path: Path) -> None:
     done = run(SMALL, "--out", tmp_path, "--set", "kinematics", "--format", "dxf", "--size", "A2", "--block", "gost")
     assert (done.exit_code, done.stderr) == (0, "")
-    assert {path.suffix for path in (tmp_path / SMALL.stem).iterdir()} == {".dxf"}
+    assert {path.suffix for path in (tmp_path / SMALL.stem).glob("sheet-*")} == {".dxf"}
 
 
 @pytest.mark.parametrize(
