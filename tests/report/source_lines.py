@@ -60,8 +60,9 @@ _JOINED = (
     (re.compile(r"\$,\),\(\$"), " = "),
     (re.compile(r"\$,\$|\$\) #box\(\$"), " "),
     (re.compile(r'class\("punctuation", "[,;]"\)'), ";"),
+    (re.compile(r'class\("(?:opening|closing)", lr\(size: #\d+%, \\([()])\)\)'), r"\1"),
 )
-"""The sides of a displayed row; the pieces of a side, or the boxes of a line of text; two arguments."""
+"""The sides of a displayed row; the pieces of a side, or the boxes of a line of text; two arguments; a sum's ends."""
 _TYPST_FORMULA = re.compile(rf'\$((?:{STRING}|[^"$])*)\$')
 _TYPST_TOKEN = re.compile(rf"{STRING}|[a-zA-Z]+(?:\.[a-z]+)*|.", re.DOTALL)
 _TYPST_SIGNS = {"dot.c": "·", "−": "-", "quad": "|", "thin": ""}
@@ -121,7 +122,20 @@ _LATEX_START = re.compile(r"\\[RL](?=\{)|(?<!\\)\$")
 _LATEX_TOKEN = re.compile(r"\\[a-zA-Z]+|\\.|\d[\d.]*(?:\{,\}\d+)?|.", re.DOTALL)
 _LATEX_SIGNS = {r"\cdot": "·", r"\quad": "|", r"\lvert": "abs(", r"\rvert": ")", ",": ";"}
 _LATEX_WHITE = frozenset(
-    {r"\left", r"\right", r"\mathopen", r"\,", r"\nobreak", r"\relbreak", r"\binbreak", r"\dotbreak", "{", "}"}
+    {
+        r"\left",
+        r"\right",
+        r"\Bigl",
+        r"\Bigr",
+        r"\mathopen",
+        r"\,",
+        r"\nobreak",
+        r"\relbreak",
+        r"\binbreak",
+        r"\dotbreak",
+        "{",
+        "}",
+    }
 )
 
 

@@ -25,9 +25,10 @@ LEAST = 6.0
 """Points: the smallest letter that is read without effort from paper."""
 ROUNDED = 0.03
 """Points by which a size from a PDF may be off: sizes are products of rounded factors."""
-SHARE, FEW = 0.04, 2
+SHARE, FEW = 0.04, 3
 """Of the pages, or so many of a short report, may be thin, cover, contents and last page apart: a page ends early
-before a figure as high as a page and where a section has no more text to let run on; the page before a sheet of larger
+before a figure of half a page and more, which stands below its heading and in no more than two parts (three times in
+the longest report), and where a section has no more text to let run on; the page before a sheet of larger
 paper, with which a section ends, is not counted."""
 LATE = 3
 """Pages from the first mention: plans of several groups are named together and follow the tables of their sentence."""
