@@ -123,11 +123,13 @@ class _Rewriting(NodeTransformer):
 
     def _by(self, name: str, of: Any) -> nodes.Filter:
         filtered = nodes.Filter(of, f" {name}", [], [], None, None, lineno=of.lineno)
-        return filtered.set_environment(self.environment)  # type: ignore[return-value]
+        filtered.set_environment(self.environment)
+        return filtered
 
     def _list(self, *items: Any) -> nodes.Tuple:
         made = nodes.Tuple(list(items), "load", lineno=items[0].lineno)
-        return made.set_environment(self.environment)  # type: ignore[return-value]
+        made.set_environment(self.environment)
+        return made
 
     def visit_Concat(self, node: nodes.Concat) -> nodes.Node:
         self.generic_visit(node)
