@@ -476,13 +476,3 @@ def title(name: str, language: Language) -> str:
 def titles(language: Language) -> dict[str, str]:
     """Each kind with its line of description."""
     return {name: title(name, language) for name in kinds()}
-
-
-def sample(name: str, language: Language) -> str:
-    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
-    if name not in kinds():
-        raise KeyError(name)
-    file = kind_file(language, name)
-    if (section := sections(file).get(SAMPLE)) is None:
-        raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
-    return section.text

@@ -14,7 +14,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from reportgen.base.units import Language
-from reportgen.base.words import DEFAULT_LANGUAGE, sample
+from reportgen.base.words import DEFAULT_LANGUAGE
+from reportgen.catalogue import sample
 from reportgen.classes.pool import KINDS
 
 FEW = 4

@@ -229,7 +229,7 @@ def new(
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
     from reportgen import catalogue
-    from reportgen.base.words import kinds, sample, spoken, unknown
+    from reportgen.base.words import kinds, spoken, unknown
 
     if kind not in kinds():
         raise typer.BadParameter(unknown("no_kind", kind, list(kinds()), lang))
@@ -239,7 +239,9 @@ def new(
     with ending(lang):
         if output is not None and os.path.lexists(output) and not (force or is_stream(output)):
             refuse([Fault("already-there", Mark(str(output)))], output, lang)
-        text = sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
+        text = (
+            catalogue.sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
+        )
         write(output or Path("-"), text)
 
 
@@ -278,11 +280,11 @@ def kinds(lang: LangOption = None) -> None:
         print(f"{kind:{width}}  {title}")
 
 
-def schema() -> None:
-    """Print the JSON Schema of the assignment file, for editors."""
+def schema(lang: LangOption = None) -> None:
+    """Print the JSON Schema of the assignment file, for editors. Its keys are told in the language."""
     from reportgen import catalogue
 
-    print(json.dumps(catalogue.schema(), ensure_ascii=False, indent=2))
+    print(json.dumps(catalogue.schema(lang), ensure_ascii=False, indent=2))
 
 
 def compare(
