@@ -135,9 +135,9 @@ def _couple(torque: Torque, cycle_angle: np.ndarray, motion: Motion) -> Load:
 def breaks(machine: Machine) -> np.ndarray:
     """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
     laws = [*(force.law for force in machine.applied), *(torque.law for torque in machine.torques)]
-    found = [corner for law in laws for corner in law.breaks(partial(motion_at, machine))]
+    corners = [corner for law in laws for corner in law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
-    return np.array(sorted(set(np.mod(found, whole).round(13).tolist())))
+    return np.array(sorted(set(np.mod(corners, whole).round(13).tolist())))
 
 
 def _work(machine: Machine) -> float:
