@@ -18,10 +18,10 @@ RPP  r_G + s e_j + t e_k = r_P, e_k the slide's direction on link j         v = 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from reportgen.catalogue.components import STILL, Pair, across, add, along, degrees, less, on, scaled, turned, typed
 from reportgen.catalogue.driven import natural_sizes
 from reportgen.formula import (
     MINUS_ONE,
@@ -58,59 +58,6 @@ from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Link
 
 TWO = Number(2.0)
 STRAIGHT = Number(180.0, unit="°")
-Pair = tuple[Expression, Expression]
-"""A vector by its components."""
-STILL: Pair = (NOTHING, NOTHING)
-
-
-# --- vectors by their components ------------------------------------------------------------------
-
-
-def add(*vectors: Pair) -> Pair:
-    return plus(*(x for x, _ in vectors)), plus(*(y for _, y in vectors))
-
-
-def less(p: Pair, q: Pair) -> Pair:
-    return add(p, (minus(q[0]), minus(q[1])))
-
-
-def scaled(factor: Expression, vector: Pair) -> Pair:
-    return times(factor, vector[0]), times(factor, vector[1])
-
-
-def turned(vector: Pair) -> Pair:
-    """The vector turned by 90° anticlockwise."""
-    return minus(vector[1]), vector[0]
-
-
-# --- directions -----------------------------------------------------------------------------------
-
-
-def degrees(angle: float) -> Number:
-    """A typed angle (rad) as it stands in a formula."""
-    return Number(as_typed(math.degrees(angle)), unit="°")
-
-
-def as_typed(value: float) -> float:
-    """A number without the dust of its conversion to SI."""
-    return float(f"{value:.13g}") + 0.0
-
-
-def along(angle: Expression) -> Pair:
-    """The unit vector e at an angle."""
-    return cosine(angle), sine(angle)
-
-
-def on(vector: Pair, angle: Expression) -> Expression:
-    """The projection on e at an angle."""
-    e = along(angle)
-    return plus(times(vector[0], e[0]), times(vector[1], e[1]))
-
-
-def across(vector: Pair, angle: Expression) -> Expression:
-    """The projection on n, square to e at an angle."""
-    e = along(angle)
-    return plus(times(vector[1], e[0]), minus(times(vector[0], e[1])))
 
 
 # --- what moves -----------------------------------------------------------------------------------
@@ -175,11 +122,6 @@ class LoopLine:
 Sides = tuple[Expression, Expression, Pair]
 """Both unknown rates and the right-hand side of their equations."""
 RATES = {"v": "velocity", "a": "acceleration"}
-
-
-def typed(place: complex) -> Pair:
-    """A typed place (m) as it stands in formulas."""
-    return Number(as_typed(place.real)), Number(as_typed(place.imag))
 
 
 # --- the loops ------------------------------------------------------------------------------------
