@@ -17,7 +17,8 @@ from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue import reach
 from reportgen.catalogue.reach import Member
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.machine.loads import STEPS, crank_motion
+from reportgen.machine.laws import STEPS
+from reportgen.machine.loads import crank_motion
 from reportgen.machine.motion import Motion, solve_motion
 
 TOP: Where = ("parameters",)
