@@ -50,7 +50,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     """The way of a slider on the frame; its top is the end farther along the guide.
 
     Intake starts at the passage number `top` of the top.  Raises `ValueError` for a slider that does not go once to
-    and fro in a turn of the driver; where a file may give one, its checks find it (`catalogue.reach.to_and_fro`).
+    and fro in a turn of the driver; where a file may give one, its checks find it (`catalogue.assembly.to_and_fro`).
     """
     dyad, guide = rails(linkage)[link]
     along = cmath.exp(1j * guide.angle)
