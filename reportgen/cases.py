@@ -20,7 +20,7 @@ from reportgen.base.units import Language
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.loads import STEPS
+from reportgen.machine.laws import STEPS
 from reportgen.report import Document
 from reportgen.report.case import Case, MachineAnalysis, Misconceptions
 from reportgen.report.key import Key
