@@ -20,8 +20,8 @@ from reportgen.drawing import Scene
 from reportgen.formula import Call, Chain, Expression, Number, Symbol, ids, substitute, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report.case import AskedFor
 from reportgen.report.design import DesignPage
-from reportgen.report.key import Key
 from reportgen.report.prose import Prose
 
 DATA = (95.0, 25.0, 40.0)
@@ -84,9 +84,8 @@ class CamPage(DesignPage[SolvedCam]):
         cam, least = self.case.solution.cam, self.case.solution.designed.least
         return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
 
-    def asked(self, key: Key) -> dict[str, Any]:
-        positions = sorted({k for row in key.asked for k in row.positions if k})
-        return {"asked": listed(Text(key.label(k)) for k in positions)}
+    def asked(self, asked: AskedFor) -> dict[str, Any]:
+        return {"asked": listed(map(Text, asked.positions))}
 
     def names(self) -> dict[str, Any]:
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given

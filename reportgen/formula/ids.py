@@ -313,6 +313,14 @@ def linked(joint: str) -> tuple[str, str]:
     return one, other
 
 
+def links_of(reaction: str) -> tuple[int, int]:
+    """The two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
+    found = reaction_force.read(reaction)
+    assert found is not None, f"{reaction} is no reaction"
+    acting, on = linked(found["joint"])
+    return int(acting), int(on)
+
+
 def points(named: str) -> list[str]:
     """The points that a place of an id names: O1A is O1 and A."""
     return _POINT.findall(named)

@@ -12,12 +12,11 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.formula import PI, Expression, Operand, Ref, Symbol, acos, arcinv, cos, ids, refs, sin, tan
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.pair import Chosen, GearPair
-from reportgen.report.case import Opened, Pitfalls, with_another
+from reportgen.report.case import Pitfalls, with_another
+from reportgen.report.design import DesignCase
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
@@ -83,8 +82,10 @@ OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("r
 
 
 @dataclass(frozen=True)
-class SolvedPair(Opened):
+class SolvedPair(DesignCase):
     """An assignment of a gear pair with its ledger; each part is computed when it is first asked for."""
+
+    SAME = tuple(tuple(ids.gear(one, wheel) for wheel in WHEELS) for one in ALIKE)
 
     @cached_property
     def chosen(self) -> Chosen:
@@ -98,22 +99,6 @@ class SolvedPair(Opened):
     @cached_property
     def sheet(self) -> Sheet:
         return PairSheet(self.chosen).q
-
-    @cached_property
-    def ledger(self) -> Ledger:
-        sheet = self.sheet
-        units, alike = self.words["units"], tuple(tuple(ids.gear(one, wheel) for wheel in WHEELS) for one in ALIKE)
-        made = Ledger(sheet.families, sheet.positions, units=units, same=alike, lines=sheet.lines)
-        return made.in_language(self.words["symbols"])
-
-    @cached_property
-    def printed(self) -> Ledger:
-        return carried(self.ledger)
-
-    @property
-    def count(self) -> int:
-        """The points of the path."""
-        return POINTS
 
     @property
     def worked(self) -> tuple[int, ...]:

@@ -13,6 +13,7 @@ from reportgen.gears.pair_drawings import mesh, region, sliding
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
 from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
 from reportgen.report.design import DesignPage
+from reportgen.report.wording import phrase
 
 DATA = (95.0, 25.0, 40.0)
 PAIR = (68.0, 22.0, 35.0, 35.0)
@@ -94,8 +95,6 @@ class PairPage(DesignPage[SolvedPair]):
 
     def _said(self, id: str) -> Inlines:
         """What a quantity is, in words; that of a wheel goes for both."""
-        from reportgen.marking.key import phrase
-
         text = phrase(id, self.case.ledger, self.case.words)
         return (Text(text[:1].upper() + text[1:]),)
 

@@ -12,13 +12,12 @@ import numpy as np
 
 from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, ids, signed, sin
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
 from reportgen.gears.train_file import Parameters
-from reportgen.report.case import Opened, Pitfalls
+from reportgen.report.case import Pitfalls
+from reportgen.report.design import DesignCase
 
 OTHER = "2′"
 """The second wheel of a double satellite."""
@@ -45,7 +44,7 @@ LINES: Mapping[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True)
-class SolvedTrain(Opened):
+class SolvedTrain(DesignCase):
     """An assignment of a planetary train with its ledger; each part is computed when it is first asked for."""
 
     @property
@@ -66,14 +65,8 @@ class SolvedTrain(Opened):
         return self.choice.chosen
 
     @cached_property
-    def ledger(self) -> Ledger:
-        sheet = TrainSheet(self.given).written()
-        made = Ledger(sheet.families, sheet.positions, units=self.words["units"], lines=sheet.lines)
-        return made.in_language(self.words["symbols"])
-
-    @cached_property
-    def printed(self) -> Ledger:
-        return carried(self.ledger)
+    def sheet(self) -> Sheet:
+        return TrainSheet(self.given).written()
 
     @property
     def speed(self) -> float:

@@ -19,6 +19,8 @@ from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, ids, w
 from reportgen.formula.evaluation import evaluate
 from reportgen.gears.pair_case import PairCase
 from reportgen.gears.pair_drawings import mesh
+from reportgen.marking.key import key_of
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "gears").glob("pair-*.yaml"))
@@ -114,7 +116,7 @@ def test_a_short_report_has_less(language: str) -> None:
 
 def test_every_row_of_the_key_has_words() -> None:
     for language in ("vi", "en"):
-        rows = pair_case("pair-equal-sliding", language).key().rows
+        rows = key_of(pair_case("pair-equal-sliding", language)).rows
         assert [row.id for row in rows if not row.what] == []
 
 
@@ -131,7 +133,7 @@ def test_the_new_file_is_in_order(language: str, tmp_path: Path) -> None:
 def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
     """The first sheet's teeth are 30 to 50 mm high; the others have the wheels 1:1, as curves."""
     case = pair_case("pair-centre-distance")
-    sheet, *wheels = case.sheets()
+    sheet, *wheels = drawing_sheets(case)
     assert sheet.name == "A2"
     for wheel, made, tip in zip((0, 1), wheels, case.gears.d_a, strict=True):
         part = next(part for part in made.parts if part.layer == "profile")
@@ -168,7 +170,7 @@ def test_large_wheels_stay_on_the_page(parameters: str, tmp_path: Path) -> None:
         for scene in figure.scenes:
             assert scene.width <= 170
             assert scene.height <= 240
-    assert case.sheets()
+    assert drawing_sheets(case)
 
 
 def is_scale(content: object) -> bool:

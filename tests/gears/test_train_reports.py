@@ -16,6 +16,9 @@ from reportgen.formula import Chain, Number, Symbol, ids, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.gears.train import turned
 from reportgen.gears.train_drawings import velocity_triangles
+from reportgen.marking.key import key_of
+from reportgen.results import results as results_of
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "gears").glob("train-*.yaml"))
@@ -150,12 +153,12 @@ def test_a_short_report_has_less(language: str) -> None:
 def test_words_page_sheet_and_results(name: str) -> None:
     """No row of a key is without words; the page, the sheet and the results come of it."""
     for language in ("vi", "en"):
-        rows = case_of(name, language).key().rows
+        rows = key_of(case_of(name, language)).rows
         assert [row.id for row in rows if not row.what] == []
     case = case_of(name)
     (film,) = case.films()
     assert math.isclose(film.knots[-1], 360)
-    (sheet,) = case.sheets()
+    (sheet,) = drawing_sheets(case)
     # On the sheet, too, a length is what the scale below it says, whatever that is in the report.
     plan = next(part.scene for part in sheet.parts for item in part.scene.items if getattr(item, "name", "") == "Aa")
     (drawn,) = (item.end - item.start for item in plan.items if getattr(item, "name", "") == "Aa")
@@ -172,7 +175,7 @@ def test_words_page_sheet_and_results(name: str) -> None:
         assert high.real <= sheet.width
         assert low.imag >= 0
         assert high.imag <= sheet.height
-    results = case.results()
+    results = results_of(case)
     assert results["train"]["z"] == [*case.train.teeth]
     assert results["found"] == len(results["sets"]) == len(case.choice.sets)
 
