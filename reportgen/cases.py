@@ -23,7 +23,7 @@ from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
 from reportgen.report import Block, Document, Paragraph, Strong, Text
-from reportgen.report.case import AskedFor, Calculation, Case, Pitfalls
+from reportgen.report.case import AskedFor, Case, MachineAnalysis, Misconceptions
 from reportgen.report.equations import heading_words
 from reportgen.report.key import Span
 from reportgen.report.report import Report
@@ -31,7 +31,7 @@ from reportgen.report.shafts import Shaft
 from reportgen.report.wording import positive_sense
 
 if TYPE_CHECKING:
-    from reportgen.drawing.film import Film
+    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
 
 
@@ -74,7 +74,7 @@ def opener() -> Callable[[Path | str, Language | None], Case]:
 
 
 @dataclass(frozen=True)
-class MachineCase(Calculation):
+class MachineCase(MachineAnalysis):
     """A machine, as a `Case`."""
 
     @cached_property
@@ -130,9 +130,9 @@ class MachineCase(Calculation):
         return np.real(self.analysis.torque) if self.analysis.loads else None
 
     @property
-    def pitfalls(self) -> Pitfalls:
+    def misconceptions(self) -> Misconceptions:
         analysis = self.analysis
-        return Pitfalls(
+        return Misconceptions(
             frozenset(load.name for load in analysis.applied),
             tuple(load.name for load in analysis.loads),
             _wrong_readings(analysis),
@@ -167,10 +167,10 @@ class MachineCase(Calculation):
         kind = Paragraph((Strong((Text(self.title),)),), "center")
         return (title, kind), (*given, *prose.render("task", known))
 
-    def films(self) -> tuple[Film, ...]:
-        from reportgen.page.sampling import film
+    def animations(self) -> tuple[Animation, ...]:
+        from reportgen.page.sampling import animation
 
-        return (film(self),)
+        return (animation(self),)
 
     @property
     def shafts(self) -> Sequence[Shaft]:

@@ -34,7 +34,7 @@ from reportgen.marking.key import key_of
 from reportgen.marking.marks import read_policy
 from reportgen.marking.paper import task_of
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.case import Calculation
+from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key
 from reportgen.report.outline import names
 from reportgen.report.prose import Prose
@@ -275,9 +275,9 @@ def _words(number: int, chance: random.Random, folder: Path) -> None:
 
 
 @cache
-def _case() -> Calculation:
+def _case() -> MachineAnalysis:
     case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
-    assert isinstance(case, Calculation)
+    assert isinstance(case, MachineAnalysis)
     return case
 
 

@@ -229,7 +229,7 @@ def watch(at: Desk) -> None:
     assert watched.revision.fault == ""
     assert watched.revision.language == at.spoken
     assert watched.page().startswith("<!DOCTYPE html>")
-    assert len(watched.revision.panels) >= len(open_case(at.file).films())
+    assert len(watched.revision.panels) >= len(open_case(at.file).animations())
 
 
 COMMANDS: tuple[Callable[[Desk], None], ...] = (

@@ -8,14 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.cam import film, views
+from reportgen.cam import animation, views
 from reportgen.cam import sheets as sheet_of_cam
 from reportgen.cam.file import exceeded
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing.film import Film
+from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.report.case import Pitfalls
+from reportgen.report.case import Misconceptions
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
 
@@ -27,8 +27,8 @@ class CamCase(SolvedCam):
     PAGE = views.CamPage
 
     @property
-    def pitfalls(self) -> Pitfalls:
-        return self.solution.pitfalls
+    def misconceptions(self) -> Misconceptions:
+        return self.solution.misconceptions
 
     def fault(self) -> str:
         found = self.solution.designed
@@ -43,32 +43,32 @@ class CamCase(SolvedCam):
     @cached_property
     def entries(self) -> ResultEntries:
         """The choice of the cam, then its motion and its profile position by position."""
-        cam, traced, found = self.solution.cam, self.solution.traced, self.solution.designed
+        cam, profile, found = self.solution.cam, self.solution.profile, self.solution.designed
         names = ("s", "ds", "dds", "v", "a") if cam.translating else ("psi", "dpsi", "ddpsi", "omega", "epsilon")
         omega = self.speed
         positions = []
-        for k, phase in enumerate(one.phase for one in self.solution.stretches):
-            motion = dict(zip(names[:3], (part[k] for part in (traced.s, traced.ds, traced.dds)), strict=True))
+        for k, phase in enumerate(one.phase for one in self.solution.intervals):
+            motion = dict(zip(names[:3], (part[k] for part in (profile.s, profile.ds, profile.dds)), strict=True))
             if omega is not None:
                 motion |= {names[3]: omega * motion[names[1]], names[4]: omega**2 * motion[names[2]]}
             positions.append(
                 {
                     "number": k + 1,
-                    "crank_angle": traced.φ[k],
+                    "crank_angle": profile.φ[k],
                     "phase": phase,
                     "follower" if cam.translating else "swing": motion,
-                    "pressure_angle": traced.alpha[k],
-                    "curvature_radius": traced.rho[k] if np.isfinite(traced.rho[k]) else None,
-                    "pitch": traced.pitch[k],
-                    "profile": traced.working[k],
+                    "pressure_angle": profile.alpha[k],
+                    "curvature_radius": profile.rho[k] if np.isfinite(profile.rho[k]) else None,
+                    "pitch": profile.pitch[k],
+                    "profile": profile.working[k],
                 }
             )
         sizes = {key: getattr(cam, key) for key in ("r0", "e", "a", "arm", "roller")}
         least = None if found.least is None else {"r0": found.least.r0, "e": found.least.e, "a": found.least.a}
         return ResultEntries(positions, {"cam": sizes, "least": least, "undercut": list(cam.undercut)})
 
-    def films(self) -> tuple[Film, ...]:
-        return (film.film(self),)
+    def animations(self) -> tuple[Animation, ...]:
+        return (animation.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """There are no sets of them to choose from."""

@@ -15,9 +15,9 @@ import numpy as np
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework import senses
 from reportgen.coursework.booklet import PartReport, booklet, task_of
-from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.coursework.senses import PartShafts
-from reportgen.drawing.film import Film
+from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, nodes, relettered
+from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.plates import changed as with_change
 from reportgen.drawing.sheet import DrawingSheet
@@ -25,11 +25,11 @@ from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, CaseOfParts, Pitfalls
+from reportgen.report.case import Case, CaseOfParts, Misconceptions
 from reportgen.report.key import Key, PartOfKey, Span, capitalised
-from reportgen.report.occurring import explained, is_explained, occurring
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
+from reportgen.report.used_symbols import explained, is_explained, used_symbols
 from reportgen.report.wording import phrase
 
 _NUMBER = re.compile(r"\b\d\b")
@@ -51,8 +51,8 @@ class PartCase:
         return self.case.document()
 
     @cached_property
-    def films(self) -> tuple[Film, ...]:
-        return self.case.films()
+    def animations(self) -> tuple[Animation, ...]:
+        return self.case.animations()
 
     @cached_property
     def used(self) -> frozenset[Symbol]:
@@ -178,8 +178,8 @@ class Coursework(CaseOfParts):
         return self.machine.balance
 
     @property
-    def pitfalls(self) -> Pitfalls:
-        return self.machine.pitfalls
+    def misconceptions(self) -> Misconceptions:
+        return self.machine.misconceptions
 
     def fault(self) -> str:
         return next(filter(None, (case.fault() for case in self.parts.values())), "")
@@ -281,7 +281,7 @@ class Coursework(CaseOfParts):
         """A row for the symbols of one meaning that the part's report uses and does not explain where they stand."""
         ledger, letters = member.case.printed, self.letters[member.name]
         blocks = member.document.blocks
-        used, known = occurring(blocks), explained(blocks)
+        used, known = used_symbols(blocks), explained(blocks)
         alike: dict[tuple[str, str], dict[Symbol, str]] = {}
         for id, family in ledger.families.items():
             meaning = "" if family.hidden or family.is_plane else phrase(id, ledger, member.case.words)
@@ -321,14 +321,14 @@ class Coursework(CaseOfParts):
         own = relettered(paper, self.letters[member.name])
         return PartReport(member.name, member.title, own, tuple(self._taken(member)))
 
-    def films(self) -> tuple[Film, ...]:
+    def animations(self) -> tuple[Animation, ...]:
         """Those of the machine, then those of the parts by their names and titles."""
         parts = (
-            replace(relettered(film, self.letters[member.name]), name=member.name, title=member.title)
+            replace(relettered(animation, self.letters[member.name]), name=member.name, title=member.title)
             for member in self.members
-            for film in member.films
+            for animation in member.animations
         )
-        return (*self.first.films, *parts)
+        return (*self.first.animations, *parts)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Those of its machine."""

@@ -15,7 +15,7 @@ from reportgen.formula import PI, Expression, Operand, Ref, Symbol, acos, arcinv
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.pair import Chosen, GearPair
-from reportgen.report.case import Pitfalls, with_another
+from reportgen.report.case import Misconceptions, with_another
 from reportgen.report.design import DesignCase
 
 POINTS = 9
@@ -106,8 +106,8 @@ class SolvedPair(DesignCase):
         return (1, POINTS)
 
     @cached_property
-    def pitfalls(self) -> Pitfalls:
-        return Pitfalls(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
+    def misconceptions(self) -> Misconceptions:
+        return Misconceptions(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
 
 
 class PairSheet:

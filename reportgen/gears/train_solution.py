@@ -16,7 +16,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
 from reportgen.gears.train_file import Parameters
-from reportgen.report.case import Pitfalls
+from reportgen.report.case import Misconceptions
 from reportgen.report.design import DesignCase
 
 OTHER = "2′"
@@ -74,7 +74,7 @@ class SolvedTrain(DesignCase):
         return self.given.n_in.si
 
     @cached_property
-    def pitfalls(self) -> Pitfalls:
+    def misconceptions(self) -> Misconceptions:
         """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
         z = {wheel: Ref(ids.train_teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
         term, sign, one = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
@@ -97,7 +97,7 @@ class SolvedTrain(DesignCase):
                 for teeth, number in zip(z.values(), refused.teeth, strict=True):
                     if teeth.id in self.ledger:
                         readings.setdefault(teeth.id, []).append((f"train-{name}", np.array([number])))
-        return Pitfalls(readings=readings, changed=changed)
+        return Misconceptions(readings=readings, changed=changed)
 
 
 def term_of(scheme: TrainScheme, z: Mapping[str, Ref | Symbol]) -> Expression:

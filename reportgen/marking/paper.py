@@ -16,7 +16,7 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
 from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
-from reportgen.report.case import AskedFor, Case, CaseOfParts, Opened
+from reportgen.report.case import AskedFor, Case, CaseOfParts, LoadedAssignment
 from reportgen.report.key import Key, KeyRow, Role
 from reportgen.report.numbering import number
 from reportgen.report.report import PLATES_UP_TO
@@ -133,11 +133,11 @@ def task_of(case: Case, key: Key, by_section: bool = False) -> Document:
     if isinstance(case, CaseOfParts):
         pages = zip(case.parts.values(), key.pages, strict=True)
         return case.joined_task([task_of(part, page, by_section) for part, (_, page) in pages])
-    assert isinstance(case, Opened), "what has no parts is a work by itself"
+    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
     return case.bounded(partial(_task, key=key, by_section=by_section))
 
 
-def _task(case: Opened, key: Key, by_section: bool) -> Document:
+def _task(case: LoadedAssignment, key: Key, by_section: bool) -> Document:
     title, blocks = case.question(_asked_for(case, key, by_section))
     student = case.assignment.report.student.name or ""
     contents = (*title, *fields(student_rows(key)), *blocks)

@@ -14,8 +14,6 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
 
-import numpy as np
-
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
@@ -23,7 +21,6 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
-from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Cover, Document
@@ -33,7 +30,7 @@ from reportgen.report.result_entries import ResultEntries, entries_of
 if TYPE_CHECKING:
     import numpy as np
 
-    from reportgen.drawing.film import Film
+    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
@@ -45,7 +42,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Pitfalls:
+class Misconceptions:
     """What of an assignment is easily taken for something else; marking looks for it.
 
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
@@ -166,9 +163,9 @@ class Case(ABC):
         return ()
 
     @property
-    def pitfalls(self) -> Pitfalls:
+    def misconceptions(self) -> Misconceptions:
         """What marking looks for beside the mistakes that any formula may have."""
-        return Pitfalls()
+        return Misconceptions()
 
     def fault(self) -> str:
         """The code of a fault that shows only in the results, "" if they are sound; variants are judged by it."""
@@ -189,8 +186,8 @@ class Case(ABC):
         """The symbols that its report uses, of quantities, points and general formulas; None where it alone tells."""
         return None
 
-    def films(self) -> tuple[Film, ...]:
-        """What moves on its page, a film a part; none where nothing does."""
+    def animations(self) -> tuple[Animation, ...]:
+        """What moves on its page, an animation a part; none where nothing does."""
         return ()
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
@@ -262,7 +259,7 @@ def _called(make: Callable[..., Made], arguments: tuple[Any, ...]) -> Made:
 
 
 @dataclass(frozen=True)
-class Opened(Case):
+class LoadedAssignment(Case):
     """An assignment with its words, as a case of a single work."""
 
     root: Path | None = field(default=None, kw_only=True, compare=False, repr=False)
@@ -350,7 +347,7 @@ class Opened(Case):
 
 
 @dataclass(frozen=True)
-class Calculation(Opened):
+class MachineAnalysis(LoadedAssignment):
     """A machine: its assignment with all that is computed of it."""
 
     @cached_property

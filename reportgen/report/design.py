@@ -13,18 +13,18 @@ from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Section, Table, Text
-from reportgen.report.case import AskedFor, Opened
+from reportgen.report.case import AskedFor, LoadedAssignment
 from reportgen.report.key import Span
 from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
 from reportgen.report.wording import positive_sense
 
-Designed = TypeVar("Designed", bound=Opened)
+Designed = TypeVar("Designed", bound=LoadedAssignment)
 
 
 @dataclass(frozen=True)
-class DesignCase(Opened):
+class DesignCase(LoadedAssignment):
     """What is designed, as a case: its numbers are one sheet, its papers one page of templates."""
 
     PAGE: ClassVar[type[DesignPage[Any]]]

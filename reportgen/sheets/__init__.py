@@ -13,7 +13,7 @@ from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
-from reportgen.report.case import Calculation, Case, CaseOfParts
+from reportgen.report.case import Case, CaseOfParts, MachineAnalysis
 from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
 from reportgen.sheets.plates import Set, Sources, plates_of
@@ -55,7 +55,7 @@ def drawing_sheets(
     return [*found, *case.true_sizes()]
 
 
-def plates_by_set(case: Calculation, sets: Collection[str] = (), every: bool = False) -> Plates:
+def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
     """The plates of some sets, all if none is named; without those of which there are none."""
     sources = Sources.of(case, every)
     offered = get_args(Set) if sources.report.has_forces else ("kinematics",)
