@@ -28,7 +28,8 @@ from reportgen.drawing.charts import Area
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
-from reportgen.formula import Symbol, ids
+from reportgen.formula import Symbol
+from reportgen.gears import gears_ids
 from reportgen.gears import pair_views as views
 from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
@@ -68,13 +69,13 @@ class PairCase(SolvedPair):
     def entries(self) -> ResultEntries:
         """The pair and its wheels, then contact and sliding along the active path, from its beginning on."""
         ledger = self.ledger
-        own = sorted({parts["quantity"] for id in ledger.families if (parts := ids.gear.read(id))})
-        single = [one for one in own if len(ledger[ids.gear(one, 1)].values) == 1]
-        wheels = [{one: ledger[ids.gear(one, wheel)].values[0] for one in single} for wheel in WHEELS]
+        own = sorted({parts["quantity"] for id in ledger.families if (parts := gears_ids.of_wheel.read(id))})
+        single = [one for one in own if len(ledger[gears_ids.of_wheel(one, 1)].values) == 1]
+        wheels = [{one: ledger[gears_ids.of_wheel(one, wheel)].values[0] for one in single} for wheel in WHEELS]
         pair = {
             id.removeprefix("gears."): family.values[0]
             for id, family in ledger.families.items()
-            if not ids.gear.read(id) and len(family.values) == 1
+            if not gears_ids.of_wheel.read(id) and len(family.values) == 1
         }
         along = ("rho.1", "rho.2", "lambda.1", "lambda.2")
         positions = [

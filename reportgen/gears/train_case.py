@@ -14,8 +14,8 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
-from reportgen.gears import train_drawings
+from reportgen.formula import Chain, Number, Symbol, signed, vocabulary
+from reportgen.gears import train_drawings, train_ids
 from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
@@ -62,7 +62,7 @@ class TrainPage(DesignPage[SolvedTrain]):
             "free": bool(choice.free[choice.first]),
             "one_smaller": choice.first == 1,
             "rows": bool(given.before or given.behind),
-            "self_locking": given.efficiency is not None and written[ids.train_efficiency("train")].at(1) <= 0,
+            "self_locking": given.efficiency is not None and written[train_ids.efficiency("train")].at(1) <= 0,
             "tolerance": Value(self.tolerance),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
             "shown": shown,
@@ -205,7 +205,7 @@ class TrainPage(DesignPage[SolvedTrain]):
         """Angular velocities by Willis and as they are read off, with the difference."""
         rows = []
         for wheel in ("1", "2", "H"):
-            by, read = (self.case.printed.number(id(wheel)) for id in (ids.train_omega, ids.train_read))
+            by, read = (self.case.printed.number(id(wheel)) for id in (train_ids.omega, train_ids.read))
             off = Number((read.shown / by.shown - 1) * 100, 2)
             rows.append((Symbol("ω", wheel), Number(by.value, by.decimals), Number(read.value, read.decimals), off))
         return self._table("rates", self.words["rates"], rows, (40, 40, 40, 40))
@@ -257,7 +257,7 @@ class TrainCase(SolvedTrain):
     @cached_property
     def entries(self) -> ResultEntries:
         """All tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their rates."""
-        found, rates = self.choice, [id for id in self.ledger.families if id in ids.train_omega]
+        found, rates = self.choice, [id for id in self.ledger.families if id in train_ids.omega]
         wheels = {id.rpartition(".")[2]: {"omega": self.ledger[id].at(1)} for id in rates}
         shown = range(min(len(found.sets), SHOWN_SETS))
         return ResultEntries(

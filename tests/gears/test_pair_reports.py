@@ -15,8 +15,9 @@ from reportgen.api import load
 from reportgen.base.words import sample
 from reportgen.cases import open_case, opened
 from reportgen.drawing import Label, Line, Polyline
-from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, ids, walk
+from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, walk
 from reportgen.formula.evaluation import evaluate
+from reportgen.gears import gears_ids
 from reportgen.gears.pair_case import PairCase
 from reportgen.gears.pair_drawings import mesh
 from reportgen.marking.key import key_of
@@ -75,7 +76,7 @@ def test_every_value_recomputes_and_is_the_pair_s(name: str) -> None:
     pair, ledger = case.gears, case.ledger
     both = ("d", "d_b", "d_w", "d_a", "d_f", "s", "s_a", "alpha_a", "rho_a", "rho_p", "rho_f", "x_min", "x")
     for one in both:
-        values = [float(ledger[ids.gear(one, wheel)].values[0]) for wheel in (1, 2)]
+        values = [float(ledger[gears_ids.of_wheel(one, wheel)].values[0]) for wheel in (1, 2)]
         assert values == pytest.approx(list(getattr(pair, one)), rel=1e-11, abs=1e-15), one
     for id, value in (("alpha_w", pair.alpha_w), ("a_w", pair.a_w), ("epsilon", pair.epsilon), ("g", pair.path)):
         assert float(ledger[f"gears.{id}"].values[0]) == pytest.approx(float(value), rel=1e-11), id
@@ -190,7 +191,7 @@ def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
 def test_involutes_are_worked_out_in_radians(language: str) -> None:
     """tan 20° − 0.34906585, which is true on a calculator; tan 20° − 20° is not."""
     printed = pair_case("pair-equal-sliding", language).printed
-    for id in ("gears.inv", *(ids.gear("inv_a", wheel) for wheel in (1, 2))):
+    for id in ("gears.inv", *(gears_ids.of_wheel("inv_a", wheel) for wheel in (1, 2))):
         *_, numbers, result = printed.chain(id).parts
         assert isinstance(numbers, Sum)
         assert isinstance(result, Number)

@@ -14,7 +14,8 @@ from reportgen.cam.solved import SolvedCam
 from reportgen.cases import open_case
 from reportgen.drawing import Label, Polyline, Scene
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula import Chain, Number, Symbol
+from reportgen.gears import train_ids
 from reportgen.gears.train_solution import pole_distance
 from reportgen.marking.key import key_of
 from reportgen.report.case import Case
@@ -173,4 +174,4 @@ def test_no_mark_of_a_part_hangs_on_the_scale_of_a_drawing() -> None:
     for name in ("cam/roller-01", "gears/train-double", "gears/pair-equal-sliding"):
         assert all(np.nanmax(row.drawn, initial=0.0) == 0 for row in key_of(opened(name)).rows)
     # What is measured on the machine's sheets has the scales of the report, from which its bands come.
-    assert ids.train_scale("l") not in {row.id for row in key_of(opened("gears/train-double")).rows}
+    assert train_ids.scale("l") not in {row.id for row in key_of(opened("gears/train-double")).rows}
