@@ -363,8 +363,8 @@ def _shown(text: str) -> str:
 
 
 # --- words by sections ----------------------------------------------------------------------------
-# Each stands behind a line `%% name`, in reading order.  A machine's words and a school's are one file a language, those
-# of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
+# Each stands behind a line `%% name`, in reading order.  The words of a machine or of a school are a file a language,
+# those of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
 
 HEADING = "%%"
 MACHINES = "catalogue"
