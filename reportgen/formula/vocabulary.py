@@ -58,7 +58,7 @@ KINDS: dict[str, QuantityKind] = {
     "length on paper": QuantityKind("mm/mm", digits=6),
     "reduced velocity on paper": QuantityKind("mm/(rad·mm)", digits=6),
     "reduced acceleration on paper": QuantityKind("mm/(rad²·mm)", digits=6),
-    "rate on paper": QuantityKind("1/mm", 1e3, digits=6),
+    "rate on paper": QuantityKind("mm⁻¹", 1e3, digits=6),
     "phase share": QuantityKind("", decimals=5),
     "follower velocity": QuantityKind("mm/s", 1e-3),
     "follower acceleration": QuantityKind("mm/s²", 1e-3),
