@@ -24,7 +24,7 @@ from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, school_folder, templates_hash, word
 from reportgen.cases import open_case, opened
-from reportgen.report.case import Calculation, bounded
+from reportgen.report.case import MachineAnalysis, bounded
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
@@ -49,7 +49,7 @@ load, check, examine = catalogue.load, catalogue.check, catalogue.examine
 
 def analyse(assignment: Assignment) -> Analysis:
     """Everything computed of an assignment, as arrays over its positions."""
-    return Calculation(assignment).analysis
+    return MachineAnalysis(assignment).analysis
 
 
 def solve(assignment: Assignment, positions: int | None = None, printed: bool = False) -> dict[str, Any]:

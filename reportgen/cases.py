@@ -22,12 +22,12 @@ from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.loads import STEPS
 from reportgen.report import Document
-from reportgen.report.case import Calculation, Case, Pitfalls
+from reportgen.report.case import Case, MachineAnalysis, Misconceptions
 from reportgen.report.key import Key
 from reportgen.report.shafts import Shaft
 
 if TYPE_CHECKING:
-    from reportgen.drawing.film import Film
+    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
 
@@ -71,7 +71,7 @@ def opener() -> Callable[[Path | str, Language | None], Case]:
 
 
 @dataclass(frozen=True)
-class MachineCase(Calculation):
+class MachineCase(MachineAnalysis):
     """A machine, as a `Case`."""
 
     @cached_property
@@ -114,9 +114,9 @@ class MachineCase(Calculation):
         return np.real(self.analysis.torque) if self.analysis.loads else None
 
     @property
-    def pitfalls(self) -> Pitfalls:
+    def misconceptions(self) -> Misconceptions:
         analysis = self.analysis
-        return Pitfalls(
+        return Misconceptions(
             frozenset(load.name for load in analysis.applied),
             tuple(load.name for load in analysis.loads),
             _wrong_readings(analysis),
@@ -151,10 +151,10 @@ class MachineCase(Calculation):
 
         return machine_results(self)
 
-    def films(self) -> tuple[Film, ...]:
-        from reportgen.page.sampling import film
+    def animations(self) -> tuple[Animation, ...]:
+        from reportgen.page.sampling import animation
 
-        return (film(self),)
+        return (animation(self),)
 
     @property
     def shafts(self) -> Sequence[Shaft]:

@@ -32,7 +32,7 @@ from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
 from reportgen.marking.marks import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
-from reportgen.report.case import Calculation
+from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key
 from reportgen.report.outline import names
 from reportgen.report.prose import Prose
@@ -273,9 +273,9 @@ def _words(number: int, chance: random.Random, folder: Path) -> None:
 
 
 @cache
-def _case() -> Calculation:
+def _case() -> MachineAnalysis:
     case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
-    assert isinstance(case, Calculation)
+    assert isinstance(case, MachineAnalysis)
     return case
 
 

@@ -136,7 +136,7 @@ def shared() -> Iterator[None]:
 
 def _remembering(case: Case) -> Case:
     """A case whose report is composed once, and what moves of it."""
-    for name in ("document", "films"):
+    for name in ("document", "animations"):
         object.__setattr__(case, name, cache(getattr(case, name)))
     return case
 
@@ -208,8 +208,8 @@ def figure(at: Desk) -> None:
     from reportgen.export.figures import MOVING, STILL
 
     lines = at.run("figure", at.file, "--list").splitlines()
-    films = open_case(at.file, at.language or None).films()
-    assert sum("/".join(MOVING) in line for line in lines) == sum(len(film.stages) for film in films)
+    moving = open_case(at.file, at.language or None).animations()
+    assert sum("/".join(MOVING) in line for line in lines) == sum(len(one.panes) for one in moving)
     name = lines[0].split()[0]
     formats = at.formats(STILL, "svg")
     paths = at.made("figure", *([name] if at.brief else []), "--format", formats)
@@ -254,7 +254,7 @@ def watch(at: Desk) -> None:
     assert watched.revision.fault == ""
     assert watched.revision.language == at.spoken
     assert watched.page().startswith("<!DOCTYPE html>")
-    assert len(watched.revision.panels) >= len(open_case(at.file).films())
+    assert len(watched.revision.panels) >= len(open_case(at.file).animations())
 
 
 COMMANDS: tuple[Callable[[Desk], None], ...] = (

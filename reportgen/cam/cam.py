@@ -190,7 +190,7 @@ def physics(assignment: Assignment) -> Iterator[Finding]:
     cam, motion = found.cam, found.cam.motion
     for impact in motion.impacts:
         if impact.kind == "rigid":
-            phase = motion.stretches[int(motion.of(np.array([impact.angle]))[0])].phase
+            phase = motion.intervals[int(motion.of(np.array([impact.angle]))[0])].phase
             key = phase if phase in ("rise", "return") else "rise" if phase == "far" else "return"
             yield Finding("cam-impact", (*TOP, "laws", key), {"angle": f"{math.degrees(impact.angle):g}"})
     for phase, angle, at in exceeded(found):

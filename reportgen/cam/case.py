@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.cam import film, views
+from reportgen.cam import animation, views
 from reportgen.cam import sheets as sheet_of_cam
 from reportgen.cam.file import exceeded
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing.film import Film
+from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Document
-from reportgen.report.case import Pitfalls
+from reportgen.report.case import Misconceptions
 from reportgen.report.key import Key, Span
 from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
@@ -43,8 +43,8 @@ class CamCase(SolvedCam):
         """It has no forces."""
 
     @property
-    def pitfalls(self) -> Pitfalls:
-        return self.solution.pitfalls
+    def misconceptions(self) -> Misconceptions:
+        return self.solution.misconceptions
 
     def fault(self) -> str:
         found = self.solution.designed
@@ -82,33 +82,35 @@ class CamCase(SolvedCam):
         """The choice of the cam, then its motion and its profile position by position."""
         from reportgen.marking.results import pair, results
 
-        cam, traced, found = self.solution.cam, self.solution.traced, self.solution.designed
+        cam, profile, found = self.solution.cam, self.solution.profile, self.solution.designed
         names = ("s", "ds", "dds", "v", "a") if cam.translating else ("psi", "dpsi", "ddpsi", "omega", "epsilon")
         omega = self.speed
         positions = []
-        for k, phase in enumerate(one.phase for one in self.solution.stretches):
-            motion = dict(zip(names[:3], (float(part[k]) for part in (traced.s, traced.ds, traced.dds)), strict=True))
+        for k, phase in enumerate(one.phase for one in self.solution.intervals):
+            motion = dict(
+                zip(names[:3], (float(part[k]) for part in (profile.s, profile.ds, profile.dds)), strict=True)
+            )
             if omega is not None:
                 motion |= {names[3]: omega * motion[names[1]], names[4]: omega**2 * motion[names[2]]}
-            rho = float(traced.rho[k])
+            rho = float(profile.rho[k])
             positions.append(
                 {
                     "number": k + 1,
-                    "crank_angle": float(traced.φ[k]),
+                    "crank_angle": float(profile.φ[k]),
                     "phase": phase,
                     "follower" if cam.translating else "swing": motion,
-                    "pressure_angle": float(traced.alpha[k]),
+                    "pressure_angle": float(profile.alpha[k]),
                     "curvature_radius": rho if np.isfinite(rho) else None,
-                    "pitch": pair(complex(traced.pitch[k])),
-                    "profile": pair(complex(traced.working[k])),
+                    "pitch": pair(complex(profile.pitch[k])),
+                    "profile": pair(complex(profile.working[k])),
                 }
             )
         sizes = {key: getattr(cam, key) for key in ("r0", "e", "a", "arm", "roller")}
         least = None if found.least is None else {"r0": found.least.r0, "e": found.least.e, "a": found.least.a}
         return results(self, positions, cam=sizes, least=least, undercut=list(cam.undercut))
 
-    def films(self) -> tuple[Film, ...]:
-        return (film.film(self),)
+    def animations(self) -> tuple[Animation, ...]:
+        return (animation.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """There are no sets of them to choose from."""

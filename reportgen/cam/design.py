@@ -85,7 +85,7 @@ class NoCamError(ValueError):
 def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
     """Where in a phase a function of s and s′ is greatest."""
     best: Touch | None = None
-    for number, one in enumerate(motion.stretches):
+    for number, one in enumerate(motion.intervals):
         if one.phase == phase:
 
             def value(φ: Floats, number: int = number) -> Floats:
@@ -219,7 +219,7 @@ def least_flat(cam: Cam, rho: float) -> float:
 
     def flattest(r0: float) -> float:
         tried = replace(cam, r0=r0)
-        every = range(len(cam.motion.stretches))
+        every = range(len(cam.motion.intervals))
         return min(-tried.worst(number, lambda one: -one.rho)[1] for number in every)
 
     if cam.translating:
@@ -270,7 +270,7 @@ def round_ups(length: float) -> Iterator[float]:
     yield length
 
 
-def grown(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -> Cam:
+def enlarged_until(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -> Cam:
     """The cam with so large a base circle, by round steps, that it is enough; raises the error where none is."""
     for _ in range(TALLEST):
         if enough(cam):
@@ -281,13 +281,13 @@ def grown(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -> Cam:
     raise error
 
 
-def sharpest(cam: Cam) -> float:
+def least_convex_radius(cam: Cam) -> float:
     """The least radius of curvature where the working profile is convex; infinite where it nowhere is."""
-    every = range(len(cam.motion.stretches))
+    every = range(len(cam.motion.intervals))
     return min(-cam.worst(number, lambda one: -one.effective)[1] for number in every)
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
     """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the convex curvature, rounded down; none if ≤ 0."""
-    least = sharpest(replace(cam, roller=0.0))
+    least = least_convex_radius(replace(cam, roller=0.0))
     return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

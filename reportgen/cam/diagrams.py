@@ -82,9 +82,9 @@ def usual_scales(case: SolvedCam) -> LawScales:
 def standard_scales(case: SolvedCam, steps: int) -> LawScales:
     """Those of a drawing sheet: standard ones, for its length about as high as in a report; the poles follow."""
     turn = 360 / DEGREES_PER_MM[steps]
-    traced, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
+    profile, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
     height = HEIGHT * MM * turn / TURN
-    first, second, third = (float(np.ptp(part)) / height for part in (traced.s, traced.ds, traced.dds))
+    first, second, third = (float(np.ptp(part)) / height for part in (profile.s, profile.ds, profile.dds))
     lowest = nice_up(third or second / μ_φ / height)
     middle = nice_up(max(second, lowest * μ_φ * LEAST_POLE))
     highest = nice_up(max(first, middle * μ_φ * LEAST_POLE))
@@ -93,14 +93,14 @@ def standard_scales(case: SolvedCam, steps: int) -> LawScales:
 
 def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
     """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
-    traced = case.solution.cam.sampled(1440)
+    profile = case.solution.cam.sampled(1440)
     names = case.solution.moved
     scales = standard_scales(case, size.steps) if size.beside else usual_scales(case)
     notes = list(_notes(case, scales, size))
     scales = scales.shrunk(size.enlarged)
     graphs: list[Graph] = []
     zero = 0.0
-    for id, values, per_mm in zip(names, (traced.s, traced.ds, traced.dds), scales.per_mm, strict=True):
+    for id, values, per_mm in zip(names, (profile.s, profile.ds, profile.dds), scales.per_mm, strict=True):
         up = values / per_mm
         if graphs:
             # Below the lowest of the one before.
@@ -109,7 +109,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
     poles, width = scales.poles, scales.turn
     items: list[Item] = []
     requests: list[Request] = []
-    across = scales.across(traced.φ)
+    across = scales.across(profile.φ)
     taken = -math.inf
     for φ, k in zip(case.solution.φ, range(1, case.count + 1), strict=True):
         x = φ / (2 * math.pi) * width
@@ -228,7 +228,7 @@ def angle_axis(case: SolvedCam) -> Chain:
 
 def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None) -> Plotted:
     """The pressure angle over a turn, with its limits."""
-    traced, limits = case.solution.cam.sampled(), case.solution.designed.limits
+    profile, limits = case.solution.cam.sampled(), case.solution.designed.limits
     levels = [
         (
             sign * math.degrees(limit),
@@ -237,23 +237,23 @@ def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None
         for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1))
         if limit is not None
     ]
-    shown = PlottedCurve(Symbol("α"), np.degrees(traced.φ), np.degrees(traced.alpha))
+    shown = PlottedCurve(Symbol("α"), np.degrees(profile.φ), np.degrees(profile.alpha))
     return plotted((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=levels, half=half, area=area)
 
 
 def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
     """The radius of curvature of the pitch curve, and of the working profile under a roller, over a turn."""
     cam = case.solution.cam
-    traced = cam.sampled()
-    most = FARTHEST * max(cam.r0, float(np.abs(traced.pitch).max()) / 2)
+    profile = cam.sampled()
+    most = FARTHEST * max(cam.r0, float(np.abs(profile.pitch).max()) / 2)
 
     def drawn(values: Floats) -> Floats:
         return np.where(np.abs(values) <= most, values * MM, np.nan)
 
-    series = [PlottedCurve(Symbol("ρ"), np.degrees(traced.φ), drawn(traced.rho))]
+    series = [PlottedCurve(Symbol("ρ"), np.degrees(profile.φ), drawn(profile.rho))]
     if cam.roller:
-        inner = np.where(np.isfinite(drawn(traced.rho)), traced.rho - cam.roller, np.nan)
-        series.append(PlottedCurve(case.ledger.symbol("cam.rho.working"), np.degrees(traced.φ), inner * MM))
+        inner = np.where(np.isfinite(drawn(profile.rho)), profile.rho - cam.roller, np.nan)
+        series.append(PlottedCurve(case.ledger.symbol("cam.rho.working"), np.degrees(profile.φ), inner * MM))
     limit = case.ledger["cam.limit.rho"].values[0] * MM
     levels = [(float(limit), case.ledger.symbol("cam.limit.rho"))]
     return plotted(series, angle_axis(case), axis(Symbol("ρ"), "mm"), levels=levels, half=half)
@@ -261,7 +261,7 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
 
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
     """s, s′ and s″ (or those of the swing) with their printed units, over `Cam.sampled`."""
-    traced = case.solution.cam.sampled()
-    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
+    profile = case.solution.cam.sampled()
+    for id, values in zip(case.solution.moved, (profile.s, profile.ds, profile.dds), strict=True):
         how = KINDS[case.ledger[id].kind]
         yield case.ledger.symbol(id), how.unit, values / how.scale

@@ -258,10 +258,14 @@ def _with_roller(given: Parameters, cam: Cam, rho: float) -> Cam:
         return cam
     if not given.seeks("roller"):
         convex = NoCamError("cam-not-convex", "r0")
-        return design.grown(cam, lambda one: design.sharpest(one) >= rho - 1e-12, convex) if given.seeks("r0") else cam
+        return (
+            design.enlarged_until(cam, lambda one: design.least_convex_radius(one) >= rho - 1e-12, convex)
+            if given.seeks("r0")
+            else cam
+        )
     none = NoCamError("cam-no-roller", "roller")
     if given.seeks("r0"):
-        cam = design.grown(cam, lambda one: design.largest_roller(one, rho) > 0, none)
+        cam = design.enlarged_until(cam, lambda one: design.largest_roller(one, rho) > 0, none)
     if (roller := design.largest_roller(cam, rho)) <= 0:
         raise none
     return replace(cam, roller=roller)
@@ -340,7 +344,7 @@ def steep(found: Designed) -> Iterator[tuple[float, float, float]]:
 
 def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Where in a phase ±α is greatest, and how great it is."""
-    numbers = [number for number, one in enumerate(cam.motion.stretches) if one.phase == phase]
+    numbers = [number for number, one in enumerate(cam.motion.intervals) if one.phase == phase]
     return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 
 
@@ -359,7 +363,7 @@ class Judged:
 
 
 def judged(cam: Cam) -> Judged:
-    every = range(len(cam.motion.stretches))
+    every = range(len(cam.motion.intervals))
 
     def least(of: str) -> tuple[float, float]:
         found = []
@@ -371,16 +375,16 @@ def judged(cam: Cam) -> Judged:
             found.append((φ, -value))
         return min(found, key=lambda one: one[1])
 
-    traced = cam.sampled()
-    aside = (float(traced.ds.max()), float(-traced.ds.min()))
+    profile = cam.sampled()
+    aside = (float(profile.ds.max()), float(-profile.ds.min()))
     if not cam.translating:
-        contact = np.abs(traced.at - complex(cam.opposite * cam.turn * cam.a, 0))
+        contact = np.abs(profile.at - complex(cam.opposite * cam.turn * cam.a, 0))
         aside = (float(contact.min()), float(contact.max()))
     return Judged(
         extreme(cam, "rise", 1),
         extreme(cam, "return", -1),
         least("rho"),
         least("working"),
-        float(np.abs(traced.pitch).max()),
+        float(np.abs(profile.pitch).max()),
         aside,
     )

@@ -214,7 +214,7 @@ PHASES = ("rise", "far", "return", "near")
 
 
 @dataclass(frozen=True)
-class Stretch:
+class LawInterval:
     """A piece of a turn (rad): of a phase, moving by a `piece` of its law, or none in a dwell."""
 
     phase: str
@@ -283,35 +283,35 @@ class FollowerMotion:
         return dict(zip(PHASES, np.concatenate(([0.0], np.cumsum(self.phases[:3]))).tolist(), strict=True))
 
     @cached_property
-    def stretches(self) -> tuple[Stretch, ...]:
+    def intervals(self) -> tuple[LawInterval, ...]:
         return tuple(self._stretches())
 
-    def _stretches(self) -> Iterator[Stretch]:
+    def _stretches(self) -> Iterator[LawInterval]:
         for phase, angle in zip(PHASES, self.phases, strict=True):
             begin = self.starts[phase]
             law = {"rise": self.rise, "return": self.back}.get(phase)
             pieces: Sequence[Piece | None] = law.pieces if law else (None,)
             for piece in pieces if angle > NODE else ():
                 start, stop = (piece.start, piece.stop) if piece else (0.0, 1.0)
-                yield Stretch(phase, begin + start * angle, begin + stop * angle, begin, angle, piece)
+                yield LawInterval(phase, begin + start * angle, begin + stop * angle, begin, angle, piece)
 
     def of(self, φ: Floats) -> NDArray[np.intp]:
-        """The number of the stretch that each angle [N] lies in; the ends of a moving phase belong to it."""
+        """The number of the interval that each angle [N] lies in; the ends of a moving phase belong to it."""
         φ = np.mod(φ, 2 * math.pi)
-        starts = np.array([one.start for one in self.stretches])
+        starts = np.array([one.start for one in self.intervals])
         found = np.searchsorted(starts - NODE, φ, side="right") - 1
-        still = np.array([one.piece is None for one in self.stretches])
+        still = np.array([one.piece is None for one in self.intervals])
         at_start = np.abs(φ - starts[found]) <= NODE
         before = found - 1
         corner = at_start & (found > 0) & still[found] & ~still[before]
         return np.where(corner, before, found)
 
     def __call__(self, φ: Floats, of: NDArray[np.intp] | None = None) -> tuple[Floats, Floats, Floats]:
-        """s, s′ and s″ over angles [N] of the cam; `of` says in which stretch each is taken to be."""
+        """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be."""
         numbers = self.of(φ) if of is None else of
         turned = φ if of is not None else np.mod(φ, 2 * math.pi)
         found = np.zeros((3, φ.size))
-        for number, one in enumerate(self.stretches):
+        for number, one in enumerate(self.intervals):
             here = numbers == number
             if here.any():
                 values = {"x": one.x(turned[here]), "Φ": one.angle, "h": self.stroke}
@@ -323,9 +323,9 @@ class FollowerMotion:
     def impacts(self) -> tuple[Impact, ...]:
         """Where the velocity or the acceleration jumps."""
         found = []
-        numbers = np.arange(len(self.stretches))
-        stops = np.array([one.stop for one in self.stretches])
-        starts = np.array([one.start for one in self.stretches])
+        numbers = np.arange(len(self.intervals))
+        stops = np.array([one.stop for one in self.intervals])
+        starts = np.array([one.start for one in self.intervals])
         _, V_end, A_end = self(stops, numbers)
         _, V_begin, A_begin = self(starts, numbers)
         for number in numbers:

@@ -1,6 +1,6 @@
 """A cam as a ledger: every number by its id, worked out from those above it, as the report prints it.
 
-Positions are rows.  What follows other formulas in each phase is a `branch` of the number of its stretch, so that the
+Positions are rows.  What follows other formulas in each phase is a `branch` of the number of its interval, so that the
 line of a position prints the formula of its own phase.
 """
 
@@ -17,8 +17,8 @@ from reportgen.base.units import MM, nice_up
 from reportgen.cam.design import Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
-from reportgen.cam.laws import Floats, FollowerMotion, Stretch
-from reportgen.cam.profile import Cam, Traced
+from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
+from reportgen.cam.profile import Cam, CamProfile
 from reportgen.formula import (
     PI,
     Expression,
@@ -36,7 +36,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report.case import Pitfalls, with_another
+from reportgen.report.case import Misconceptions, with_another
 
 LINES: Mapping[str, tuple[str, ...]] = {
     "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
@@ -93,14 +93,14 @@ class CamSolution:
         return np.radians(self.degrees)
 
     @cached_property
-    def traced(self) -> Traced:
+    def profile(self) -> CamProfile:
         """The cam at its positions."""
-        return self.cam.traced(self.φ)
+        return self.cam.profile_at(self.φ)
 
     @cached_property
-    def stretches(self) -> tuple[Stretch, ...]:
-        """The stretch of each position."""
-        return tuple(self.motion.stretches[number] for number in self.motion.of(self.φ))
+    def intervals(self) -> tuple[LawInterval, ...]:
+        """The interval of each position."""
+        return tuple(self.motion.intervals[number] for number in self.motion.of(self.φ))
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -117,8 +117,8 @@ class CamSolution:
         return q.q
 
     @cached_property
-    def pitfalls(self) -> Pitfalls:
-        return Pitfalls(readings=self._exchanged, changed=self._changed)
+    def misconceptions(self) -> Misconceptions:
+        return Misconceptions(readings=self._exchanged, changed=self._changed)
 
     @property
     def _exchanged(self) -> Mapping[str, list[tuple[str, np.ndarray]]]:
@@ -198,17 +198,17 @@ class CamSheet:
             if law.table is not None:
                 self._enter_nodes(MOVING[phase], law.table.nodes[0], law.table.x)
         φ = q.give("cam.phi", self.of.φ)
-        stretches = motion.stretches
+        intervals = motion.intervals
         number = q.give("cam.stretch", motion.of(self.of.φ), "stretch", "count", hidden=True)
         places = {
             "rise": φ / q[ids.cam_phase("rise")],
             "return": (φ - q["cam.start.return"]) / q[ids.cam_phase("return")],
         }
-        x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in stretches)), scale=1.0)
+        x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in intervals)), scale=1.0)
         if any(law.table is not None for law in laws.values()):
-            begun = [self._beyond(one, x) for one in stretches]
+            begun = [self._beyond(one, x) for one in intervals]
             q.define("cam.z", branch(number, *begun), scale=1.0)
-        written = [self._formulas(one, x) for one in stretches]
+        written = [self._formulas(one, x) for one in intervals]
         for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
             q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
         _, ds, dds = (q[id] for id in self.of.moved)
@@ -225,8 +225,8 @@ class CamSheet:
         names = ("psi", "dpsi", "ddpsi") if turned else ("s", "ds", "dds")
         symbols = ("ψ", "ψ′", "ψ″") if turned else ("s", "s′", "s″")
         kinds = ("angle on paper", "rate on paper", "rate on paper") if turned else KINDS_ON_PAPER
-        traced = self.cam.sampled()
-        first, second, third = (float(np.ptp(part)) for part in (traced.s, traced.ds, traced.dds))
+        profile = self.cam.sampled()
+        first, second, third = (float(np.ptp(part)) for part in (profile.s, profile.ds, profile.dds))
         L = q.give(ids.cam_diagram("L"), TURN_ON_PAPER, optional=True)
         μ_φ = q.define(ids.cam_scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
         chosen = nice_up(third / HEIGHT) if third else nice_up(second / HEIGHT / q.si(μ_φ) / HEIGHT)
@@ -239,7 +239,7 @@ class CamSheet:
             K = q.give(ids.cam_diagram(number), pole, Symbol("K", str(number)), optional=True)
             above = q.define(ids.cam_scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
 
-    def _formulas(self, one: Stretch, x: Ref) -> tuple[Operand, ...]:
+    def _formulas(self, one: LawInterval, x: Ref) -> tuple[Operand, ...]:
         if one.piece is None:
             return one.formulas(x, 1.0, self.stroke, self.stroke)
         arc = self.q[ids.cam_arc(one.phase)]
@@ -253,12 +253,12 @@ class CamSheet:
                 for cubic in table.pieces(lambda what, i: self._node(MOVING[one.phase], i, what), lambda *_: z)
             }
             piece = named[piece.node]
-        return Stretch(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
+        return LawInterval(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
             x, arc, self.stroke, self.arc
         )
 
-    def _beyond(self, one: Stretch, x: Ref) -> Expression:
-        """How far x lies beyond the node that a stretch begins at."""
+    def _beyond(self, one: LawInterval, x: Ref) -> Expression:
+        """How far x lies beyond the node that an interval begins at."""
         if one.piece is None or one.piece.node < 0:
             return STILL
         return x - self._node(MOVING[one.phase], one.piece.node, "x")

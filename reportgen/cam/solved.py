@@ -11,11 +11,11 @@ from reportgen.cam.file import Parameters
 from reportgen.cam.solution import CamSolution
 from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
-from reportgen.report.case import Opened
+from reportgen.report.case import LoadedAssignment
 
 
 @dataclass(frozen=True)
-class SolvedCam(Opened):
+class SolvedCam(LoadedAssignment):
     """An assignment of a cam with its ledger; each part is computed when it is first asked for."""
 
     @cached_property

@@ -130,7 +130,7 @@ class CamPage(DesignPage[SolvedCam]):
             "impacts": self.impacts,
             "worked": case.worked,
             "count": case.count,
-            "phase_of": lambda k: self.words["phases"][case.solution.stretches[k - 1].phase],
+            "phase_of": lambda k: self.words["phases"][case.solution.intervals[k - 1].phase],
             "data": self.data,
             "motion_table": self.motion_table,
             "profile_table": self.profile_table,
@@ -236,17 +236,17 @@ class CamPage(DesignPage[SolvedCam]):
         """s, s′ and s″ by x, piece by piece; of a graph one piece by the numbers of its nodes."""
         ledger, names = self.case.printed, self.case.solution.moved
         rows: list[Expression] = []
-        stretches = [one for one in self.case.solution.motion.stretches if one.phase == phase]
-        numbers = [n for n, one in enumerate(self.case.solution.motion.stretches) if one.phase == phase]
-        for n, one in zip(numbers, stretches, strict=True):
-            note = self._between(one.piece) if len(stretches) > 1 and law.table is None else ""
+        intervals = [one for one in self.case.solution.motion.intervals if one.phase == phase]
+        numbers = [n for n, one in enumerate(self.case.solution.motion.intervals) if one.phase == phase]
+        for n, one in zip(numbers, intervals, strict=True):
+            note = self._between(one.piece) if len(intervals) > 1 and law.table is None else ""
             for id in names:
                 definition = self.case.ledger[id].definition
                 assert isinstance(definition, Call)
                 branch = definition.arguments[1 + n]
                 shown = substitute(branch, lambda ref: ledger.symbol(ref.id))
                 rows.append(Chain((ledger.symbol(id), shown), note if id == names[0] else ""))
-            if law.table is not None and len(stretches) > 2:
+            if law.table is not None and len(intervals) > 2:
                 break
         return Equation(tuple(rows))
 

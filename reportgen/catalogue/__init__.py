@@ -27,7 +27,7 @@ from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem, kinds, language_of, samples, word
-from reportgen.catalogue import reach
+from reportgen.catalogue import assembly
 from reportgen.machine.analysis import Machine
 
 
@@ -68,10 +68,14 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
-    way = reach.Way(machine.start, machine.start + machine.turn * machine.span, False) if machine.span else reach.Way()
-    yield from reach.near_dead_point(machine.linkage, way, ("parameters",))
+    way = (
+        assembly.Way(machine.start, machine.start + machine.turn * machine.span, False)
+        if machine.span
+        else assembly.Way()
+    )
+    yield from assembly.near_dead_point(machine.linkage, way, ("parameters",))
     if machine.drawn:
-        yield from reach.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
+        yield from assembly.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
 
 def load(path: Path | str, language: Language | None = None) -> Assignment:

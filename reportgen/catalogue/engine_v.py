@@ -16,9 +16,9 @@ from reportgen.assignment.common import Assignment, Draft, Positions, of_paramet
 from reportgen.assignment.fields import Angle, Length, Offset, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import given_loads, reach
+from reportgen.catalogue import assembly, given_loads
+from reportgen.catalogue.assembly import Member
 from reportgen.catalogue.driven import Driven, GivenSheet, driven
-from reportgen.catalogue.reach import Member
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.formula import PI, Symbol, cis, ids
 from reportgen.formula.sheet import Sheet
@@ -96,7 +96,7 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
         return
     members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
-    yield from reach.findings(_linkage(given, _sheet(given)), members)
+    yield from assembly.findings(_linkage(given, _sheet(given)), members)
 
 
 CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)

@@ -19,7 +19,7 @@ from reportgen.assignment.common import Assignment, Part, of_parameters
 from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import reach
+from reportgen.catalogue import assembly
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
 from reportgen.catalogue.sliders import compared, components
@@ -322,10 +322,10 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and link 3 does what the file says of it."""
     linkage = _linkage(given, _sheet(given))
-    found = list(reach.findings(linkage, {(2, 3): reach.Member("BC, CD", ("parameters", "BC"))}))
+    found = list(assembly.findings(linkage, {(2, 3): assembly.Member("BC, CD", ("parameters", "BC"))}))
     yield from found
     if not found and given.link3 is not None:
-        fully = reach.turns_fully(linkage, 3)
+        fully = assembly.turns_fully(linkage, 3)
         if fully != (given.link3 == "crank"):
             code = "not-a-rocker" if fully else "not-a-crank"
             yield Finding(code, ("parameters", "link3"), {"link": "3", "rods": "CD"})

@@ -14,7 +14,7 @@ from reportgen.assignment.common import Assignment, Part, Positions, of_paramete
 from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import reach
+from reportgen.catalogue import assembly
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
 from reportgen.catalogue.loops import ClosedLoops
@@ -172,10 +172,13 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
         return
     linkage = _linkage(given, q)
-    members = {(2, 3): reach.Member("AC, CD", ("parameters", "CD")), (4, 5): reach.Member("EF", ("parameters", "EF"))}
-    found = list(reach.findings(linkage, members))
+    members = {
+        (2, 3): assembly.Member("AC, CD", ("parameters", "CD")),
+        (4, 5): assembly.Member("EF", ("parameters", "EF")),
+    }
+    found = list(assembly.findings(linkage, members))
     yield from found
-    if not found and reach.turns_fully(linkage, 3):
+    if not found and assembly.turns_fully(linkage, 3):
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 

@@ -13,9 +13,9 @@ import numpy as np
 from reportgen.assignment.common import Draft, Positions
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
+from reportgen.catalogue import assembly
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue import reach
-from reportgen.catalogue.reach import Member
+from reportgen.catalogue.assembly import Member
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.machine.loads import STEPS, crank_motion
 from reportgen.machine.motion import Motion, solve_motion
@@ -280,7 +280,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     if isinstance(given.driver, file.SlideDriver):
         yield from _along_the_way(given, given.driver, made, members)
         return
-    found = list(reach.findings(made, members))
+    found = list(assembly.findings(made, members))
     yield from found
     if found:
         return
@@ -288,7 +288,7 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
     for index, load in enumerate(given.loads):
         if isinstance(load, file.OverStroke | file.Gas):
-            yield from reach.to_and_fro(made, load.link, motion_at, (*TOP, "loads", index, "link"))
+            yield from assembly.to_and_fro(made, load.link, motion_at, (*TOP, "loads", index, "link"))
 
 
 def _along_the_way(
@@ -300,7 +300,7 @@ def _along_the_way(
         if slot is not None and not slot[0].si - AT_SLOT_END <= at.si <= slot[1].si + AT_SLOT_END:
             words = {"text": at.text, "slot": f"{slot[0].text} … {slot[1].text}"}
             yield Finding("driver-out-of-slot", (*TOP, "driver", key), words)
-    found = list(reach.findings(made, members, reach.Way(start.si, end.si, turning=False)))
+    found = list(assembly.findings(made, members, assembly.Way(start.si, end.si, turning=False)))
     yield from found
     if not found:
         yield from _slots(given, made, solve_motion(made, np.linspace(start.si, end.si, STEPS + 1), driver.rate))

@@ -15,7 +15,7 @@ from reportgen.assignment.common import Assignment, Positions, of_parameters
 from reportgen.assignment.fields import Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import given_loads, reach
+from reportgen.catalogue import assembly, given_loads
 from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
 from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
 from reportgen.formula.sheet import Sheet
@@ -70,14 +70,17 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, B stays below D, and the slider goes once down and up."""
     linkage = _linkage(given, _sheet(given))
-    members = {(2, 3): reach.Member("AB, BD", ("parameters", "AB")), (4, 5): reach.Member("BC", ("parameters", "BD"))}
+    members = {
+        (2, 3): assembly.Member("AB, BD", ("parameters", "AB")),
+        (4, 5): assembly.Member("BC", ("parameters", "BD")),
+    }
     motion_at = crank_motion(linkage, Positions(), 0.0)
-    if found := list(reach.findings(linkage, members)):
+    if found := list(assembly.findings(linkage, members)):
         yield from found
     elif motion_at(even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
         yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
     elif given.press is not None:
-        yield from reach.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
+        yield from assembly.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
 
 
 CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)

@@ -68,7 +68,7 @@ def _print_list(file: Path, lang: LangOption) -> None:
 
     still, moving = api.figure_list(file, lang)
     rows = [(one.name, one.number, one.caption, ", ".join(one.positions)) for one in still]
-    rows += [(one.name, "/".join(MOVING), one.stage.title, "") for one in moving]
+    rows += [(one.name, "/".join(MOVING), one.pane.title, "") for one in moving]
     widths = [max(len(row[column]) for row in rows) for column in (0, 1)] if rows else [0, 0]
     for name, number, caption, positions in rows:
         print(f"{name:{widths[0]}}  {number:{widths[1]}}  {caption}{f' ({positions})' * bool(positions)}")

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import dropwhile
 from typing import Any
 
-from reportgen.coursework.letters import changed
+from reportgen.coursework.symbol_renaming import changed
 from reportgen.marking.feedback import sentence
 from reportgen.report import (
     BlankLine,

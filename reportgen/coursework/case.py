@@ -16,9 +16,9 @@ import numpy as np
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework import senses
 from reportgen.coursework.booklet import PartReport, booklet, task_of
-from reportgen.coursework.letters import Letters, changed, letters_of, nodes, relettered
 from reportgen.coursework.senses import PartShafts
-from reportgen.drawing.film import Film
+from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, nodes, relettered
+from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.plates import changed as with_change
 from reportgen.drawing.sheet import DrawingSheet
@@ -27,10 +27,10 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.marking.key import phrase
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, Opened, Pitfalls
+from reportgen.report.case import Case, LoadedAssignment, Misconceptions
 from reportgen.report.key import Key, PartOfKey, capitalised
-from reportgen.report.occurring import explained, is_explained, occurring
 from reportgen.report.shafts import Shaft
+from reportgen.report.used_symbols import explained, is_explained, used_symbols
 
 _NUMBER = re.compile(r"\b\d\b")
 """The number of a wheel in what a quantity is called."""
@@ -51,8 +51,8 @@ class PartCase:
         return self.case.document()
 
     @cached_property
-    def films(self) -> tuple[Film, ...]:
-        return self.case.films()
+    def animations(self) -> tuple[Animation, ...]:
+        return self.case.animations()
 
     @cached_property
     def used(self) -> frozenset[Symbol]:
@@ -178,8 +178,8 @@ class Coursework:
         return self.machine.balance
 
     @property
-    def pitfalls(self) -> Pitfalls:
-        return self.machine.pitfalls
+    def misconceptions(self) -> Misconceptions:
+        return self.machine.misconceptions
 
     def fault(self) -> str:
         return next(filter(None, (case.fault() for case in self.parts.values())), "")
@@ -285,7 +285,7 @@ class Coursework:
         """A row for the symbols of one meaning that the part's report uses and does not explain where they stand."""
         ledger, letters = member.case.printed, self.letters[member.name]
         blocks = member.document.blocks
-        used, known = occurring(blocks), explained(blocks)
+        used, known = used_symbols(blocks), explained(blocks)
         alike: dict[tuple[str, str], dict[Symbol, str]] = {}
         for id, family in ledger.families.items():
             meaning = "" if family.hidden or family.is_plane else phrase(id, ledger, member.case.words)
@@ -332,14 +332,14 @@ class Coursework:
         """Those of the machine, with those of each part by its name."""
         return {**self.machine.results(), "parts": {member.name: member.case.results() for member in self.members}}
 
-    def films(self) -> tuple[Film, ...]:
+    def animations(self) -> tuple[Animation, ...]:
         """Those of the machine, then those of the parts by their names and titles."""
         parts = (
-            replace(relettered(film, self.letters[member.name]), name=member.name, title=member.title)
+            replace(relettered(animation, self.letters[member.name]), name=member.name, title=member.title)
             for member in self.members
-            for film in member.films
+            for animation in member.animations
         )
-        return (*self.first.films, *parts)
+        return (*self.first.animations, *parts)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Those of the machine's `sets`, then those of all parts together."""
@@ -380,7 +380,7 @@ class Coursework:
         language = self.assignment.language
         found = self.machine.sheets(size, sets, block, every)
         least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
-        assert isinstance(self.machine, Opened), "an assignment that was opened"
+        assert isinstance(self.machine, LoadedAssignment), "an assignment that was opened"
         found += on_sheets(self.machine, self._plates_of_parts(), size, block, least=least)
         own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
         framed = numbered(found, read_block(own, language), self.assignment.sheet.designation or "")

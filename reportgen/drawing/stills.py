@@ -14,7 +14,17 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene
-from reportgen.drawing.film import Carried, Film, MovingItem, MovingName, MovingVector, Stage, Still, Track, scale_bars
+from reportgen.drawing.animation import (
+    Animation,
+    MovingBody,
+    MovingItem,
+    MovingName,
+    MovingVector,
+    Pane,
+    Still,
+    Track,
+    scale_bars,
+)
 from reportgen.drawing.geometry import frame, moved, overlap, polar, segments, unit
 from reportgen.drawing.style import LABEL, SMALL
 
@@ -40,56 +50,56 @@ CLEAR = 0.25
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """A sample of a film's cycle, from 0."""
+    """A sample of an animation's cycle, from 0."""
 
-    film: Film
+    animation: Animation
     sample: int
 
     def of(self, track: Track) -> complex:
         """The value of a track: of one that stands still, of one that repeats from turn to turn, or of the cycle."""
-        turn = self.film.knots.size - 1
+        turn = self.animation.knots.size - 1
         if track.values.size == 1:
             return complex(track.values[0])
         repeats = track.values.size == turn + 1 and self.sample > turn
         return complex(track.values[self.sample % turn if repeats else self.sample])
 
 
-def sample_at(film: Film, degrees: float) -> int:
+def sample_at(animation: Animation, degrees: float) -> int:
     """The sample of the cycle that is nearest to a cycle angle (degrees)."""
-    turn = min(int(degrees // 360.0), film.turns - 1)
-    return turn * (film.knots.size - 1) + int(np.abs(film.knots - (degrees - 360.0 * turn)).argmin())
+    turn = min(int(degrees // 360.0), animation.turns - 1)
+    return turn * (animation.knots.size - 1) + int(np.abs(animation.knots - (degrees - 360.0 * turn)).argmin())
 
 
-def stills(film: Film, stage: Stage, samples: Sequence[int], layers: Collection[str] = ()) -> Iterator[Scene]:
-    """A stage at samples, with the layers that are shown; letters, heads and pens of arrows as large as on a page."""
-    low, bars = scale_bars(stage)
-    shown = [item for item in stage.items if not item.layer or item.layer in layers]
+def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Collection[str] = ()) -> Iterator[Scene]:
+    """A pane at samples, with the layers that are shown; letters, heads and pens of arrows as large as on a page."""
+    low, bars = scale_bars(pane)
+    shown = [item for item in pane.items if not item.layer or item.layer in layers]
     # Where each label was, by the place of its item.
     last: dict[int, int] = {}
     for sample in samples:
-        now = Moment(film, sample)
-        number = round(now.of(stage.finer).real) if stage.finer else 0
-        zoom = stage.scales[0].per / stage.scales[number].per if stage.finer else 1.0
-        labels = _Labels(stage.low, stage.high, last)
+        now = Moment(animation, sample)
+        number = round(now.of(pane.finer).real) if pane.finer else 0
+        zoom = pane.scales[0].per / pane.scales[number].per if pane.finer else 1.0
+        labels = _Labels(pane.low, pane.high, last)
         items: list[Item] = []
         for place, item in enumerate(shown):
-            items += _drawn(item, now, zoom, stage.grown)
-            if request := _request(item, now, zoom, stage.grown):
+            items += _drawn(item, now, zoom, pane.enlargement)
+            if request := _request(item, now, zoom, pane.enlargement):
                 labels.requests[place] = request
         items += labels.placed(items)
         for index, (scale, bar) in enumerate(bars):
-            if index == number if stage.finer else not scale.layers or set(scale.layers) & set(layers):
+            if index == number if pane.finer else not scale.layers or set(scale.layers) & set(layers):
                 items += bar
-        size = stage.high - low
+        size = pane.high - low
         yield Scene(size.real, size.imag, tuple(moved(item, -low) for item in items))
 
 
-def _drawn(item: MovingItem, now: Moment, zoom: float, grown: float) -> Iterator[Item]:
+def _drawn(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> Iterator[Item]:
     """What an item draws, but for its label."""
     match item:
         case Still(items):
             yield from items
-        case Carried(items, at, angle):
+        case MovingBody(items, at, angle):
             place = zoom * now.of(at)
             if cmath.isfinite(place):
                 by = now.of(angle).real if angle is not None else 0.0
@@ -98,9 +108,11 @@ def _drawn(item: MovingItem, now: Moment, zoom: float, grown: float) -> Iterator
             start, end = zoom * now.of(item.start), zoom * now.of(item.end)
             if not NOTHING < abs(end - start) < math.inf:
                 return
-            pen = replace(stroke, width=stroke.width * grown, dash=tuple(part * grown for part in stroke.dash))
+            pen = replace(
+                stroke, width=stroke.width * enlargement, dash=tuple(part * enlargement for part in stroke.dash)
+            )
             if item.head:
-                yield Arrow(start, end, pen, item.head * grown, item.name)
+                yield Arrow(start, end, pen, item.head * enlargement, item.name)
             else:
                 yield Line(start, end + item.beyond * unit(end - start), pen)
 
@@ -114,13 +126,13 @@ class _Request:
     first: bool
 
 
-def _request(item: MovingItem, now: Moment, zoom: float, grown: float) -> _Request | None:
+def _request(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> _Request | None:
     """The label of a vector beside it, that of a point about it."""
     match item:
         case MovingVector(label=content) if content is not None:
             start, end = zoom * now.of(item.start), zoom * now.of(item.end)
             if SHORT < abs(end - start) < math.inf:
-                label, half = _sized(content, SMALL * grown)
+                label, half = _sized(content, SMALL * enlargement)
                 across = 1j * unit(end - start)
                 off = abs(across.real) * half.real + abs(across.imag) * half.imag
                 sides = [(off + gap, share, side) for gap in BESIDE for share in SHARES for side in (1, -1)]
@@ -129,9 +141,9 @@ def _request(item: MovingItem, now: Moment, zoom: float, grown: float) -> _Reque
         case MovingName(content, at, neighbours, gap):
             place = zoom * now.of(at)
             if cmath.isfinite(place):
-                label, half = _sized(content, LABEL * grown)
+                label, half = _sized(content, LABEL * enlargement)
                 free = cmath.phase(_away(place, [zoom * now.of(one) for one in neighbours]))
-                ways = [(gap * grown + further, polar(free + turn)) for further in FURTHER for turn in ABOUT]
+                ways = [(gap * enlargement + further, polar(free + turn)) for further in FURTHER for turn in ABOUT]
                 return _Request(label, [place + (by + _reach(half, way)) * way for by, way in ways], True)
     return None
 

@@ -33,13 +33,13 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.case import Pitfalls
+from reportgen.report.case import Misconceptions
 from reportgen.report.key import Key
 from reportgen.report.numbering import finished
 from reportgen.report.prose import NamedPoint, Prose
 
 if TYPE_CHECKING:
-    from reportgen.drawing.film import Film
+    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
@@ -74,8 +74,8 @@ class ExerciseCase(SolvedExercise):
         """It has no forces."""
 
     @property
-    def pitfalls(self) -> Pitfalls:
-        return Pitfalls()
+    def misconceptions(self) -> Misconceptions:
+        return Misconceptions()
 
     def fault(self) -> str:
         # That it moves, and only in one way, is among the checks of its file.
@@ -117,7 +117,7 @@ class ExerciseCase(SolvedExercise):
         }
         return results(self, [{"number": 1, "points": points, "links": links}])
 
-    def films(self) -> tuple[Film, ...]:
+    def animations(self) -> tuple[Animation, ...]:
         """Nothing moves at one instant."""
         return ()
 

@@ -1,4 +1,4 @@
-"""Where bodies have their instant centres, by the rules of the board; found before any speed is.
+"""Where bodies have their instant centres, by the rules of the derivation; found before any speed is.
 
 A body pinned to the ground turns about the pin; one that rolls on the ground about the point of contact.  Elsewhere
 the directions of two velocities tell: the centre is where their normals meet, and where they are parallel, and not

@@ -1,4 +1,4 @@
-"""The literal solution: every quantity of the board as an expression of the symbols that the file has.
+"""The literal solution: every quantity of the derivation as an expression of the symbols that the file has.
 
 The same conditions as those of the numbers are solved with symbols; sizes, senses and which of two places a point has
 are those at the symbols' values.
@@ -24,7 +24,7 @@ from reportgen.exercise.solving import System
 from reportgen.exercise.symbols import Literal
 from reportgen.formula import Expression, ids
 from reportgen.formula.constructions import dot
-from reportgen.report.case import Opened
+from reportgen.report.case import LoadedAssignment
 
 ZERO = Plane(0, 0)
 LONGEST = 40
@@ -136,7 +136,7 @@ def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -
 
 
 class LiteralBoard:
-    """What the quantities of a board are by symbols, each worked out when it is asked for."""
+    """What the quantities of a derivation are by symbols, each worked out when it is asked for."""
 
     def __init__(self, exercise: Exercise, worked: Worked) -> None:
         self.exercise, self.worked = exercise, worked
@@ -207,7 +207,7 @@ class LiteralBoard:
 
 
 @dataclass(frozen=True)
-class SolvedExercise(Opened):
+class SolvedExercise(LoadedAssignment):
     """One instant of a system in plane motion, solved by steps."""
 
     @cached_property

@@ -14,8 +14,8 @@ from typing import Any
 
 from reportgen.base.shown import view
 from reportgen.base.units import MM
-from reportgen.exercise.board import Axis, Step, Vector
 from reportgen.exercise.centres import SAME_PLACE
+from reportgen.exercise.derivation import Axis, Step, Vector
 from reportgen.exercise.file import Asked
 from reportgen.exercise.places import parallel
 from reportgen.exercise.solution import Worked

@@ -15,7 +15,7 @@ from reportgen.base.errors import NotOfferedError, UnknownNameError
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.drawing import Scene
-from reportgen.drawing.film import LAYERS, Film, Stage, Track
+from reportgen.drawing.animation import LAYERS, Animation, Pane, Track
 from reportgen.drawing.stills import sample_at, stills
 from reportgen.report.case import Case, bounded
 from reportgen.report.named_figures import NamedFigure, named_figures, safe
@@ -36,27 +36,29 @@ class MovingFigure:
     """A drawing that moves, by its name."""
 
     name: str
-    film: Film
-    stage: Stage
+    animation: Animation
+    pane: Pane
 
     def at(self, label: str, layers: Collection[str]) -> Scene:
         """It at a position, by its label; at the one that the page opens at where there is none."""
-        angles = dict(self.film.positions)
-        angle = angles.get(label, self.film.positions[self.film.shown][1])
-        return next(stills(self.film, self.stage, [sample_at(self.film, angle)], layers))
+        angles = dict(self.animation.positions)
+        angle = angles.get(label, self.animation.positions[self.animation.shown][1])
+        return next(stills(self.animation, self.pane, [sample_at(self.animation, angle)], layers))
 
     def frames(self, layers: Collection[str]) -> list[Scene]:
         """It through a turn, or through the cycle if that is longer for what is shown."""
-        turns = self.film.turns if self._goes_on(layers) else 1
-        ends = not self.film.span
+        turns = self.animation.turns if self._goes_on(layers) else 1
+        ends = not self.animation.span
         angles = np.linspace(0.0, 360.0 * turns, FRAMES * turns + (not ends), endpoint=not ends)
-        return list(stills(self.film, self.stage, [sample_at(self.film, float(one)) for one in angles], layers))
+        return list(
+            stills(self.animation, self.pane, [sample_at(self.animation, float(one)) for one in angles], layers)
+        )
 
     def _goes_on(self, layers: Collection[str]) -> bool:
         """Whether something is shown that does not repeat from turn to turn."""
-        shown = (item for item in self.stage.items if not item.layer or item.layer in layers)
+        shown = (item for item in self.pane.items if not item.layer or item.layer in layers)
         return any(
-            track.values.size > self.film.knots.size
+            track.values.size > self.animation.knots.size
             for item in shown
             for track in (getattr(item, name, None) for name in ("at", "start", "end"))
             if isinstance(track, Track)
@@ -85,9 +87,9 @@ def listed(case: Case) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...
 def moving(case: Case) -> tuple[MovingFigure, ...]:
     """What moves, of all parts."""
     return tuple(
-        MovingFigure(f"{film.name}.{stage.key}" if film.name else stage.key, film, stage)
-        for film in case.films()
-        for stage in film.stages
+        MovingFigure(f"{one.name}.{pane.key}" if one.name else pane.key, one, pane)
+        for one in case.animations()
+        for pane in one.panes
     )
 
 
@@ -139,9 +141,9 @@ def _eps(scenes: Sequence[Scene], language: Language) -> list[bytes]:
 
 def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int = 0) -> bytes:
     """Scenes one after the other in one of the formats that move."""
-    from reportgen.writers import animation
+    from reportgen.writers import video
 
-    return {"gif": animation.gif, "mp4": animation.mp4}[format](scenes, language, dpi or MOVING_DPI)
+    return {"gif": video.gif, "mp4": video.mp4}[format](scenes, language, dpi or MOVING_DPI)
 
 
 def _drawings(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[tuple[str, Scene]]:
@@ -159,9 +161,9 @@ def _drawings(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -
         if of_name:
             for one in of_name:
                 yield from ((query.labels and one.shown_at(query.labels)) or one).files.items()
-        elif stage := next((one for one in movable if one.name == name), None):
+        elif found := next((one for one in movable if one.name == name), None):
             label = query.labels[0] if query.labels else ""
-            yield safe(f"{name}-{label}" if label else name), stage.at(label, query.layers)
+            yield safe(f"{name}-{label}" if label else name), found.at(label, query.layers)
         else:
             known = [*(one.name for one in figures), *(one.name for one in movable)]
             raise UnknownNameError(unknown("no_figure", name, known, language))
@@ -183,7 +185,7 @@ def _wanted(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> 
 
 
 def _check_layers(query: FigureQuery, movable: Sequence[MovingFigure], language: Language) -> None:
-    known = dict.fromkeys(layer for one in movable for layer in one.film.layers)
+    known = dict.fromkeys(layer for one in movable for layer in one.animation.layers)
     for layer in query.layers if query.layers != SHOWN else ():
         if layer not in known:
             raise UnknownNameError(unknown("no_layer", layer, list(known), language))

@@ -13,20 +13,20 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Area
-from reportgen.drawing.film import (
+from reportgen.drawing.animation import (
+    Animation,
     BarScale,
-    Carried,
     Errors,
-    Film,
     MomentValue,
+    MovingBody,
     MovingItem,
     MovingName,
-    Stage,
+    Pane,
     Still,
     Track,
     extent,
 )
+from reportgen.drawing.charts import Area
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
@@ -125,8 +125,8 @@ class PairCase(SolvedPair):
         broken = [{"check": name, "wheel": wheel} for name, wheel, _, _ in self.chosen.broken()]
         return results(self, positions, pair=pair, wheels=wheels, broken=broken)
 
-    def films(self) -> tuple[Film, ...]:
-        return (_film(self),)
+    def animations(self) -> tuple[Animation, ...]:
+        return (_animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """There are no sets of them to choose from."""
@@ -152,7 +152,7 @@ SHARP = 0.02
 """How far their polylines may be off there (mm)."""
 
 
-def _film(case: PairCase) -> Film:
+def _animation(case: PairCase) -> Animation:
     """Both wheels through a turn of wheel 1, from contact at the pitch point, and their mesh from near."""
     pair = case.gears
     φ = np.linspace(0, 2 * math.pi, SAMPLES + 1)
@@ -162,21 +162,19 @@ def _film(case: PairCase) -> Film:
     low, high = extent(whole)
     near = NEAR_ROOM / (PITCHES * math.pi * pair.m)
     half = NEAR_ROOM / 2 * (1 + 0.8j)
-    stages = [Stage("pair", case.title, tuple(whole), low=low, high=high, scales=(BarScale(1 / at, "segment"),))]
+    panes = [Pane("pair", case.title, tuple(whole), low=low, high=high, scales=(BarScale(1 / at, "segment"),))]
     if near > at:
         close, _ = _moving(pair, φ, near)
         scale = BarScale(1 / near, "segment")
-        stages.append(
-            Stage("mesh", str(case.words["pair"]["near"]), tuple(close), low=-half, high=half, scales=(scale,))
-        )
+        panes.append(Pane("mesh", str(case.words["pair"]["near"]), tuple(close), low=-half, high=half, scales=(scale,)))
     ratio = pair.teeth[0] / pair.teeth[1]
-    return Film(
+    return Animation(
         knots=np.degrees(φ),
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
         shown=0,
-        stages=tuple(stages),
+        panes=tuple(panes),
         charts=(),
         values=(
             MomentValue(Symbol("φ", "2"), "°", Track(np.degrees(ratio * φ)), 2),
@@ -198,7 +196,7 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
         body = Polyline(tuple(wheel.outline(SHARP / at) * at), FLANK, closed=True, fill=style.TINT)
         place = Track(np.array([o]))
         items += [
-            Carried((body, mark), place, Track(turned(pair, number, at_pitch) + turns)),
+            MovingBody((body, mark), place, Track(turned(pair, number, at_pitch) + turns)),
             Still((Circle(o, float(pair.d_w[number]) / 2 * at, style.THIN), *style.pivot(o))),
             MovingName(Symbol("O", str(number + 1)), place, (Track(np.array([o - 5j])),), 1.6),
         ]
@@ -213,7 +211,7 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
         touching += along <= end - start
         places = np.array([on_line(pair, start + one) * at for one in along])
         shown = Track(np.where(along <= end - start, places, complex(np.nan, np.nan)))
-        items.append(Carried((Circle(0j, 0.8, None, style.RED),), shown))
+        items.append(MovingBody((Circle(0j, 0.8, None, style.RED),), shown))
     return items, touching
 
 

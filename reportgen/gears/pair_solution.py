@@ -17,7 +17,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.pair import Chosen, GearPair
-from reportgen.report.case import Opened, Pitfalls, with_another
+from reportgen.report.case import LoadedAssignment, Misconceptions, with_another
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
@@ -83,7 +83,7 @@ OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("r
 
 
 @dataclass(frozen=True)
-class SolvedPair(Opened):
+class SolvedPair(LoadedAssignment):
     """An assignment of a gear pair with its ledger; each part is computed when it is first asked for."""
 
     @cached_property
@@ -121,8 +121,8 @@ class SolvedPair(Opened):
         return (1, POINTS)
 
     @cached_property
-    def pitfalls(self) -> Pitfalls:
-        return Pitfalls(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
+    def misconceptions(self) -> Misconceptions:
+        return Misconceptions(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
 
 
 class PairSheet:

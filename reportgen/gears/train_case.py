@@ -13,7 +13,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
-from reportgen.drawing.film import Film
+from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
@@ -306,8 +306,8 @@ class TrainCase(SolvedTrain):
             sets=sets,
         )
 
-    def films(self) -> tuple[Film, ...]:
-        return (train_drawings.film(self),)
+    def animations(self) -> tuple[Animation, ...]:
+        return (train_drawings.animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Its scheme, its triangles and its tables; there are no sets of them to choose from."""

@@ -18,7 +18,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
 from reportgen.gears.train_file import Parameters
-from reportgen.report.case import Opened, Pitfalls
+from reportgen.report.case import LoadedAssignment, Misconceptions
 
 OTHER = "2′"
 """The second wheel of a double satellite."""
@@ -45,7 +45,7 @@ LINES: Mapping[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True)
-class SolvedTrain(Opened):
+class SolvedTrain(LoadedAssignment):
     """An assignment of a planetary train with its ledger; each part is computed when it is first asked for."""
 
     @property
@@ -81,7 +81,7 @@ class SolvedTrain(Opened):
         return self.given.n_in.si
 
     @cached_property
-    def pitfalls(self) -> Pitfalls:
+    def misconceptions(self) -> Misconceptions:
         """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
         z = {wheel: Ref(ids.train_teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
         term, sign, one = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
@@ -104,7 +104,7 @@ class SolvedTrain(Opened):
                 for teeth, number in zip(z.values(), refused.teeth, strict=True):
                     if teeth.id in self.ledger:
                         readings.setdefault(teeth.id, []).append((f"train-{name}", np.array([number])))
-        return Pitfalls(readings=readings, changed=changed)
+        return Misconceptions(readings=readings, changed=changed)
 
 
 def term_of(scheme: TrainScheme, z: Mapping[str, Ref | Symbol]) -> Expression:

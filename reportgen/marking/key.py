@@ -33,7 +33,7 @@ from reportgen.marking.bands import (
     plans_read,
     trapezoid_errors,
 )
-from reportgen.report.case import Calculation, Opened
+from reportgen.report.case import LoadedAssignment, MachineAnalysis
 from reportgen.report.equations import heading_words
 from reportgen.report.key import INSTANT, Key, KeyRow, Role, Span
 from reportgen.report.report import Report
@@ -54,7 +54,7 @@ def shown_number(row: KeyRow, value: float) -> Number:
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
-def machine_key(case: Calculation) -> Key:
+def machine_key(case: MachineAnalysis) -> Key:
     """The key of a machine, over all positions of its cycle."""
     machine, report = case.analysis.machine, Report(case)
     labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
@@ -64,7 +64,11 @@ def machine_key(case: Calculation) -> Key:
 
 
 def make_key(
-    case: Opened, ledger: Ledger, printed: Ledger, span: Span = INSTANT, sense_of: Callable[[str], str] = lambda id: ""
+    case: LoadedAssignment,
+    ledger: Ledger,
+    printed: Ledger,
+    span: Span = INSTANT,
+    sense_of: Callable[[str], str] = lambda id: "",
 ) -> Key:
     """The key of an assignment from its ledger, unrounded and as `printed`, over the positions of its `span`.
 

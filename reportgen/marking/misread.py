@@ -90,7 +90,12 @@ def _data(scheme: MarkingScheme) -> Iterator[str]:
         # A ratio is given as 1/3.6, which the ledger works out.
         given = not scheme.ledger.inputs[id]
         unseen = not (family.hidden or family.is_plane or id in scheme.rows)
-        if given and unseen and (len(family.values) == 1 or id in scheme.pitfalls.applied) and np.any(family.values):
+        if (
+            given
+            and unseen
+            and (len(family.values) == 1 or id in scheme.misconceptions.applied)
+            and np.any(family.values)
+        ):
             yield id
 
 
@@ -327,7 +332,7 @@ def _vectors_laid(scheme: MarkingScheme) -> Iterator[Mistake]:
                 yield from _either("force-left-out", "force-reversed", source.of, id)
             elif source.definition is not None:
                 yield from _either("part-left-out", "part-reversed", refs(source.definition)[0], id)
-    for load in scheme.pitfalls.loads:
+    for load in scheme.misconceptions.loads:
         vector = ids.force_vector(load)
         yield from _either("load-forgotten", "load-reversed", load, vector if vector in ledger else load)
 

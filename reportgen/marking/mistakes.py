@@ -83,13 +83,13 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
-    for name, other in scheme.pitfalls.changed.get(id, ()):
+    for name, other in scheme.misconceptions.changed.get(id, ()):
         yield name, _with(other, {})
     if family.definition is not None:
         yield from _in_a_definition(scheme, family, family.definition, scales)
-    for name, reading in scheme.pitfalls.readings.get(id, ()):
+    for name, reading in scheme.misconceptions.readings.get(id, ()):
         yield name, _replaced_by(reading)
-    if (rod := scheme.pitfalls.whole.get(id)) is not None:
+    if (rod := scheme.misconceptions.whole.get(id)) is not None:
         yield "wrong-end", lambda value, values: values[rod] - value
     if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi

@@ -15,7 +15,7 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
 from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
-from reportgen.report.case import Calculation, Opened
+from reportgen.report.case import LoadedAssignment, MachineAnalysis
 from reportgen.report.design import DesignPage
 from reportgen.report.key import Key, KeyRow, Role
 from reportgen.report.numbering import number
@@ -126,7 +126,7 @@ def shared_symbols(rows: Iterable[KeyRow]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Document:
+def machine_task(case: MachineAnalysis, key: Key, by_section: bool = False) -> Document:
     """The task of a machine, from the given data to the empty answer sheet; no answer is in it.
 
     `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
@@ -150,7 +150,7 @@ def machine_task(case: Calculation, key: Key, by_section: bool = False) -> Docum
     )
 
 
-def task_paper(case: Opened, key: Key, title: Iterable[Block], blocks: Iterable[Block]) -> Document:
+def task_paper(case: LoadedAssignment, key: Key, title: Iterable[Block], blocks: Iterable[Block]) -> Document:
     """A task: whose it is between its title and what follows."""
     student = case.assignment.report.student.name or ""
     contents = (*title, *fields(student_rows(key)), *blocks)

@@ -30,13 +30,13 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import Load
-from reportgen.report.case import Calculation, Opened
+from reportgen.report.case import LoadedAssignment, MachineAnalysis
 from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
 
 FORMAT = "reportgen-results/1"
 
 
-def results(case: Opened, positions: list[Any], **more: Any) -> dict[str, Any]:
+def results(case: LoadedAssignment, positions: list[Any], **more: Any) -> dict[str, Any]:
     """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it."""
     about = {"format": FORMAT, "kind": case.assignment.kind, "variant": case.assignment.variant, "units": "SI"}
     return {**about, **more, "positions": positions}
@@ -59,7 +59,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def machine_results(case: Calculation) -> dict[str, Any]:
+def machine_results(case: MachineAnalysis) -> dict[str, Any]:
     """The object of a machine, an entry a position."""
     analysis = case.analysis
     signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}

@@ -108,7 +108,7 @@ class Working:
             if size in self.values and self.values.get(length, np.zeros(1))[0]:
                 found.append(float(self.values[size][0] / self.values[length][0]))
         found += self._by_length_scale(row, index)
-        found += [self._by_another_way(row, way, index) for way in self.scheme.pitfalls.ways.get(row.id, ())]
+        found += [self._by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
         return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
 
     def _by_another_way(self, row: KeyRow, way: Expression, index: int) -> float:

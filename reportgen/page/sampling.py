@@ -15,23 +15,22 @@ import numpy as np
 
 from reportgen.base.units import MM, significant_decimals
 from reportgen.drawing import Circle, Content, Pen, style
-from reportgen.drawing.charts import Plotted
-from reportgen.drawing.film import (
+from reportgen.drawing.animation import (
     LAYERS,
     PANEL,
+    Animation,
     BarScale,
-    Carried,
     Chart,
     Curve,
     Errors,
-    Film,
     Fitted,
     MomentValue,
+    MovingBody,
     MovingItem,
     MovingName,
     MovingVector,
+    Pane,
     Spot,
-    Stage,
     Track,
     extent,
     fitted,
@@ -40,6 +39,7 @@ from reportgen.drawing.film import (
     path_items,
     plan_items,
 )
+from reportgen.drawing.charts import Plotted
 from reportgen.drawing.plan import Construction
 from reportgen.formula import Chain, Symbol, ids, vocabulary
 from reportgen.formula.plain import formula
@@ -52,7 +52,7 @@ from reportgen.machine.motion import Motion
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
-from reportgen.report.case import Calculation
+from reportgen.report.case import MachineAnalysis
 from reportgen.report.curves import axis, curves_of_motion, over_a_turn, over_the_cycle, torque_chart
 from reportgen.report.figures import drawing_scale, looks
 from reportgen.report.plans import POLE, force_construction, motion_construction
@@ -77,16 +77,16 @@ LEVER, LONGER = 0.45, 0.2
 """The arrows of forces on the lever, and by how much one at the place of another is longer: shares of the lever."""
 
 
-def film(case: Calculation) -> Film:
+def animation(case: MachineAnalysis) -> Animation:
     """All that moves on the page of a case."""
-    return _Samples(case).film()
+    return _Samples(case).animation()
 
 
 @dataclass(frozen=True)
 class _Samples:
     """A case at the samples of its cycle."""
 
-    case: Calculation
+    case: MachineAnalysis
 
     @property
     def machine(self) -> Machine:
@@ -145,11 +145,11 @@ class _Samples:
         """The sample that is the numbered position `k`."""
         return int(np.abs(self.angles - self.machine.cycle_angles[k - 1]).argmin())
 
-    def film(self) -> Film:
+    def animation(self) -> Animation:
         machine, report = self.machine, self.report
-        stages = tuple(self.stages())
-        layers = {item.layer for item in stages[0].items}
-        return Film(
+        panes = tuple(self.panes())
+        layers = {item.layer for item in panes[0].items}
+        return Animation(
             knots=np.degrees(self.knots),
             turns=machine.turns,
             span=machine.span * MM,
@@ -157,7 +157,7 @@ class _Samples:
                 (str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(machine.cycle_angles))
             ),
             shown=self.case.assignment.worked_positions[0] - 1,
-            stages=stages,
+            panes=panes,
             charts=tuple(self.charts()),
             values=tuple(self.values()),
             errors=self.errors(drawing_scale(report)),
@@ -170,7 +170,7 @@ class _Samples:
 
     # --- drawings
 
-    def stages(self) -> Iterator[Stage]:
+    def panes(self) -> Iterator[Pane]:
         report, words = self.report, self.report.words["page"]
         yield self.mechanism()
         yield self._plan_of_motion("v", words["velocity_plan"], "velocity")
@@ -182,7 +182,7 @@ class _Samples:
         if report.arms_about("p"):
             yield self._lever(words["lever"])
 
-    def mechanism(self) -> Stage:
+    def mechanism(self) -> Pane:
         """The machine itself, true to shape."""
         report, motion = self.report, self._one_turn
         linkage, scale = self.machine.linkage, drawing_scale(report)
@@ -212,7 +212,7 @@ class _Samples:
             for name in motion.points
             if name not in linkage.ground
         )
-        return Stage(
+        return Pane(
             "machine",
             report.words["page"]["machine"],
             items=tuple(items),
@@ -262,7 +262,7 @@ class _Samples:
                 start = Track(self._one_turn.points[name].p * scale)
                 items.append(MovingVector(start, centre, style.NORMAL, 0.0, layer="centres"))
             mark = Circle(0j, 0.55, Pen(0.2, style.RED), style.PAPER)
-            items.append(Carried((mark,), centre, layer="centres"))
+            items.append(MovingBody((mark,), centre, layer="centres"))
             items.append(MovingName(centre_symbol(link.link), centre, (), 1.0, "centres"))
         return items
 
@@ -309,7 +309,7 @@ class _Samples:
         edges = (edge for polygon in self.case.polygons for edge in (*polygon.edges, *polygon.reads))
         return list(dict.fromkeys(edge.name for edge in edges if edge.unknown and edge.name in found))
 
-    def _plan_of_motion(self, what: What, title: str, kind: str) -> Stage:
+    def _plan_of_motion(self, what: What, title: str, kind: str) -> Pane:
         """The plan of velocities or accelerations."""
         plan = motion_construction(self.report, what)
         found = fitted(self._rates_on(plan, what), kind, self.knots.size)
@@ -320,12 +320,12 @@ class _Samples:
         per = float(self.corners[ids.scale(what)].flat[0])
         return {id: np.zeros(1, complex) if id == POLE else self.corners[id] * per for id in plan.corners}
 
-    def _plan_of_forces(self, polygon: Polygon, title: str) -> Stage:
+    def _plan_of_forces(self, polygon: Polygon, title: str) -> Pane:
         plan, per = force_construction(self.report, polygon), self.corners[ids.force_scale(polygon.name)]
         found = fitted({corner: self.corners[corner] * per for corner in plan.corners}, "force", self.angles.size)
         return _plan(f"R{polygon.name}", title, plan_items(plan, found.tracks), found)
 
-    def _lever(self, title: str) -> Stage:
+    def _lever(self, title: str) -> Pane:
         """Zhukovsky's lever: the velocity plan turned by 90° against ω1, the line of every load through its image.
 
         All arrows are of one length but where two would cover each other: arms count, with the force's size.
@@ -438,8 +438,8 @@ class _Samples:
         return Errors(bound * scale, crank, share)
 
 
-def _plan(key: str, title: str, items: list[MovingItem], found: Fitted) -> Stage:
-    return Stage(key, title, tuple(items), -PANEL / 2, PANEL / 2, found.scales, finer=found.finer)
+def _plan(key: str, title: str, items: list[MovingItem], found: Fitted) -> Pane:
+    return Pane(key, title, tuple(items), -PANEL / 2, PANEL / 2, found.scales, finer=found.finer)
 
 
 def _chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:

@@ -31,7 +31,7 @@ from reportgen.report.key import Key
 if TYPE_CHECKING:
     import numpy as np
 
-    from reportgen.drawing.film import Film
+    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Pitfalls:
+class Misconceptions:
     """What of an assignment is easily taken for something else; marking looks for it.
 
     `applied` are the given loads by name, `loads` all of them, each of which may be forgotten or reversed.  `readings`
@@ -124,7 +124,7 @@ class Case(Protocol):
         """The torque or force on the driver that balances the loads [N]; None without loads."""
 
     @property
-    def pitfalls(self) -> Pitfalls:
+    def misconceptions(self) -> Misconceptions:
         """What marking looks for beside the mistakes that any formula may have."""
 
     @property
@@ -149,8 +149,8 @@ class Case(Protocol):
     def results(self) -> dict[str, Any]:
         """The contract's JSON object: an entry a position, null where it cannot be reached."""
 
-    def films(self) -> tuple[Film, ...]:
-        """What moves on its page, a film a part; none where nothing does."""
+    def animations(self) -> tuple[Animation, ...]:
+        """What moves on its page, an animation a part; none where nothing does."""
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """What its drawing sheets show, by the names of the sets."""
@@ -205,7 +205,7 @@ def _called(make: Callable[..., Made], arguments: tuple[Any, ...]) -> Made:
 
 
 @dataclass(frozen=True)
-class Opened:
+class LoadedAssignment:
     """An assignment with its words; each part is computed when it is first asked for."""
 
     assignment: Assignment
@@ -313,7 +313,7 @@ class Opened:
 
 
 @dataclass(frozen=True)
-class Calculation(Opened):
+class MachineAnalysis(LoadedAssignment):
     """A machine: its assignment with all that is computed of it."""
 
     @cached_property

@@ -262,7 +262,7 @@ def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
     """
     meanings: Mapping[str, str] = report.words["meanings"]
     kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}
-    used = report.occurring
+    used = report.used_symbols
     for id, family in report.ledger.families.items():
         if not (family.hidden or family.is_plane) and (used is None or family.symbol in used):
             for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):

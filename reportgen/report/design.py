@@ -9,13 +9,13 @@ from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
 from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table
-from reportgen.report.case import Opened
+from reportgen.report.case import LoadedAssignment
 from reportgen.report.key import Key
 from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
 
-Designed = TypeVar("Designed", bound=Opened)
+Designed = TypeVar("Designed", bound=LoadedAssignment)
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.prose import NamedPoint, lower_digits
+from reportgen.report.prose import NamedPoint, subscripted
 from reportgen.report.report import Report
 
 if TYPE_CHECKING:
@@ -323,7 +323,7 @@ def line_start(report: Report, what: str, side: Side) -> Inlines:
 
 def along(report: Report, side: Side) -> Inlines:
     """The direction of what is sought on a side."""
-    return say(report, report.words["plan"]["directions"][side.way], rod=lower_digits(side.rod))
+    return say(report, report.words["plan"]["directions"][side.way], rod=subscripted(side.rod))
 
 
 def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:

@@ -29,7 +29,7 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.prose import lower_digits
+from reportgen.report.prose import subscripted
 from reportgen.report.report import Report
 
 WIDEST_COLUMN = 26.0
@@ -346,7 +346,7 @@ def joints(report: Report) -> Iterator[Sequence[object]]:
 def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
     """Real and drawn lengths, one column a length; more than have room in several tables below one another."""
     columns = [
-        (lower_digits(line), *(bare(report, name(line), None) for name in LENGTHS)) for line in report.drawn_lines
+        (subscripted(line), *(bare(report, name(line), None) for name in LENGTHS)) for line in report.drawn_lines
     ]
     widths = (column_width(report, name(line), (None,)) for line in report.drawn_lines for name in LENGTHS)
     most = int((TEXT_WIDTH - TITLES) / max(widths, default=WIDEST_COLUMN))

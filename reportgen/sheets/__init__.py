@@ -15,7 +15,7 @@ from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
-from reportgen.report.case import Calculation, Opened
+from reportgen.report.case import LoadedAssignment, MachineAnalysis
 from reportgen.report.report import Report
 from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, read_block, room
 from reportgen.sheets.packing import Packing
@@ -33,7 +33,7 @@ STEPS = 20
 
 
 def drawing_sheets(
-    case: Calculation, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    case: MachineAnalysis, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
 ) -> list[DrawingSheet]:
     """The finished drawing sheets of a machine, with `every` plate or those usually handed in.
 
@@ -52,7 +52,7 @@ def drawing_sheets(
     return on_sheets(case, plates, size, block, (crank, with_crank) if crank else None)
 
 
-def plates_by_set(case: Calculation, sets: Collection[str] = (), every: bool = False) -> Plates:
+def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
     """The plates of some sets, all if none is named; without those of which there are none."""
     sources = Sources.of(case, every)
     offered = get_args(Set) if sources.report.has_forces else ("kinematics",)
@@ -60,7 +60,7 @@ def plates_by_set(case: Calculation, sets: Collection[str] = (), every: bool = F
 
 
 def on_sheets(
-    case: Opened,
+    case: LoadedAssignment,
     plates: Plates,
     size: str = "",
     block: Path | None = None,
@@ -114,7 +114,7 @@ def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> li
 
 
 def _fault(
-    case: Opened,
+    case: LoadedAssignment,
     error: TooLargeError,
     plates: Plates,
     form: TitleBlock,
@@ -171,7 +171,7 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[
     raise too_large
 
 
-def _sheet(case: Opened, form: TitleBlock, paper: str, number: int, found: Sequence[Laid]) -> DrawingSheet:
+def _sheet(case: LoadedAssignment, form: TitleBlock, paper: str, number: int, found: Sequence[Laid]) -> DrawingSheet:
     """One of the sheets with its frame and its title block."""
     shown, parts = found[number - 1]
     fields = fields_of(case, form, number) | {

@@ -101,13 +101,13 @@ def test_the_arrow_of_the_rotation_has_a_tip(name: str) -> None:
 def test_the_follower_touches_the_turning_cam(name: str) -> None:
     """On the page the point of contact, turned into the cam's frame, lies on the profile that turns."""
     case = open_case(FOLDER / f"{name}.yaml", "en")
-    (film,) = case.films()
-    assert film.errors.place < 0.05
+    (animation,) = case.animations()
+    assert animation.errors.place < 0.05
     cam = cam_of(name)
-    traced = cam.traced(np.radians(film.knots))
+    profile = cam.profile_at(np.radians(animation.knots))
     outline = cam.outline(20_000)
-    assert farthest(traced.working[::20], outline) < 1e-8
-    for chart in film.charts:
+    assert farthest(profile.working[::20], outline) < 1e-8
+    for chart in animation.charts:
         low, high = chart.plotted.y
         for curve in chart.curves:
             assert low - 1e-6 <= curve.values.values.min()

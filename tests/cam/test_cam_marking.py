@@ -134,7 +134,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 def test_the_wrong_sign_is_far_off() -> None:
     """The feed cam's ψ′ with the other sign: the pressure angle is more than 38° off where the arm is fastest."""
     case = open_case(FOLDER / "shaper-feed.yaml", "en")
-    wrong = dict(case.pitfalls.changed)["cam.k"][0][1]
+    wrong = dict(case.misconceptions.changed)["cam.k"][0][1]
     values = case.ledger.evaluate({"cam.k": lambda _, before: np.atleast_1d(evaluate(wrong, before))})
     right = case.ledger["cam.alpha"].values
     off = np.degrees(np.abs(values["cam.alpha"] - right))
@@ -144,8 +144,10 @@ def test_the_wrong_sign_is_far_off() -> None:
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in get_args(Language):
         case = open_case(FOLDER / "roller-01.yaml", language)
-        pitfalls = case.pitfalls
-        names = {name for many in (*pitfalls.changed.values(), *pitfalls.readings.values()) for name, _ in many}
+        misconceptions = case.misconceptions
+        names = {
+            name for many in (*misconceptions.changed.values(), *misconceptions.readings.values()) for name, _ in many
+        }
         for name in names:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]

@@ -21,7 +21,7 @@ from reportgen.base.errors import Mark
 from reportgen.base.units import Language
 from reportgen.cases import open_case, opened, opener
 from reportgen.coursework.case import Coursework, PartCase
-from reportgen.coursework.letters import nodes
+from reportgen.coursework.symbol_renaming import nodes
 from reportgen.formula import Symbol
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
@@ -267,7 +267,7 @@ def test_each_part_moves_in_a_panel_of_its_own() -> None:
     assert (machine,) == panels(case.machine)
     (alone,) = panels(case.members[0].case)
     assert (machine.own, cam.own, cam.title) == ("", "cam-", "Thiết kế cơ cấu cam xupap nạp")
-    assert not set(nodes(case.films()[1], Symbol)) & set(case.letters["cam"])
+    assert not set(nodes(case.animations()[1], Symbol)) & set(case.letters["cam"])
     samples, own = json.loads(cam.data), json.loads(alone.data)
     for key in ("knots", "positions", "lengths", "tracks"):
         assert samples[key] == own[key]

@@ -150,7 +150,7 @@ def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
     """Else a wrong value would follow from what was worked out from it."""
     for name in ("pair-equal-sliding", "pair-centre-distance", "pair-least-shift"):
         case = open_case(FOLDER / f"{name}.yaml", "en")
-        for id, ways in case.pitfalls.ways.items():
+        for id, ways in case.misconceptions.ways.items():
             for way in ways:
                 value = np.atleast_1d(evaluate(way, {ref: case.ledger[ref].values for ref in refs(way)}))
                 # What the ledger rounds away below 1e-9 of a module.
@@ -171,7 +171,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in ("vi", "en"):
         case = open_case(FOLDER / "pair-equal-sliding.yaml", language)
-        for name in {name for many in case.pitfalls.changed.values() for name, _ in many}:
+        for name in {name for many in case.misconceptions.changed.values() for name, _ in many}:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]
 

@@ -177,9 +177,9 @@ def is_scale(content: object) -> bool:
 
 def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
     case = pair_case("pair-centre-distance")
-    (film,) = case.films()
-    assert film.knots[-1] == 360
-    touching = film.values[1].values.values
+    (animation,) = case.animations()
+    assert animation.knots[-1] == 360
+    touching = animation.values[1].values.values
     # Over a turn the mean number of pairs is the contact ratio.
     assert touching[:-1].mean() == pytest.approx(float(case.gears.epsilon), abs=0.02)
 

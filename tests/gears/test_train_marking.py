@@ -114,8 +114,10 @@ def test_a_ratio_upside_down_has_its_name(goes_on: bool) -> None:
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in ("vi", "en"):
         case = open_case(FOLDER / "train-double.yaml", language)  # type: ignore[arg-type]
-        pitfalls = case.pitfalls
-        names = {name for many in (*pitfalls.changed.values(), *pitfalls.readings.values()) for name, _ in many}
+        misconceptions = case.misconceptions
+        names = {
+            name for many in (*misconceptions.changed.values(), *misconceptions.readings.values()) for name, _ in many
+        }
         for name in names:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]

@@ -153,8 +153,8 @@ def test_words_page_sheet_and_results(name: str) -> None:
         rows = case_of(name, language).key().rows
         assert [row.id for row in rows if not row.what] == []
     case = case_of(name)
-    (film,) = case.films()
-    assert math.isclose(film.knots[-1], 360)
+    (animation,) = case.animations()
+    assert math.isclose(animation.knots[-1], 360)
     (sheet,) = case.sheets()
     # On the sheet, too, a length is what the scale below it says, whatever that is in the report.
     plan = next(part.scene for part in sheet.parts for item in part.scene.items if getattr(item, "name", "") == "Aa")

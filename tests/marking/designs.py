@@ -19,10 +19,10 @@ def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
     """A mistake of that name in some quantities, as the case knows it."""
     changes = {}
     for id in where:
-        for called, definition in scheme.pitfalls.changed.get(id, ()):
+        for called, definition in scheme.misconceptions.changed.get(id, ()):
             if called == name:
                 changes[id] = lambda _, values, made=definition: np.atleast_1d(evaluate(made, values))
-        for called, values in scheme.pitfalls.readings.get(id, ()):
+        for called, values in scheme.misconceptions.readings.get(id, ()):
             if called == name:
                 changes[id] = lambda _, __, read=values: read
     assert changes, name

@@ -139,13 +139,13 @@ def test_what_is_measured_on_the_diagrams_of_a_cam_is_what_their_scales_say() ->
     scene = next(part.scene for part in sheet.parts if any(len(chain.parts) == 3 for chain in scales(part.scene)))
     μ_φ, *others = [chain.parts[-1].value for chain in scales(scene)]
     curves = [item for item in scene.items if isinstance(item, Polyline) and len(item.points) > 1000]
-    traced = case.solution.cam.sampled(1440)
-    ranges = [np.ptp(one) * 1000 for one in (traced.s, traced.ds, traced.dds)]
+    profile = case.solution.cam.sampled(1440)
+    ranges = [np.ptp(one) * 1000 for one in (profile.s, profile.ds, profile.dds)]
     for curve, μ, wanted in zip(curves, others, ranges, strict=True):
         points = np.array(curve.points)
         assert np.ptp(points.imag) * μ == pytest.approx(wanted, rel=1e-6)
         # Six figures of the scale are printed.
-        assert np.ptp(points.real) * μ_φ == pytest.approx(traced.φ[-1] - traced.φ[0], rel=1e-5)
+        assert np.ptp(points.real) * μ_φ == pytest.approx(profile.φ[-1] - profile.φ[0], rel=1e-5)
     poles = {
         item.content.parts[0].sub: item.content.parts[1].value
         for item in scene.items

@@ -1,7 +1,7 @@
 """Letters with one meaning: what a part of a coursework calls as an earlier one calls something else gets its index.
 
-A part's pages, key, film and sheets are trees of frozen nouns, in which a symbol is a symbol wherever it stands: so one
-change of symbols serves them all.
+A part's pages, key, animation and sheets are trees of frozen nouns, in which a symbol is a symbol wherever it stands:
+so one change of symbols serves them all.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ LEAST_WORD = 4
 """A text of so many letters is no unit and no verdict."""
 
 
-def occurring(blocks: Iterable[Block]) -> frozenset[Symbol]:
+def used_symbols(blocks: Iterable[Block]) -> frozenset[Symbol]:
     """The symbols of texts, equations, tables and figures, a vector as the symbol of its magnitude."""
     rest = list(_expressions(blocks))
     # Most symbols are met many times as one object: these are told apart without a look inside.
