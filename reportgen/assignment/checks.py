@@ -74,15 +74,15 @@ class SameLength:
 
     def __call__(self, draft: Draft) -> Iterator[Finding]:
         where = tuple(self.section.split("."))
-        found = {row: draft.at(*where, row) for row in (self.key, *self.rows)}
-        lengths = {row: len(values) for row, values in found.items() if isinstance(values, list)}
+        columns = {row: draft.at(*where, row) for row in (self.key, *self.rows)}
+        lengths = {row: len(values) for row, values in columns.items() if isinstance(values, list)}
         if not lengths:
             return
         wanted = mode(lengths.values())
-        other = next(row for row, length in lengths.items() if length == wanted)
+        agreeing = next(row for row, length in lengths.items() if length == wanted)
         for row, length in lengths.items():
             if length != wanted:
-                counts = {"key": row, "given": str(length), "other": other, "wanted": str(wanted)}
+                counts = {"key": row, "given": str(length), "other": agreeing, "wanted": str(wanted)}
                 yield Finding("row-length", (*where, row), counts)
 
 

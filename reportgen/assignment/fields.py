@@ -9,7 +9,6 @@ from __future__ import annotations
 import datetime
 import math
 import re
-import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -18,7 +17,7 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import school_strays
-from reportgen.base.source import Quoted
+from reportgen.base.source import STRANGE, Quoted
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
 from reportgen.base.words import school_folder, schools, templates
 
@@ -26,7 +25,6 @@ UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
 """What a schema says beside the standard: the unit of a quantity, its bounds in it, a unit that names one like it."""
 LONGEST_TEXT = 300
 MOST_WORKED = 720
-_FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
 _UNIT_PATTERN = r"[A-Za-zµ°ºđ][^,]*"
 _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
@@ -220,7 +218,7 @@ class TypedText(Reader):
         text = _text(value, "text")
         if len(text) > LONGEST_TEXT:
             raise fault("text-too-long", largest=str(LONGEST_TEXT))
-        if any(unicodedata.category(character) in _FORBIDDEN for character in text):
+        if STRANGE.search(text):
             raise fault("control-character")
         return text
 

@@ -48,8 +48,8 @@ def assess(
     else:
         numbered = (worked_positions(kind.turns, kind.labels),) if kind.has_positions else ()
         for check_one in (school_of(path), *kind.checks, *numbered):
-            found = {finding.where for finding in findings}
-            findings += [finding for finding in check_one(draft) if finding.where not in found]
+            places = {finding.where for finding in findings}
+            findings += [finding for finding in check_one(draft) if finding.where not in places]
     # What the source already refuses is not judged a second time.
     refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
     placed = [_placed(finding, top) for finding in findings]
@@ -188,8 +188,8 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
             findings.append(_unknown((key,), ["kind", *known]))
     for key, (type_, default) in known.items():
         if raw.get(key) is not None:
-            valid[key], found = _section(key, type_, raw[key])
-            findings += found
+            valid[key], faulty = _section(key, type_, raw[key])
+            findings += faulty
         elif default is ...:
             findings.append(Finding("missing-key", (key,), {"key": key}))
         else:

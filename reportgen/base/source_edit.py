@@ -190,7 +190,7 @@ def _replaced(text: str, node: Node, value: Node) -> str:
     in_marks = isinstance(node, Scalar) and node.quoted
     new = quoted(value.text, in_marks or value.quoted) if isinstance(value, Scalar) and not value.null else flow(value)
     # An empty value stands right behind its colon.
-    gap = " " if start == end and new else ""
+    gap = " " if start == end and new and not text[start - 1].isspace() else ""
     return text[:start] + gap + new + text[end:]
 
 

@@ -41,7 +41,7 @@ def said(text: str, where: Where, value: str) -> str:
     ("where", "value", "old", "new"),
     [
         (("parameters", "a"), "275 mm", "a: 270 mm", "a: 275 mm"),
-        (("report", "student", "name"), "Ngô An", "name: , id", "name: Ngô An , id"),
+        (("report", "student", "name"), "Ngô An", "name: , id", "name: Ngô An, id"),
         (("report", "student", "class"), "K57", "id: }}", "id: , class: K57}}"),
         (("report", "course"), "a # b: c", "id: }}", 'id: }, course: "a # b: c"}'),
         (("parameters", "G3"), "210 N", "# G3: 200 N", "G3: 210 N"),
