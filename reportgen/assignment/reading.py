@@ -281,7 +281,7 @@ def _placed(finding: Finding, top: MappingNode) -> Fault:
             node = node.items[step]
             key_mark = node.mark
             continue
-        return Fault(finding.code, key_mark, finding.arguments)
+        return Fault(finding.code, key_mark, finding.arguments, finding.where)
     unwritten = isinstance(node, Scalar) and node.null
     mark: Mark = key_mark if finding.at == "key" or unwritten else node.mark
-    return Fault(finding.code, mark, finding.arguments)
+    return Fault(finding.code, mark, finding.arguments, finding.where)

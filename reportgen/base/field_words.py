@@ -59,6 +59,12 @@ def choice_words(language: Language) -> Mapping[str, str]:
     return found
 
 
+def group_titles(language: Language) -> list[str]:
+    """The titles of groups in the order in which a form has them."""
+    common = templates() / language / FILE
+    return list(_common(common, common.stat().st_mtime_ns)["groups"].values())
+
+
 def also(language: Language) -> str:
     """What stands between two ways to say the same."""
     common = templates() / language / FILE

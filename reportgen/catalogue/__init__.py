@@ -98,9 +98,13 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    source = read_source(Path(path))
-    assignment, faults = assess(source, Path(path))
-    faults = [*reading.name_faults(Path(path)), *faults]
+    return _in_order(read_source(Path(path)), Path(path), language)
+
+
+def _in_order(source: Source, path: Path, language: Language | None) -> Assignment:
+    """The assignment of nodes that were read from `path`; raises `AssignmentError`."""
+    assignment, faults = assess(source, path)
+    faults = [*reading.name_faults(path), *faults]
     if assignment is None or faults:
         raise as_error(faults, language or language_of(source))
     return assignment.with_language(language) if language else assignment
@@ -113,8 +117,13 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
 
 def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
     """All faults of an assignment file; of one without, its warnings, and which positions labels stand for."""
+    return problems_of(read_source(Path(path)), Path(path), language)
+
+
+def problems_of(source: Source, path: Path, language: Language | None = None) -> list[Problem]:
+    """As `examine`, of nodes that were read from `path`."""
     try:
-        assignment = load(path, language)
+        assignment = _in_order(source, path, language)
     except AssignmentError as error:
         return list(error.problems)
     warnings = getattr(module(assignment.kind), "WARNINGS", ())
@@ -122,9 +131,9 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
         "warning": [finding for warning in warnings for finding in warning(assignment)],
         "note": list(_understood_positions(assignment)),
     }
-    source, spoken = read_source(Path(path)), assignment.language
+    spoken = assignment.language
     problems = [as_problem(one, spoken, level) for level in by_level for one in reading.placed(source, by_level[level])]
-    doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, Path(path)))
+    doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, path))
     problems += [as_problem(one, spoken, "warning") for one in doubtful]
     return sorted(problems, key=lambda problem: problem.mark)
 

@@ -111,6 +111,7 @@ def _app() -> typer.Typer:
         student.sheet,
         takeaway.figure,
         student.watch,
+        student.edit,
         student.solve,
         student.compare,
         student.kinds,

@@ -143,6 +143,35 @@ def watch(
         serve(file, opener(), lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
 
 
+def edit(
+    what: Annotated[
+        str, typer.Argument(metavar="FILE|KIND", help="Assignment file, or a kind to begin with.", show_default=False)
+    ],
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Begin this file.", show_default="KIND.yaml")
+    ] = None,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
+    lang: LangOption = None,
+    templates: TemplatesOption = None,
+) -> None:
+    """Edit FILE in a browser by a form, the machine moving beside it. A KIND begins a file. Ctrl-C ends it."""
+    from reportgen import catalogue
+    from reportgen.base.words import kinds, spoken
+    from reportgen.cases import opener
+    from reportgen.page.watch import edit as serve
+
+    with ending(lang):
+        begins = what in kinds() and not Path(what).exists()
+        file = output or Path(f"{what}.yaml") if begins else Path(what)
+        if output is not None and not begins:
+            raise typer.BadParameter(say("no_kind", lang, text=what), param_hint="KIND")
+        if begins:
+            if os.path.lexists(file):
+                refuse([Fault("already-there", Mark(str(file)))], file, lang)
+            write(file, catalogue.sample(what, lang or spoken()))
+        serve(file, opener(), lang, browser=not no_open)
+
+
 def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
     """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
     from reportgen.api import made_of, typeset

@@ -66,6 +66,8 @@ class Live:
     report: int
     scripts: Sequence[str] = ("live.js",)
     styles: Sequence[str] = ("live.css",)
+    form: str = ""
+    """The elements of a form beside what moves; the page has them as they are."""
 
 
 def report(document: tree.Document) -> WrittenReport:

@@ -20,6 +20,7 @@ from reportgen.base.files import reported
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import templates
+from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
 from reportgen.page.serving import Server
 from reportgen.report import Document
@@ -60,7 +61,28 @@ def watch(
         # A name mistyped is no file to wait for, nor is a pipe.
         opens(path, language)
     path = path.absolute()
-    session = LiveSession(partial(opens, path, language), language, tell)
+    serve(LiveSession(partial(opens, path, language), language, tell), path, opens, browser, port, stream)
+
+
+def edit(
+    path: Path,
+    opens: Opener,
+    language: Language | None = None,
+    browser: bool = True,
+    port: int = 0,
+    stream: TextIO = sys.stdout,
+) -> None:
+    """As `watch`, with a form beside what moves, by which the file is changed."""
+    if not path.is_file():
+        opens(path, language)
+    path = path.absolute()
+    serve(EditSession(partial(opens, path, language), language, path=path), path, opens, browser, port, stream)
+
+
+def serve(
+    session: LiveSession, path: Path, opens: Opener, browser: bool = True, port: int = 0, stream: TextIO = sys.stdout
+) -> None:
+    """Serve a live session, and renew it whenever its file changes, until the program is interrupted."""
     with reported():
         server = Server(session, port)
     stop = threading.Event()
@@ -101,9 +123,12 @@ def _follow(path: Path, session: LiveSession, stop: threading.Event, shown: obje
     The path is asked again and again: what watches files holds on to a folder that was renamed, does not follow links
     and hears nothing of changes that another computer makes.
     """
-    while not stop.wait(LOOKING):
+    while not stop.is_set():
+        # What the session itself has written need not be waited for.
+        own = session.touched.wait(LOOKING)
+        session.touched.clear()
         if _states(path) != shown:
-            stop.wait(QUIET / 1000)
+            stop.wait(0 if own else QUIET / 1000)
             shown = _states(path)
             with _ONE_AT_A_TIME:
                 session.renew()

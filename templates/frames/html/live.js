@@ -70,6 +70,7 @@
       while (news) {
         const now = news;
         news = null;
+        if (!now.busy || now.moving !== shown.moving) document.dispatchEvent(new Event("news"));
         fault.hidden = !now.fault;
         fault.lastElementChild.textContent = now.fault;
         if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { leave(); return; }

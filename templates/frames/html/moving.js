@@ -460,13 +460,21 @@ const panelOf = (root, panels) => {
     seek(state.angle);
   };
 
+  // Other samples of the same film, while a value is drawn.
+  const feed = (samples) => {
+    if (samples.length !== values.length) return;
+    values = samples;
+    shown = {};
+    if (!state.playing) draw();
+  };
+
   let shown = { samples: document.getElementById(`${own}samples`).textContent };
   mount(JSON.parse(shown.samples));
   const start = () => {
     seek(animation.positions[animation.shown][1]);
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
   };
-  return { root, own, start, hold, seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
+  return { root, own, start, hold, seek, play, pause, renew, feed, angle: () => state.angle, playing: () => state.playing };
 };
 const panels = [];
 for (const root of document.querySelectorAll(".moving")) panels.push(panelOf(root, panels));

@@ -1,0 +1,178 @@
+"use strict";
+// The form of the file: what is typed goes to the file, what comes back is the form of the file as it then is.
+(() => {
+  const form = document.getElementById("form"), words = JSON.parse(document.getElementById("live").textContent).words;
+  const post = (name, body) => fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
+  const place = (element) => JSON.parse(element.closest("[data-w]").dataset.w);
+  const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => one.dataset.w === JSON.stringify(where));
+  const NUMBER = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)$/;
+
+  // --- numbers with their units
+
+  // A number as it is written to the file: no more figures than it needs, never a thousand that looks like decimals.
+  const written = (number, unit) => `${Number(number.toPrecision(4))}${unit}`;
+  const within = (input, number) => {
+    // Bounds are those in the unit of the field; in another one they are left to the program.
+    const own = (NUMBER.exec(input.value) || [])[2];
+    if (input.dataset.unit && own !== undefined && own.trim() !== input.dataset.unit) return number;
+    const low = Number(input.dataset.low ?? -Infinity), high = Number(input.dataset.high ?? Infinity);
+    return Math.min(Math.max(number, low), high);
+  };
+  const stepped = (input, sense) => {
+    const parts = NUMBER.exec(input.value);
+    if (!parts) return null;
+    const number = Number(parts[1]), decimals = (parts[1].split(".")[1] || "").length;
+    const step = 10 ** -decimals * (Math.abs(number) >= 100 && !decimals ? 5 : 1);
+    return written(within(input, Number((number + sense * step).toFixed(decimals))), parts[2]);
+  };
+  const slider = (input) => {
+    const parts = NUMBER.exec(input.value);
+    if (!parts || parts[2].includes("/")) return;
+    const number = Number(parts[1]), reach = Math.abs(number) / 2 || 10;
+    const bar = document.createElement("input");
+    bar.type = "range";
+    bar.min = within(input, number - reach);
+    bar.max = within(input, number + reach);
+    bar.step = Number((reach / 100).toPrecision(1));
+    bar.value = number;
+    bar.setAttribute("aria-label", `${words.slide}: ${input.labels[0].textContent}`);
+    const value = () => written(Number(bar.value), parts[2]);
+    bar.addEventListener("input", () => { input.value = value(); drag(input); });
+    bar.addEventListener("change", () => { input.value = value(); commit(input); });
+    input.closest(".field").querySelector(".box").after(bar);
+  };
+
+  // --- changes: one after the other, the newest value of a place wins
+
+  let queue = Promise.resolve();
+  const change = (body) => (queue = queue.then(async () => {
+    document.getElementById("saved").textContent = words.saving;
+    try {
+      const answer = await post("edit.json", body);
+      if (!answer.ok) throw new Error(answer.status);
+      show(await answer.json());
+    } catch {
+      document.getElementById("refused").textContent = words.lost_edit;
+      document.getElementById("saved").textContent = words.unsaved;
+    }
+  }));
+  const commit = (input) => {
+    if (input.value === input.dataset.was) return;
+    const body = { op: "set", where: place(input), value: input.value, was: input.dataset.was };
+    if ("list" in input.dataset) body.list = true;
+    input.dataset.was = input.value;
+    change(body);
+  };
+
+  // While a slider is drawn, only what moves follows: the newest value is asked for when the last one is there.
+  let wanted = null, asking = false;
+  const drag = async (input) => {
+    wanted = { where: place(input), value: input.value };
+    if (asking) return;
+    asking = true;
+    while (wanted) {
+      const body = wanted;
+      wanted = null;
+      try {
+        const answer = await post("drag.json", body);
+        const samples = answer.ok ? await answer.arrayBuffer() : null;
+        document.body.classList.toggle("stale", !samples || !samples.byteLength);
+        if (samples && samples.byteLength) panels[0]?.feed(new Float32Array(samples));
+      } catch { /* the server tells of itself */ }
+    }
+    asking = false;
+  };
+
+  // --- the form anew: what is open stays open, what has the focus keeps it
+
+  const show = ({ form: body, refused, meanwhile }) => {
+    const focused = form.contains(document.activeElement) ? document.activeElement : null;
+    const id = focused && (focused.id || focused.closest(".field")?.querySelector("[data-w]")?.id);
+    const inBar = focused?.type === "range", typed = focused?.value, was = focused?.dataset?.was;
+    const range = focused && focused.selectionStart;
+    const open = new Set([...form.querySelectorAll("details[open]")].map((one) => one.dataset.open));
+    const top = form.scrollTop;
+    form.innerHTML = body;
+    for (const one of form.querySelectorAll("details")) one.open = open.has(one.dataset.open);
+    mount();
+    form.scrollTop = top;
+    let again = id && document.getElementById(id);
+    if (again) {
+      // What is being typed is not taken away.
+      if (typed !== undefined && !inBar && again.dataset.was === was && typed !== was) again.value = typed;
+      if (inBar) again = again.closest(".field").querySelector('[type="range"]') || again;
+      for (let node = again.closest("details"); node; node = node.parentElement.closest("details")) node.open = true;
+      again.focus({ preventScroll: true });
+      try { if (!inBar && range !== null) again.setSelectionRange(range, range); } catch { /* no text */ }
+    }
+    if (refused) document.getElementById("refused").textContent = refused;
+    if (meanwhile !== undefined && again) {
+      const use = document.createElement("button");
+      use.type = "button";
+      use.textContent = `${words.mine} ${typed}`;
+      use.addEventListener("click", () => { again.value = typed; commit(again); });
+      document.getElementById("refused").append(" ", use);
+    }
+    document.getElementById("saved").textContent = refused ? words.unsaved : words.saved;
+    document.body.classList.toggle("stale", Boolean(form.querySelector("#problems ul")));
+  };
+  const mount = () => form.querySelectorAll("input[data-unit], input[data-number]").forEach(slider);
+
+  // --- what is done
+
+  form.addEventListener("change", (event) => { if (event.target.dataset.w) commit(event.target); });
+  form.addEventListener("keydown", (event) => {
+    const input = event.target;
+    if (event.ctrlKey && !event.altKey && event.key === "Enter" && input.dataset.w) commit(input);
+    if (input.type === "range" || !("unit" in input.dataset || "number" in input.dataset)) {
+      if (event.key === "Enter" && input.dataset?.w) commit(input);
+      return;
+    }
+    const sense = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
+    if (event.key === "Enter") commit(input);
+    if (!sense) return;
+    const next = stepped(input, sense);
+    if (next === null) return;
+    event.preventDefault();
+    input.value = next;
+    drag(input);
+  });
+  form.addEventListener("click", (event) => {
+    const button = event.target.closest("button");
+    if (!button) return;
+    const data = button.dataset, field = button.closest(".field")?.querySelector("[data-w]");
+    if (button.id === "undo" || button.id === "redo") change({ op: button.id });
+    else if ("remedy" in data) { field.value = data.remedy; commit(field); }
+    else if ("remove" in data) change({ op: "remove", where: place(field || button) });
+    else if ("add" in data) change({ op: "add", where: place(button) });
+    else if ("up" in data) {
+      const where = place(button), index = where.pop();
+      change({ op: "move", where, first: index - 1 });
+    } else if ("instead" in data) change({ op: "instead", where: place(field), key: data.instead, was: field.dataset.was, value: data.value || "" });
+    else if ("goto" in data) {
+      const where = JSON.parse(data.goto);
+      while (where.length && !byPlace(where)) where.pop();
+      const target = byPlace(where);
+      for (let node = target?.closest("details"); node; node = node.parentElement.closest("details")) node.open = true;
+      (target?.matches("fieldset") ? target.querySelector("[data-w]") : target)?.focus();
+    }
+  });
+  document.addEventListener("keydown", (event) => {
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || event.key.toLowerCase() !== "z" && event.key.toLowerCase() !== "y") return;
+    if (event.target.matches("input") && event.target.value !== event.target.dataset.was) return;
+    event.preventDefault();
+    change({ op: event.key.toLowerCase() === "y" || event.shiftKey ? "redo" : "undo" });
+  });
+
+  // What another tab or an editor has written.
+  document.addEventListener("news", async () => {
+    await queue;
+    show(await (await fetch("form.json", { cache: "no-store" })).json());
+  });
+  // Where there is no room beside the form, the machine stays above it.
+  if (matchMedia("(max-width: 61.99rem)").matches && panels[0]) {
+    panels[0].hold(true);
+    document.body.classList.add("kept");
+  }
+  mount();
+})();
