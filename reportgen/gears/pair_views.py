@@ -9,8 +9,9 @@ from typing import Any
 
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, ids, vocabulary
+from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair_drawings import mesh, region, sliding
-from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.gears.pair_solution import SolvedPair
 from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
 from reportgen.report.design import DesignPage
 
