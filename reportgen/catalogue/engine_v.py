@@ -81,8 +81,8 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
         return
     bore, diagram = raw.get("D") is not None, draft.raw.get("indicator") is not None
     for key in (key for key in ("PC", "PE") if raw.get(key) is not None and (bore or diagram)):
-        other = "D" if bore else "indicator"
-        yield Finding("both-given", ("parameters", key), {"first": other, "second": key}, at="key")
+        instead = "D" if bore else "indicator"
+        yield Finding("both-given", ("parameters", key), {"first": instead, "second": key}, at="key")
     if bore and not diagram:
         yield Finding("missing-key", ("indicator",), {"key": "indicator"})
     if diagram and not bore:

@@ -34,10 +34,10 @@ class _Diagram(Part):
     reference: Literal["gauge", "absolute"] = "gauge"
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
 
-    def gauge(self, row: tuple[float, ...], one: Given) -> tuple[float, ...]:
-        """Values of the table as gauge pressures (Pa), `one` being what 1 stands for."""
+    def gauge(self, row: tuple[float, ...], unit: Given) -> tuple[float, ...]:
+        """Values of the table as gauge pressures (Pa), `unit` being what 1 stands for."""
         below = self.ambient.si if self.reference == "absolute" else 0.0
-        return tuple(value * one.si - below for value in row)
+        return tuple(value * unit.si - below for value in row)
 
 
 class ByStroke(_Diagram):

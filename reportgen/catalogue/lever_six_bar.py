@@ -177,9 +177,9 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         (2, 3): assembly.Member("AC, CD", ("parameters", "CD")),
         (4, 5): assembly.Member("EF", ("parameters", "EF")),
     }
-    found = list(assembly.findings(linkage, members))
-    yield from found
-    if not found and assembly.turns_fully(linkage, 3):
+    obstacles = list(assembly.findings(linkage, members))
+    yield from obstacles
+    if not obstacles and assembly.turns_fully(linkage, 3):
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 

@@ -190,19 +190,19 @@ def _drawn(built: Machine, crank: float) -> float:
 
 def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tuple[Applied | Torque, ...]:
     """The loads in the order of the file, named P (forces) and M (torques) with their link's number."""
-    found: list[Applied | Torque] = []
+    loads: list[Applied | Torque] = []
     for load in given.loads:
         link = load.link
         if isinstance(load, file.OverStroke | file.Gas):
-            found.append(_on_slider(load, given, linkage, motion_at, _name(ids.applied_force, link, found)))
+            loads.append(_on_slider(load, given, linkage, motion_at, _name(ids.applied_force, link, loads)))
             continue
         direction = cmath.exp(1j * load.direction.si)
         law = _law(load, direction, given.driver, motion_at)
         if load.at is None:
-            found.append(Torque(_name(ids.applied_torque, link, found), link, law))
+            loads.append(Torque(_name(ids.applied_torque, link, loads), link, law))
         else:
-            found.append(Applied(_name(ids.applied_force, link, found), link, load.at, fixed(direction), law))
-    return tuple(found)
+            loads.append(Applied(_name(ids.applied_force, link, loads), link, load.at, fixed(direction), law))
+    return tuple(loads)
 
 
 def _name(family: Name, link: int, others: Iterable[Applied | Torque]) -> str:
@@ -217,13 +217,15 @@ def _on_slider(
     dyad, guide = rails(linkage)[load.link]
     if isinstance(load, file.Gas):
         top = 1 if load.intake == "first top" else 2
-        way = course(linkage, load.link, motion_at, given.turns, top)
+        stroke = course(linkage, load.link, motion_at, given.turns, top)
         area = float(np.pi * load.D.si**2 / 4)
-        return Applied(name, load.link, dyad.middle, fixed(way.inward), GasLaw(way, load.diagram.table, area=area))
-    one = load.unit.si
-    table = by_stroke(load.s, *(tuple(value * one for value in row) for row in (load.inward, load.outward)))
-    way = course(linkage, load.link, motion_at)
-    return Applied(name, load.link, dyad.middle, fixed(cmath.exp(1j * guide.angle)), TableLaw(way, table, turns=1))
+        return Applied(
+            name, load.link, dyad.middle, fixed(stroke.inward), GasLaw(stroke, load.diagram.table, area=area)
+        )
+    unit = load.unit.si
+    table = by_stroke(load.s, *(tuple(value * unit for value in row) for row in (load.inward, load.outward)))
+    stroke = course(linkage, load.link, motion_at)
+    return Applied(name, load.link, dyad.middle, fixed(cmath.exp(1j * guide.angle)), TableLaw(stroke, table, turns=1))
 
 
 def _law(
@@ -248,7 +250,7 @@ def _law(
             return motion.links[load.link].omega
         return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
 
-    found = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
+    resistance = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
     # A crank has an angular velocity of its own, a slide has none.
     turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
-    return found if turns else Resistance(abs(size.si), rate, found.reversals)
+    return resistance if turns else Resistance(abs(size.si), rate, resistance.reversals)

@@ -76,8 +76,8 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         (4, 5): assembly.Member("BC", ("parameters", "BD")),
     }
     motion_at = crank_motion(linkage, Positions(), 0.0)
-    if found := list(assembly.findings(linkage, members)):
-        yield from found
+    if obstacles := list(assembly.findings(linkage, members)):
+        yield from obstacles
     elif motion_at(even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
         yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
     elif given.press is not None:

@@ -7,66 +7,17 @@ their region is drawn, and where teeth are: no number of a pair comes from anywh
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from reportgen.formula import PI, Operand, Ref, Symbol, acos, arcinv, cos, ids, sin, tan
+from reportgen.formula import PI, Operand, Ref, acos, arcinv, cos, sin, tan
 from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import row
+from reportgen.gears import gears_ids
 
 WHEELS = (1, 2)
-LENGTH, NUMBER, FIGURE, ANGLE, INVOLUTE = "gear length", "gear number", "gear figure", "gear angle", "involute"
-PAIR: Mapping[str, tuple[Symbol, str]] = {
-    "m": (Symbol("m"), LENGTH),
-    "alpha": (Symbol("α"), "angle"),
-    "ha": (Symbol("h", "a", "*"), NUMBER),
-    "c": (Symbol("c", "", "*"), NUMBER),
-    "limit.epsilon": (Symbol("[ε]"), NUMBER),
-    "limit.tip": (Symbol("[s/m]"), NUMBER),
-    "limit.sliding": (Symbol("[λ]"), NUMBER),
-    "u": (Symbol("u"), NUMBER),
-    "a": (Symbol("a"), LENGTH),
-    "inv": (Symbol("inv α"), INVOLUTE),
-    "inv_w": (Symbol("inv α", "w"), INVOLUTE),
-    "x_sum": (Symbol("x", "Σ"), NUMBER),
-    "alpha_w": (Symbol("α", "w"), ANGLE),
-    "a_w": (Symbol("a", "w"), LENGTH),
-    "y": (Symbol("y"), NUMBER),
-    "dy": (Symbol("Δy"), NUMBER),
-    "h": (Symbol("h"), LENGTH),
-    "p": (Symbol("p"), LENGTH),
-    "p_b": (Symbol("p", "b"), LENGTH),
-    "epsilon": (Symbol("ε", "α"), FIGURE),
-    "g": (Symbol("g"), LENGTH),
-    "g_a": (Symbol("g", "α"), LENGTH),
-    "t": (Symbol("t"), NUMBER),
-}
-"""Symbol and kind of what the pair has,"""
-WHEEL: Mapping[str, tuple[Symbol, str]] = {
-    "z": (Symbol("z"), "count"),
-    "x": (Symbol("x"), NUMBER),
-    "x_min": (Symbol("x", "min"), NUMBER),
-    "d": (Symbol("d"), LENGTH),
-    "d_b": (Symbol("d", "b"), LENGTH),
-    "d_w": (Symbol("d", "w"), LENGTH),
-    "h_a": (Symbol("h", "a"), LENGTH),
-    "d_a": (Symbol("d", "a"), LENGTH),
-    "d_f": (Symbol("d", "f"), LENGTH),
-    "s": (Symbol("s"), LENGTH),
-    "s_w": (Symbol("s", "w"), LENGTH),
-    "alpha_a": (Symbol("α", "a"), ANGLE),
-    "inv_a": (Symbol("inv α", "a"), INVOLUTE),
-    "s_a": (Symbol("s", "a"), LENGTH),
-    "tip": (Symbol("s", "a", "*"), FIGURE),
-    "rho_a": (Symbol("ρ", "a"), LENGTH),
-    "rho_p": (Symbol("ρ", "p"), LENGTH),
-    "rho_f": (Symbol("ρ", "f"), LENGTH),
-    "rho": (Symbol("ρ"), LENGTH),
-    "lambda": (Symbol("λ"), FIGURE),
-}
-"""and of what each wheel has."""
 
 
 @dataclass(frozen=True)
@@ -101,19 +52,18 @@ class PairFormulas:
         return self.q[f"gears.{quantity}"]
 
     def of(self, quantity: str, wheel: int) -> Ref:
-        return self.q[ids.gear(quantity, wheel)]
+        return self.q[gears_ids.of_wheel(quantity, wheel)]
 
     def both(self, quantity: str) -> tuple[Ref, Ref]:
         return self.of(quantity, 1), self.of(quantity, 2)
 
     def give(self, quantity: str, value: object, wheel: int = 0) -> Ref:
-        id, symbol, kind = named(quantity, wheel)
-        return self.q.give(id, value, symbol, kind)
+        return self.q.give(named(quantity, wheel), value)
 
     def define(self, quantity: str, definition: Operand, wheel: int = 0) -> Ref:
         """Enter a quantity; below 1e-9 of a module, or of 1, it is nothing."""
-        id, symbol, kind = named(quantity, wheel)
-        return self.q.define(id, definition, symbol, kind, scale=self.m if kind == LENGTH else 1.0)
+        id = named(quantity, wheel)
+        return self.q.define(id, definition, scale=self.m if row(id).kind == gears_ids.LENGTH else 1.0)
 
     def enter_data(self, rack: Rack, teeth: tuple[int, int]) -> None:
         """Module, numbers of teeth and basic rack."""
@@ -226,9 +176,6 @@ def sum_of_shifts(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> f
     return made.q.si("gears.x_sum") if made.q.si("gears.alpha_w") > 0 else math.nan
 
 
-def named(quantity: str, wheel: int) -> tuple[str, Symbol, str]:
-    """Id, symbol and kind of a quantity of the pair (0) or of a wheel."""
-    if not wheel:
-        return (f"gears.{quantity}", *PAIR[quantity])
-    symbol, kind = WHEEL[quantity]
-    return ids.gear(quantity, wheel), replace(symbol, sub=f"{symbol.sub}{wheel}"), kind
+def named(quantity: str, wheel: int) -> str:
+    """The id of a quantity of the pair (0) or of a wheel."""
+    return gears_ids.of_wheel(quantity, wheel) if wheel else f"gears.{quantity}"

@@ -14,9 +14,9 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula import ids
 from reportgen.formula.constructions import Value
 from reportgen.formula.model import model
+from reportgen.gears import gears_ids
 from reportgen.gears.formulas import Rack, pair_sheet
 
 Floats = np.ndarray
@@ -48,8 +48,8 @@ class Wheel:
     def _of(self, *wanted: str, d_a: Value) -> list[Value]:
         """Quantities of a wheel by the formulas of a pair, with tips turned to the diameter `d_a` (m)."""
         sheet = pair_sheet(self.rack, self.m, (self.z, self.z))
-        names = [ids.gear(one, 1) for one in wanted]
-        found = model(sheet, names, **{ids.gear("x", 1): self.x, ids.gear("d_a", 1): d_a})
+        names = [gears_ids.of_wheel(one, 1) for one in wanted]
+        found = model(sheet, names, **{gears_ids.of_wheel("x", 1): self.x, gears_ids.of_wheel("d_a", 1): d_a})
         return [found[name] for name in names]
 
     @cached_property

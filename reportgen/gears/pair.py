@@ -12,10 +12,10 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula import ids
 from reportgen.formula.constructions import Value
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
+from reportgen.gears import gears_ids
 from reportgen.gears.formulas import WHEELS, Rack, pair_sheet, sum_of_shifts
 from reportgen.gears.involute import Floats, Wheel, crossing
 
@@ -27,7 +27,7 @@ COMMON = (
     "gears.alpha_w",
     "gears.dy",
     "gears.g",
-    *(ids.gear(one, wheel) for one in ("alpha_a", "rho_p") for wheel in WHEELS),
+    *(gears_ids.of_wheel(one, wheel) for one in ("alpha_a", "rho_p") for wheel in WHEELS),
 )
 """What nearly all quantities of a pair stand on."""
 LARGEST = 1.5
@@ -86,7 +86,7 @@ class GearPair:
     @cached_property
     def _known(self) -> dict[str, Value]:
         """What has been worked out so far, by its id; from the beginning what nearly all the rest stands on."""
-        shifts = {ids.gear("x", wheel): x for wheel, x in zip(WHEELS, self.x, strict=True)}
+        shifts = {gears_ids.of_wheel("x", wheel): x for wheel, x in zip(WHEELS, self.x, strict=True)}
         return shifts | model(self.sheet, COMMON, **shifts)
 
     @property
@@ -104,7 +104,9 @@ class GearPair:
     def at(self, quantity: str, **at: float) -> Floats:
         """A quantity with others in place of the sheet's own."""
         sheet, of_pair = self.sheet, f"gears.{quantity}"
-        wanted = (of_pair,) if of_pair in sheet.families else tuple(ids.gear(quantity, wheel) for wheel in WHEELS)
+        wanted = (
+            (of_pair,) if of_pair in sheet.families else tuple(gears_ids.of_wheel(quantity, wheel) for wheel in WHEELS)
+        )
         taken = {f"gears.{name}": value for name, value in at.items()}
         found = model(sheet, wanted, **self._known, **taken)
         if not at:
@@ -175,8 +177,8 @@ def balanced(pair: GearPair, total: float) -> Floats:
         λ1, λ2 = np.where(shifted["rho_p"] > 0, shifted.sliding, np.nan)
         return np.asarray(λ1 - λ2)
 
-    found = unlike(first)
-    [crossings] = np.nonzero((found[:-1] <= 0) & (found[1:] > 0))
+    differences = unlike(first)
+    [crossings] = np.nonzero((differences[:-1] <= 0) & (differences[1:] > 0))
     if not crossings.size:
         raise NoPairError("gear-no-balance")
     k = int(crossings[0])
@@ -230,15 +232,15 @@ class Chosen:
 
 
 def choose(
-    blank: GearPair, limits: PairLimits, rule: str, a_w: float | None, told: tuple[float, float | None] | None
+    blank: GearPair, limits: PairLimits, rule: str, a_w: float | None, given_shifts: tuple[float, float | None] | None
 ) -> Chosen:
     """The shifts of a pair by a rule, in hundredths unless a centre distance (m) decides.
 
     Raises `NoPairError` where there are none.
     """
     total = None if a_w is None else sum_for(blank.rack, blank.m, blank.teeth, a_w)
-    if told is not None:
-        first, second = told[0], told[1] or 0.0
+    if given_shifts is not None:
+        first, second = given_shifts[0], given_shifts[1] or 0.0
     elif rule == "x_min":
         first, second = map(float, least_shifts(blank))
     elif total is None:

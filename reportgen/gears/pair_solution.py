@@ -11,30 +11,32 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula import PI, Expression, Operand, Ref, ids, refs, tan
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
+from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
-from reportgen.gears.formulas import WHEEL, WHEELS, PairFormulas
+from reportgen.gears import gears_ids
+from reportgen.gears.formulas import WHEELS, PairFormulas, named
 from reportgen.gears.pair import Chosen, GearPair, PairLimits
-from reportgen.report.case import LoadedAssignment, Misconceptions, with_another
+from reportgen.report.case import Misconceptions, with_another
+from reportgen.report.design import DesignCase
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
-ALIKE = tuple(one for one in WHEEL if one not in ("z", "x", "rho"))
-"""What both wheels have with as many decimals; ρ₂ = g − ρ₁ goes on from that of the other one."""
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
 """What the report sets out of the pair in mesh,"""
 DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
 """of each wheel,"""
 OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("rho_f",), "sliding": ("rho", "lambda")}
 """and of both wheels together."""
+ALIKE = ("x_min", *DIMENSIONS, "rho_a", "rho_p", "rho_f", "lambda")
+"""What both wheels have with as many decimals; ρ₂ = g − ρ₁ goes on from that of the other one."""
 
 
 @dataclass(frozen=True)
-class SolvedPair(LoadedAssignment):
+class SolvedPair(DesignCase):
     """An assignment of a gear pair with its ledger; each part is computed when it is first asked for."""
+
+    SAME = tuple(tuple(gears_ids.of_wheel(one, wheel) for wheel in WHEELS) for one in ALIKE)
 
     @cached_property
     def chosen(self) -> Chosen:
@@ -48,22 +50,6 @@ class SolvedPair(LoadedAssignment):
     @cached_property
     def sheet(self) -> Sheet:
         return PairSheet(self.chosen).q
-
-    @cached_property
-    def ledger(self) -> Ledger:
-        sheet = self.sheet
-        units, alike = self.words["units"], tuple(tuple(ids.gear(one, wheel) for wheel in WHEELS) for one in ALIKE)
-        made = Ledger(sheet.families, sheet.positions, units=units, same=alike, lines=sheet.lines)
-        return made.in_language(self.words["symbols"])
-
-    @cached_property
-    def printed(self) -> Ledger:
-        return carried(self.ledger)
-
-    @property
-    def count(self) -> int:
-        """The points of the path."""
-        return POINTS
 
     @property
     def worked(self) -> tuple[int, ...]:
@@ -102,10 +88,10 @@ class PairSheet(PairFormulas):
     def set_out(self) -> None:
         self.q.set_out("mesh", *(f"gears.{one}" for one in MESH))
         for name, wheel in zip(("pinion", "wheel"), WHEELS, strict=True):
-            self.q.set_out(name, *(ids.gear(one, wheel) for one in DIMENSIONS))
+            self.q.set_out(name, *(gears_ids.of_wheel(one, wheel) for one in DIMENSIONS))
         self.q.set_out("contact", "gears.epsilon", "gears.g", "gears.g_a")
         for name, among in OF_BOTH.items():
-            self.q.set_out(name, *(ids.gear(one, wheel) for one in among for wheel in WHEELS))
+            self.q.set_out(name, *(gears_ids.of_wheel(one, wheel) for one in among for wheel in WHEELS))
 
 
 # --- what is often done in place of it --------------------------------------------------------------
@@ -114,7 +100,7 @@ class PairSheet(PairFormulas):
 def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
     """Definitions that are often used in place of the right ones."""
     found: dict[str, list[tuple[str, Expression]]] = {}
-    angles = {"gears.inv": "gears.alpha", **{ids.gear("inv_a", wheel): ids.gear("alpha_a", wheel) for wheel in WHEELS}}
+    angles = {named("inv", 0): named("alpha", 0), **{named("inv_a", one): named("alpha_a", one) for one in WHEELS}}
     if "gears.alpha_w" in refs(sheet.families["gears.inv_w"].definition or Ref("")):
         angles["gears.inv_w"] = "gears.alpha_w"
     for id, angle in angles.items():
@@ -124,7 +110,7 @@ def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
         ("gear-ratio", "gears.u", 1 / Ref("gears.u")),
     ]
     for wheel in WHEELS:
-        x, d, d_b = (ids.gear(one, wheel) for one in ("x", "d", "d_b"))
+        x, d, d_b = (gears_ids.of_wheel(one, wheel) for one in ("x", "d", "d_b"))
         taken += [("gear-shift-sign", x, -Ref(x)), ("gear-base-circle", d_b, Ref(d))]
     taken.append(("gear-truncation", "gears.dy", 0.0))
     for name, id, other in taken:
@@ -136,11 +122,11 @@ def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
 def _ways(follows: bool) -> Mapping[str, list[Expression]]:
     """Other ways to what a student may as well have from the centre distance and the radii of curvature."""
     a, a_w, m, g, p_b = (Ref(f"gears.{one}") for one in ("a", "a_w", "m", "g", "p_b"))
-    z1, z2 = (Ref(ids.gear("z", wheel)) for wheel in WHEELS)
-    path = Ref(ids.gear("rho_a", 1)) + Ref(ids.gear("rho_a", 2)) - g
+    z1, z2 = (Ref(gears_ids.of_wheel("z", wheel)) for wheel in WHEELS)
+    path = Ref(gears_ids.of_wheel("rho_a", 1)) + Ref(gears_ids.of_wheel("rho_a", 2)) - g
     found: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
     if not follows:
         found["gears.y"] = [(a_w - a) / m]
     for wheel, z in zip(WHEELS, (z1, z2), strict=True):
-        found[ids.gear("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
+        found[gears_ids.of_wheel("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
     return found

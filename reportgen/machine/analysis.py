@@ -115,9 +115,9 @@ def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
 
 def breaks(machine: Machine) -> np.ndarray:
     """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
-    found = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
+    corners = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
-    return np.array(sorted(set(np.mod(found, whole).round(13).tolist())))
+    return np.array(sorted(set(np.mod(corners, whole).round(13).tolist())))
 
 
 def _work(machine: Machine) -> float:

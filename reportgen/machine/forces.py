@@ -261,12 +261,12 @@ def _balance(dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mappin
             known[row : row + 3] += _components(wrench, pole, length, -1.0)
     matrix[:, :, ~valid] = np.eye(6)[:, :, None]
     known[:, ~valid] = np.nan
-    found = np.linalg.solve(np.moveaxis(matrix, 2, 0), known.T[:, :, None])[:, :, 0].T
+    reactions = np.linalg.solve(np.moveaxis(matrix, 2, 0), known.T[:, :, None])[:, :, 0].T
     return [
         _Wrench(
-            first.force * found[2 * k] + second.force * found[2 * k + 1],
+            first.force * reactions[2 * k] + second.force * reactions[2 * k + 1],
             first.point,
-            first.couple * found[2 * k] + second.couple * found[2 * k + 1],
+            first.couple * reactions[2 * k] + second.couple * reactions[2 * k + 1],
         )
         for k, (first, second) in enumerate(zip(columns[::2], columns[1::2], strict=True))
     ]

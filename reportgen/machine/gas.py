@@ -159,8 +159,8 @@ class StrokeIndicator:
         high = np.repeat(edges[1:], inner.size)
         wanted = np.tile(inner, starts.size)
         outward = np.repeat(np.asarray(OUTWARD), inner.size)
-        found = crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
-        return tuple(sorted({*edges.tolist(), *found.tolist()}))
+        bends = crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
+        return tuple(sorted({*edges.tolist(), *bends.tolist()}))
 
     def work(self, area: float, stroke: float) -> float:
         """Indicated work of one cylinder per cycle (J), W = A H Σ ±∫ p d(s/H), exact for the table.
@@ -264,22 +264,22 @@ def crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Fl
     both ends, and its error falls with the square of the step before.
     """
     below, above = rise(low), rise(high)
-    found = low
+    root_at = low
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         between = rise(middle)
         root = np.sqrt(np.maximum(between**2 - below * above, 0.0))
-        way = np.divide(between, root, out=np.zeros_like(root), where=root > 0)
-        before, found = found, middle - (middle - low) * way
-        there = rise(found)
-        if np.all(np.abs(found - before) <= SETTLED):
+        step = np.divide(between, root, out=np.zeros_like(root), where=root > 0)
+        before, root_at = root_at, middle - (middle - low) * step
+        there = rise(root_at)
+        if np.all(np.abs(root_at - before) <= SETTLED):
             break
-        for angle, value in ((middle, between), (found, there)):
+        for angle, value in ((middle, between), (root_at, there)):
             short = (value < 0) & (angle > low)
             low, below = np.where(short, angle, low), np.where(short, value, below)
             past = (value >= 0) & (angle < high)
             high, above = np.where(past, angle, high), np.where(past, value, above)
-    return found
+    return root_at
 
 
 def _rising(nodes: tuple[float, ...], first: float, last: float) -> None:

@@ -127,8 +127,8 @@ def _stroke(q: Sheet, piston: Piston) -> Ref:
     """The stroke of a piston: H as given, or with five figures as its dead centres are found."""
     if "H" in q and abs(q.si("H") - piston.stroke) <= ZERO * piston.stroke:
         return q["H"]
-    found = rounded(piston.stroke, significant_decimals(piston.stroke, KINDS["length"].digits))
-    return q.give(ids.stroke(piston.link), found, Symbol("H", str(piston.link)), "length", hidden=True)
+    stroke = rounded(piston.stroke, significant_decimals(piston.stroke, KINDS["length"].digits))
+    return q.give(ids.stroke(piston.link), stroke, Symbol("H", str(piston.link)), "length", hidden=True)
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
@@ -141,10 +141,10 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
         for reach in (rod + crank, rod - crank):
             line = q[ids.guide_place(link)], q[ids.guide(link)], float(dyad.sign)
             stop = circle_line(q[ids.place(driver.centre)], reach, *line)
-            way = abs((q[ids.place(dyad.middle)] - stop) * (q["mu.l"] / q["drawing"]))
-            found = evaluate(way, {name: family.values for name, family in q.families.items()})
-            if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
-                q.define(id, way, scale=stroke)
+            displacement = abs((q[ids.place(dyad.middle)] - stop) * (q["mu.l"] / q["drawing"]))
+            measured = evaluate(displacement, {name: family.values for name, family in q.families.items()})
+            if np.allclose(measured, values, rtol=0, atol=ZERO * stroke):
+                q.define(id, displacement, scale=stroke)
                 return
     drawn = q.give(
         ids.displacement_on_paper(link), values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True
@@ -160,8 +160,8 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
             continue
         course = force.law.read_along
         if course is not None:
-            way = course.fraction(analysis.motion) * course.stroke
-            _way(q, machine.linkage, force.link, way, course.stroke)
+            displacements = course.fraction(analysis.motion) * course.stroke
+            _way(q, machine.linkage, force.link, displacements, course.stroke)
         if force.name in analysis.gas:
             state = analysis.gas[force.name]
             q.give(ids.pressure(force.link), state.pressure, exact=False, written=_between_nodes(q, state))
@@ -190,7 +190,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
-    way = q["span"] if machine.span else 2.0 * machine.turns * PI
+    angle = q["span"] if machine.span else 2.0 * machine.turns * PI
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
     largest = call("highest", call("abs", q["M.eq"]))
@@ -211,7 +211,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
         q.give(id, extreme, Symbol(letter, index), kind, exact=False, scale=size, written=line)
     work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
     q.define("power", size_of(mean) * rate)
-    q.define("M.energy", work / way, Symbol(letter, "W"), kind)
+    q.define("M.energy", work / angle, Symbol(letter, "W"), kind)
 
 
 def _without_dust(value: float, size: float) -> float:
@@ -310,9 +310,9 @@ def _with_rest(
     scale: float = 0.0,
 ) -> Ref:
     """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
-    found = q.construct(ids.rule(id), by_rule)
-    rest = q.give(ids.rest(id), np.asarray(values) - q.value(found), Symbol(id), "ratio", hidden=True)
-    return q.define(id, call("re", found + rest), symbol, kind, scale=scale)
+    by_rule_alone = q.construct(ids.rule(id), by_rule)
+    rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)
+    return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

@@ -281,8 +281,8 @@ class Edge:
     @property
     def part(self) -> str:
         """The component of a reaction, n or t, "" for a whole force."""
-        found = ids.reaction_force.read(self.name)
-        return found["part"] if found else ""
+        read = ids.reaction_force.read(self.name)
+        return read["part"] if read else ""
 
 
 @dataclass(frozen=True, slots=True)
