@@ -50,8 +50,12 @@ SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
 """What looks for names, one after the other."""
 
 
+@np.errstate(all="ignore")
 def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
-    """The verdicts on a submission; `classmates` are those that none of its values should come from."""
+    """The verdicts on a submission; `classmates` are those that none of its values should come from.
+
+    A sheet may hold any number, 0 or 10³⁰⁸: what comes to no number by it is the value of nothing.
+    """
     if scheme.parts:
         sheets = sheets_of(scheme, submission, classmates)
         return joined(
