@@ -17,7 +17,7 @@ from reportgen.formula import Call, Expression, Negative, Sum, rebuild, refs, wa
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.formula.sheet import Family
-from reportgen.marking.bands import is_direction
+from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Values, Verdict
 from reportgen.marking.working import Change, Working
 from reportgen.report.key import Role
@@ -83,13 +83,13 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
-    for name, other in scheme.pitfalls.changed.get(id, ()):
+    for name, other in scheme.misconceptions.changed.get(id, ()):
         yield name, _with(other, {})
     if family.definition is not None:
         yield from _in_a_definition(scheme, family, family.definition, scales)
-    for name, reading in scheme.pitfalls.readings.get(id, ()):
+    for name, reading in scheme.misconceptions.readings.get(id, ()):
         yield name, _replaced_by(reading)
-    if (rod := scheme.pitfalls.whole.get(id)) is not None:
+    if (rod := scheme.misconceptions.whole.get(id)) is not None:
         yield "wrong-end", lambda value, values: values[rod] - value
     if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi
@@ -262,7 +262,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *(
             ("too-few-figures", place)
             for place, cell in first.items()
-            if _has_too_few_figures(cell) and not _is_by_a_pitfall(working, place)
+            if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place)
         ),
         # A scale was taken from the task while the plan was drawn at another.
         *(
@@ -291,13 +291,13 @@ def _has_too_few_figures(cell: Marked) -> bool:
     )
 
 
-def _is_by_a_pitfall(working: Working, place: Place) -> bool:
-    """Whether a mistake known of the quantity gives the value in all its figures: a_w = a of 200 mm is not rounded."""
+def _comes_of_a_misconception(working: Working, place: Place) -> bool:
+    """Whether a mistake known of the quantity gives the value to three figures: a_w = a of 200 mm is not rounded."""
     (id, position), scheme = place, working.scheme
-    known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.pitfalls.changed.get(id, ())]
+    known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]
     index = scheme.rows[id].at(position)
-    values = foreseen(working, [id], known)[id][:, index]
-    return bool(np.isclose(values, working.values[id][index], rtol=1e-9).any())
+    values, given = foreseen(working, [id], known)[id][:, index], working.values[id][index]
+    return bool((np.abs(values - given) <= half_unit(given, FEW_FIGURES + 1)).any())
 
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:

@@ -128,6 +128,11 @@ def test_a_round_value_of_a_mistake_is_no_rounded_one(tmp_path: Path) -> None:
     assert float(f"{right['gears.a_w'][0] * 1e3:.2g}") == 200
     (first,) = mark(scheme, students.written(scheme, {**right, "gears.a_w": right["gears.a"]})).first_errors
     assert (first.id, first.mistake) == ("gears.a_w", "gear-standard-angle")
+    # So is d_w = d of 70 mm, which comes to 70.02 mm from d_b in three figures.
+    scheme = marking_scheme(open_case(FOLDER / "pair-least-shift.yaml", "en"))
+    right = students.worked_out(scheme)
+    (first,) = mark(scheme, students.written(scheme, {**right, "gears.d_w.1": right["gears.d.1"]})).first_errors
+    assert (first.id, first.mistake) == ("gears.d_w.1", "gear-standard-angle")
 
 
 def test_other_ways_to_a_value_are_as_right() -> None:
@@ -163,7 +168,7 @@ def test_another_way_stands_on_nothing_that_stands_on_its_result() -> None:
     """Else a wrong value would follow from what was worked out from it."""
     for name in ("pair-equal-sliding", "pair-centre-distance", "pair-least-shift"):
         case = open_case(FOLDER / f"{name}.yaml", "en")
-        for id, ways in case.pitfalls.ways.items():
+        for id, ways in case.misconceptions.ways.items():
             for way in ways:
                 value = np.atleast_1d(evaluate(way, {ref: case.ledger[ref].values for ref in refs(way)}))
                 # What the ledger rounds away below 1e-9 of a module.
@@ -184,7 +189,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in ("vi", "en"):
         case = open_case(FOLDER / "pair-equal-sliding.yaml", language)
-        for name in {name for many in case.pitfalls.changed.values() for name, _ in many}:
+        for name in {name for many in case.misconceptions.changed.values() for name, _ in many}:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]
 
