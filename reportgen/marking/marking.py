@@ -196,8 +196,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
     """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
-    for problem in marking.submission.problems.values():
-        yield str(problem)
+    yield from map(str, (*marking.submission.problems.values(), *marking.submission.notes))
     counted = Counter(cell.verdict for cell in marking.cells)
     for cell in marking.first_errors:
         given = marking.submission.values[(cell.id, cell.position)]
