@@ -85,9 +85,9 @@ def result_files(
 
     assignment = load(path, language)
     wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).counts_positions else None)
-    found = solve(assignment, wanted)
-    files = {f"results.{name}": result_file(found, name) for name in formats}
-    parts = found.get("parts", {}) if "csv" in formats else {}
+    results = solve(assignment, wanted)
+    files = {f"results.{name}": result_file(results, name) for name in formats}
+    parts = results.get("parts", {}) if "csv" in formats else {}
     return files | {f"results-{part}.csv": result_file(one, "csv") for part, one in parts.items()}
 
 
@@ -208,8 +208,8 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
     own = None
     if look is not None and look.exists():
-        found = read_letterhead(look, tree.language)
-        own = Own(found.styles, found.header, found.footer, found.margins)
+        letterhead = read_letterhead(look, tree.language)
+        own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
     drawn = partial(typst.pictures, language=tree.language)
     return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
 

@@ -21,7 +21,7 @@ from reportgen.base.units import Language
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.loads import STEPS
+from reportgen.machine.laws import STEPS
 from reportgen.report import Block, Document, Paragraph, Strong, Text
 from reportgen.report.case import AskedFor, Case, MachineAnalysis, Misconceptions
 from reportgen.report.equations import heading_words
@@ -213,27 +213,27 @@ def _finite(analysis: Analysis) -> bool:
 
 def _wrong_readings(analysis: Analysis) -> Mapping[str, list[tuple[str, np.ndarray]]]:
     """The pressure of another piston, or of another stroke at the piston's own place."""
-    found: dict[str, list[tuple[str, np.ndarray]]] = {}
+    readings: dict[str, list[tuple[str, np.ndarray]]] = {}
     for here in analysis.gas.values():
         piston = here.piston
         others = [("other-piston", state.pressure) for state in analysis.gas.values() if state is not here]
         strokes = (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle)
         table = piston.law.table
-        found[ids.pressure(piston.link)] = others + [
+        readings[ids.pressure(piston.link)] = others + [
             ("wrong-stroke", table.pressure(angle, here.fraction, piston.dead_centres)) for angle in strokes
         ]
-    return found
+    return readings
 
 
 def _whole_rods(machine: Machine, entered: tuple[str, ...]) -> Mapping[str, str]:
     """The length of the rod on which `l.AS2` places a mass centre; of those `entered`, one before it."""
     centres = {body.centre for body in machine.linkage.inertias}
-    found: dict[str, str] = {}
+    rods: dict[str, str] = {}
     for dyad in machine.linkage.dyads:
         for end in (dyad.start, dyad.end):
             names = {ids.length(end, dyad.middle), ids.length(dyad.middle, end)}
             for id in (ids.length(end, centre) for centre in centres):
                 rod = next((name for name in takewhile(id.__ne__, entered) if name in names), "")
                 if id in entered and rod:
-                    found.setdefault(id, rod)
-    return found
+                    rods.setdefault(id, rod)
+    return rods

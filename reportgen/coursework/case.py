@@ -193,23 +193,23 @@ class Coursework(CaseOfParts):
         Keys and answer sheets need them too, and do without the machine's report.
         """
         used: set[Symbol] = set()
-        found: dict[str, Letters] = {}
+        letters_of_parts: dict[str, Letters] = {}
         for before, member in pairwise((self.first, *self.members)):
-            letters = found.get(before.name, {})
+            letters = letters_of_parts.get(before.name, {})
             used.update(letters.get(symbol, symbol) for symbol in before.used)
             same = {self._taken_symbols(member, datum)[0] for datum in member.part.taken if datum.times == "1"}
             quantities = {one.symbol for one in member.case.printed.families.values() if not one.hidden} - same
             letters = letters_of(sorted(quantities, key=str), used, member.index)
-            found[member.name] = letters
-        return found
+            letters_of_parts[member.name] = letters
+        return letters_of_parts
 
     def _points(self, member: PartCase) -> list[Symbol]:
         """Those among the points of a part whose names an earlier part has for something else."""
         earlier = takewhile(lambda one: one is not member, (self.first, *self.members))
         taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
         own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
-        found = set(nodes(member.document.blocks, Symbol)) - own
-        return sorted((one for one in found & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
+        points = set(nodes(member.document.blocks, Symbol)) - own
+        return sorted((one for one in points & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
 
     @cached_property
     def documents(self) -> Mapping[str, Document]:
@@ -227,9 +227,11 @@ class Coursework(CaseOfParts):
         unit = str(self.machine.printed.units.get("rpm", "rpm"))
         parts = [
             PartShafts(
-                one.title, one.case.shafts, {datum.key: datum.of for datum in one.part.taken if datum.times == "1"}
+                member.title,
+                member.case.shafts,
+                {datum.key: datum.of for datum in member.part.taken if datum.times == "1"},
             )
-            for one in self.members
+            for member in self.members
         ]
         for driver in self.machine.shafts[:1]:
             yield from senses.told(driver, parts, self.words, unit)
@@ -289,11 +291,11 @@ class Coursework(CaseOfParts):
                 unit = ledger.units.get(family.how.unit, family.how.unit)
                 shown = letters.get(family.symbol, family.symbol)
                 alike.setdefault((_NUMBER.sub("", meaning), unit), {}).setdefault(shown, meaning)
-        for (_, unit), found in alike.items():
-            meanings = list(dict.fromkeys(found.values()))
+        for (_, unit), symbols in alike.items():
+            meanings = list(dict.fromkeys(symbols.values()))
             numbers = ", ".join(number[0] for one in meanings if (number := _NUMBER.search(one)))
             meaning = _NUMBER.sub(numbers, meanings[0]) if len(meanings) > 1 else meanings[0]
-            yield listed(map(InlineMath, found)), (Text(capitalised(meaning)),), (Text(unit or "–"),)
+            yield listed(map(InlineMath, symbols)), (Text(capitalised(meaning)),), (Text(unit or "–"),)
 
     def joined_key(self, keys: Sequence[Key]) -> Key:
         machine, *others = keys
@@ -341,14 +343,14 @@ class Coursework(CaseOfParts):
     def joined_plates(self) -> Mapping[str, Sequence[DrawingPlate]]:
         """One set, called by what it shows; of several parts of a kind each plate says which it is of."""
         titles: list[str] = []
-        found: list[DrawingPlate] = []
+        plates_of_parts: list[DrawingPlate] = []
         for member in self.members:
             alike = sum(one.part.head == member.part.head for one in self.members)
             for name, plates in member.case.plates().items():
                 title = str(member.case.words["plates"]["sets"][name])
                 titles.append(title[:1].lower() + title[1:])
-                found += [self._of_part(plate, member, alike > 1) for plate in plates]
-        return {capitalised("; ".join(dict.fromkeys(titles))): found}
+                plates_of_parts += [self._of_part(plate, member, alike > 1) for plate in plates]
+        return {capitalised("; ".join(dict.fromkeys(titles))): plates_of_parts}
 
     def _of_part(self, plate: DrawingPlate, member: PartCase, named: bool) -> DrawingPlate:
         lines = (member.title,) if named else ()
@@ -357,7 +359,9 @@ class Coursework(CaseOfParts):
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         return [
-            relettered(one, self.letters[member.name]) for member in self.members for one in member.case.true_sizes()
+            relettered(sheet, self.letters[member.name])
+            for member in self.members
+            for sheet in member.case.true_sizes()
         ]
 
 
@@ -391,10 +395,10 @@ def _letters(name: str) -> str:
 
 def _typed(assignment: Assignment, key: str) -> float | None:
     """The value of a parameter in SI units."""
-    found: Any = assignment.parameters
+    parameter: Any = assignment.parameters
     for step in key.split("."):
-        found = getattr(found, step, None)
-    value = getattr(found, "si", found)
+        parameter = getattr(parameter, step, None)
+    value = getattr(parameter, "si", parameter)
     return float(value) if isinstance(value, (int, float)) else None
 
 

@@ -102,9 +102,9 @@ class ExerciseCase(SolvedExercise):
         words = self.words["instant"]
         drawn = {what: FIGURES[what](self, ENLARGED) for what in ("velocity", "acceleration")}
         plates = [
-            DrawingPlate(words[what], (found[1],) if found[1] else (), what, (lettered(found[0]),))
-            for what, found in drawn.items()
-            if found
+            DrawingPlate(words[what], (drawn_at[1],) if drawn_at[1] else (), what, (lettered(drawn_at[0]),))
+            for what, drawn_at in drawn.items()
+            if drawn_at
         ]
         return {"motion": plates}
 
@@ -235,14 +235,14 @@ class SolutionPage(Solution):
         """The bodies of the system, the ground if it has a disc."""
         return tuple(self._body(number, one) for number, one in self.case.exercise.given.bodies.items())
 
-    def _body(self, number: int, one: file.BodyOf) -> BodyItem:
-        name, points = self._called(number), listed(InlineMath(vocabulary.point(name)) for name in one.points)
-        if one.disc is None:
+    def _body(self, number: int, declared: file.BodyOf) -> BodyItem:
+        name, points = self._called(number), listed(InlineMath(vocabulary.point(name)) for name in declared.points)
+        if declared.disc is None:
             return BodyItem(name, points)
-        given = one.disc.radius
+        given = declared.disc.radius
         number_typed = Number(float(f"{given.value:.{TYPED}g}"), None, pretty(given.unit))
         radius = lettered(given.formula) if isinstance(given, Literal) else number_typed
-        return BodyItem(name, points, NamedPoint(one.disc.centre), radius)
+        return BodyItem(name, points, NamedPoint(declared.disc.centre), radius)
 
     def _called(self, body: int) -> str:
         words = self.case.words["instant"]
@@ -254,8 +254,8 @@ class SolutionPage(Solution):
         return tuple(self._joint(one) for one in self.case.exercise.given.joints)
 
     def _joint(self, joint: file.Joint) -> JointItem:
-        told = joint.model_dump(include={"at", "point", "through"}, exclude_none=True)
-        points = [NamedPoint(name) for name in (*told.values(), *getattr(joint, "points", ()))]
+        named = joint.model_dump(include={"at", "point", "through"}, exclude_none=True)
+        points = [NamedPoint(name) for name in (*named.values(), *getattr(joint, "points", ()))]
         numbers = [getattr(joint, key) for key in ("body", "disc", "on") if hasattr(joint, key)]
         numbers += getattr(joint, "bodies", getattr(joint, "discs", ()))
         names = list(map(self._called, numbers))
@@ -292,10 +292,10 @@ class SolutionPage(Solution):
         return GivenItem(form, NamedPoint(""), rate.body, self._typed(id, rate.value), sense)
 
     def _given_vector(self, form: str, id: str, rate: file.VelocityOf | file.AccelerationOf) -> GivenItem:
-        point, size, way = NamedPoint(rate.point), rate.size, rate.direction.si
+        point, size, angle = NamedPoint(rate.point), rate.size, rate.direction.si
         if size is None:
-            return GivenItem(f"{form}-way", point, 0, vocabulary.symbol(id), self._angle(way))
-        turned = way + (math.pi if size.si < 0 else 0.0)
+            return GivenItem(f"{form}-way", point, 0, vocabulary.symbol(id), self._angle(angle))
+        turned = angle + (math.pi if size.si < 0 else 0.0)
         return GivenItem(form, point, 0, self._typed(id, size), self._angle(turned))
 
     def _typed(self, id: str, given: Given) -> Chain:
@@ -316,8 +316,8 @@ class SolutionPage(Solution):
     def symbols(self) -> Inlines:
         """The symbols of the file with their values."""
         shown: list[Any] = []
-        for name, one in self.case.exercise.given.symbols.items():
-            value = Number(one.given.value, None, pretty(one.given.unit))
+        for name, stated in self.case.exercise.given.symbols.items():
+            value = Number(stated.given.value, None, pretty(stated.given.unit))
             shown += [*([Text(", ")] if shown else []), InlineMath(Chain((symbol(name), value)))]
         return tuple(shown)
 
@@ -337,16 +337,16 @@ class SolutionPage(Solution):
     def asked(self) -> Inlines:
         """The symbols of what is asked."""
         shown: list[Any] = []
-        for one in self.case.exercise.asked:
-            centre = one.what == "centre"
-            symbol = self._centre_symbol(one.body) if centre else self._asked_symbol(one)
+        for asked in self.case.exercise.asked:
+            centre = asked.what == "centre"
+            symbol = self._centre_symbol(asked.body) if centre else self._asked_symbol(asked)
             shown += [*([Text(", ")] if shown else []), InlineMath(symbol)]
         return tuple(shown)
 
-    def _asked_symbol(self, one: file.Asked) -> Expression:
+    def _asked_symbol(self, asked: file.Asked) -> Expression:
         """The symbol of a rate, in bars where the data leave its sense open."""
-        symbol = vocabulary.symbol(one.id)
-        return symbol if self.case.exercise.tells_sense(one) else abs(symbol)
+        symbol = vocabulary.symbol(asked.id)
+        return symbol if self.case.exercise.tells_sense(asked) else abs(symbol)
 
     def _centre_symbol(self, body: int) -> Symbol:
         return vocabulary.point(self.worked.layout.centres[body].name or "∞")
@@ -374,9 +374,9 @@ class SolutionPage(Solution):
     def _place(self, name: str) -> tuple[Inlines, Inlines]:
         """The coordinates of a point in mm, or by symbols."""
         literal = self.case.literal
-        found = None if literal is None else literal.place(name)
-        if found is not None:
-            x, y = map(lettered, found)
+        coordinates = None if literal is None else literal.place(name)
+        if coordinates is not None:
+            x, y = map(lettered, coordinates)
             return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
         at, unit = self.case.exercise.motion.system.points[name], "" if literal is None else "mm"
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
@@ -387,16 +387,18 @@ class SolutionPage(Solution):
         """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
         words, pages = self.case.words["instant"], [SolutionPage(self.case, worked) for worked in self.case.alone]
         motion, rows = self.case.exercise.motion, list[tuple[Cell, ...]]()
-        for one in self.case.exercise.asked:
-            found = [float(page.worked.ledger[one.id].values[0]) for page in pages if one.id in page.worked.ledger]
+        for asked in self.case.exercise.asked:
+            sizes = [float(page.worked.ledger[asked.id].values[0]) for page in pages if asked.id in page.worked.ledger]
             ledgers = [page.worked.printed for page in pages]
-            if one.what not in ("v", "omega"):
+            if asked.what not in ("v", "omega"):
                 continue
-            scale = motion.fastest / (motion.size if one.of_body else 1.0)
-            if found and max(found) - min(found) > METHODS_AGREE * scale:
-                raise ValueError(f"methods disagree on {one.id}: {found}")
-            shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
-            rows.append((Cell((InlineMath(vocabulary.symbol(one.id)),)), *map(Cell, shown)))
+            scale = motion.fastest / (motion.size if asked.of_body else 1.0)
+            if sizes and max(sizes) - min(sizes) > METHODS_AGREE * scale:
+                raise ValueError(f"methods disagree on {asked.id}: {sizes}")
+            shown = [
+                (Value(ledger.number(asked.id, AT)),) if asked.id in ledger else (Text("–"),) for ledger in ledgers
+            ]
+            rows.append((Cell((InlineMath(vocabulary.symbol(asked.id)),)), *map(Cell, shown)))
         head = (words["quantity"], *(page.method for page in pages))
         columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
         heads = tuple(Cell((Text(str(text)),)) for text in head)
@@ -424,18 +426,18 @@ class SolutionPage(Solution):
 
     def _answer_rows(self) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
         ledger, motion = self.worked.printed, self.case.exercise.motion
-        for one in self.case.exercise.asked:
-            if one.what == "centre":
-                yield self._centre_row(one.body)
+        for asked in self.case.exercise.asked:
+            if asked.what == "centre":
+                yield self._centre_row(asked.body)
                 continue
-            symbol = (InlineMath(self._asked_symbol(one)),)
-            number, shown = ledger.number(one.id, AT), self._literal(one.id)
+            symbol = (InlineMath(self._asked_symbol(asked)),)
+            number, shown = ledger.number(asked.id, AT), self._literal(asked.id)
             size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
-            if one.of_body:
-                sense = self._sense(motion.turn(one.what, one.body), self.case.exercise.tells_sense(one))
+            if asked.of_body:
+                sense = self._sense(motion.turn(asked.what, asked.body), self.case.exercise.tells_sense(asked))
                 yield symbol, size, (Text(sense),)
             else:
-                vector = motion.v(one.of) if one.what == "v" else motion.a(one.of)
+                vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
                 degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0 if vector else 0.0
                 angle = (Text(f"{self._towards(vector)} ("), Value(Number(degrees, None, "°")), Text(")"))
                 yield symbol, size, angle if vector else (Text("–"),)

@@ -77,8 +77,8 @@ class Name:
         # Most families begin otherwise: their patterns need not even be compiled.
         if not id.startswith(self._beginning):
             return None
-        found = self._pattern.fullmatch(id)
-        return None if found is None else {name: text or "" for name, text in found.groupdict().items()}
+        matched = self._pattern.fullmatch(id)
+        return None if matched is None else {name: text or "" for name, text in matched.groupdict().items()}
 
     def __contains__(self, id: str) -> bool:
         return id.startswith(self._beginning) and self._pattern.fullmatch(id) is not None
@@ -272,15 +272,15 @@ reaction_force = Name("R{joint}[.{part}]")
 relative_corner = Name("{part}.{relative}")
 
 
-def joint(one: int, other: int) -> str:
+def joint(acting: int, acted_on: int) -> str:
     """The digits of the force of one link on another: 12, or 1,12 with long numbers."""
-    return f"{one}{other}" if max(one, other) < 10 else f"{one},{other}"
+    return f"{acting}{acted_on}" if max(acting, acted_on) < 10 else f"{acting},{acted_on}"
 
 
 def linked(joint: str) -> tuple[str, str]:
     """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
-    one, other = joint.split(",") if "," in joint else tuple(joint)
-    return one, other
+    acting, acted_on = joint.split(",") if "," in joint else tuple(joint)
+    return acting, acted_on
 
 
 def links_of(reaction: str) -> tuple[int, int]:
@@ -298,5 +298,5 @@ def points(named: str) -> list[str]:
 
 def of_force(name: str) -> str:
     """The id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
-    found = reaction_force.read(name)
-    return name if found is None else reaction.of(found)
+    names = reaction_force.read(name)
+    return name if names is None else reaction.of(names)

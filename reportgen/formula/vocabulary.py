@@ -148,9 +148,9 @@ def numbered(index: str) -> list[tuple[str, str]]:
 
 def segment(first: Symbol | str, second: Symbol | str) -> Symbol:
     """A length between two points of a drawing: a bar over both letters, e.g. over p b or O₁A."""
-    one = first if isinstance(first, Symbol) else Symbol(first)
+    start = first if isinstance(first, Symbol) else Symbol(first)
     two = second if isinstance(second, Symbol) else Symbol(second)
-    return Symbol(one.base + lowered(one.sub) + one.sup + two.base, two.sub, two.sup, "segment")
+    return Symbol(start.base + lowered(start.sub) + start.sup + two.base, two.sub, two.sup, "segment")
 
 
 def drawn_length(first: str, second: str) -> Symbol:
@@ -365,11 +365,11 @@ def symbol(id: str) -> Symbol:
 
     Raises `KeyError` for an id that no row gives a letter.
     """
-    found, words = _found(id)
-    if not found.letter:
+    family, words = _found(id)
+    if not family.letter:
         raise KeyError(f"no letter for {id}")
     part = words.get("part", "")
-    return Symbol(found.letter.format(**words), found.index(words), found.above or _PRINTED.get(part, part))
+    return Symbol(family.letter.format(**words), family.index(words), family.above or _PRINTED.get(part, part))
 
 
 _OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
@@ -380,16 +380,16 @@ def vector_of(id: str) -> str:
 
     seg.v.pb → v.B, seg.v.ab → v.BA, seg.a.n.BA → a.BA.n, dir.R12.n → R.12.n, h.Pqt2.B → Pqt2.
     """
-    if found := ids.segment.read(id):
-        base = "" if found["start"] == ids.POLE else found["start"]
-        return ids.POINT_RATE[found["what"]](f"{found['end']}{base}".upper())
-    if found := ids.relative_segment.read(id):
-        return ids.acceleration(found["relative"], found["part"])
-    if found := ids.direction.read(id):
-        return ids.POINT_RATE[found["what"]](found["point"])
+    if names := ids.segment.read(id):
+        base = "" if names["start"] == ids.POLE else names["start"]
+        return ids.POINT_RATE[names["what"]](f"{names['end']}{base}".upper())
+    if names := ids.relative_segment.read(id):
+        return ids.acceleration(names["relative"], names["part"])
+    if names := ids.direction.read(id):
+        return ids.POINT_RATE[names["what"]](names["point"])
     for of_force in (ids.force_segment, ids.force_direction, ids.arm, ids.lever_arm, ids.lever_moment):
-        if found := of_force.read(id):
-            return ids.of_force(found["force"])
+        if names := of_force.read(id):
+            return ids.of_force(names["force"])
     return ""
 
 
@@ -398,20 +398,22 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
 
     `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
     """
-    found, parts = _found(id)
-    index = found.index(parts)
-    points = ids.points(shown.sub if found.kind in ("velocity", "acceleration") else index)
-    link, other = ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", parts.get("wheel", index)), "")
+    family, parts = _found(id)
+    index = family.index(parts)
+    points = ids.points(shown.sub if family.kind in ("velocity", "acceleration") else index)
+    link, acted_on = (
+        ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", parts.get("wheel", index)), "")
+    )
     words = {
         "line": lowered(index),
         "link": link,
-        "other": other,
+        "other": acted_on,
         "axis": parts.get("axis", ""),
         "about": lowered(parts.get("about", "")),
         "plan": shown.sub.removeprefix("R"),
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
-    name = f"{found.name}.{parts['part']}" if found.letter and parts.get("part") else found.name.format(**parts)
+    name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 
@@ -425,8 +427,8 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
     for key, text in table.items():
         for name in key.split(", "):
             said.setdefault(name, text)
-    found, parts = _found(id)
-    named = id, f"{found.name}.{parts.get('axis', '')}", wording(id, shown)[0]
+    family, parts = _found(id)
+    named = id, f"{family.name}.{parts.get('axis', '')}", wording(id, shown)[0]
     nearest = (*(one for name in named if name for one in (f"{name}:{kind}", name)), f":{kind}")
     return (said[one] for one in nearest if one in said)
 
@@ -434,8 +436,8 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
 @lru_cache(maxsize=4096)
 def plan(id: str) -> str:
     """The id of the scale that a length on paper is measured with; "" for anything else."""
-    found, parts = _found(id)
-    return found.plan.format(**parts)
+    family, parts = _found(id)
+    return family.plan.format(**parts)
 
 
 def is_laid(id: str) -> bool:
@@ -443,7 +445,7 @@ def is_laid(id: str) -> bool:
     return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))
 
 
-def distance(id: str, one: Value, other: Value) -> Value:
+def distance(id: str, value: Value, reference: Value) -> Value:
     """How far two values (SI) of a quantity lie apart: of directions, around the circle."""
-    apart = np.abs(one - other)
-    return np.abs(np.mod(one - other + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart
+    apart = np.abs(value - reference)
+    return np.abs(np.mod(value - reference + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart

@@ -80,12 +80,12 @@ def on_sheets(
     form = read_block(block or blocks(case.assignment.school or "")[DEFAULT[language]], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
-        paper, found = _chosen(plates, form, wanted, least)
+        paper, laid_out = _chosen(plates, form, wanted, least)
     except TooLargeError as error:
         raise _fault(case, error, plates, form, wanted or USUAL[-1], redrawn) from error
     if any(plate.larger for some in plates.values() for plate in some):
-        found = laid({name: enlarged(some, paper, form) for name, some in plates.items()}, paper, form)
-    return [_sheet(case, form, paper, number, found) for number in range(1, len(found) + 1)]
+        laid_out = laid({name: enlarged(some, paper, form) for name, some in plates.items()}, paper, form)
+    return [_sheet(case, form, paper, number, laid_out) for number in range(1, len(laid_out) + 1)]
 
 
 def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> list[DrawingPlate]:
@@ -103,17 +103,17 @@ def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> li
     def larger(plate: DrawingPlate) -> DrawingPlate | None:
         return plate.larger() if plate.larger else None
 
-    found, most = list(plates), sheets(plates)
+    best, most = list(plates), sheets(plates)
     growing = {number: one for number, plate in enumerate(plates) if (one := larger(plate))}
     while growing:
         number = min(growing, key=lambda one: (growing[one].area / plates[one].area, one))
         tried = growing.pop(number)
-        with_it = [*found[:number], tried, *found[number + 1 :]]
+        with_it = [*best[:number], tried, *best[number + 1 :]]
         if sheets(with_it) <= most:
-            found = with_it
+            best = with_it
             if after := larger(tried):
                 growing[number] = after
-    return found
+    return best
 
 
 def _fault(
@@ -125,17 +125,17 @@ def _fault(
     redrawn: tuple[float, Callable[[float], Plates]] | None,
 ) -> AssignmentError:
     """Says which plate is too large, the smallest size that holds all, and the longest crank with which this does."""
-    told = {"name": error.name, "width": f"{error.width:.0f}", "height": f"{error.height:.0f}", "size": size}
+    arguments = {"name": error.name, "width": f"{error.width:.0f}", "height": f"{error.height:.0f}", "size": size}
     larger = [paper for paper in BY_SIZE[BY_SIZE.index(size) + 1 :] if _holds(plates, paper, form)]
     if larger:
-        told |= {"larger": larger[0], "hint": "larger-sheet"}
+        arguments |= {"larger": larger[0], "hint": "larger-sheet"}
     if redrawn is not None:
         length, remake = redrawn
         shorter = (math.floor(length * (1 - step / STEPS)) for step in range(1, STEPS))
         crank = next((one for one in shorter if one > 0 and _holds(remake(one), size, form)), 0)
         if crank:
-            told |= {"crank": str(crank), "hint": "larger-sheet-or-crank" if larger else "shorter-crank"}
-    findings = [Finding("plate-too-large", ("drawing", "crank"), told)]
+            arguments |= {"crank": str(crank), "hint": "larger-sheet-or-crank" if larger else "shorter-crank"}
+    findings = [Finding("plate-too-large", ("drawing", "crank"), arguments)]
     return as_error(placed(read_source(case.assignment.source), findings), case.assignment.language)
 
 
@@ -164,24 +164,24 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[
     too_large: TooLargeError | None = None
     for paper, whole in sizes:
         try:
-            found = laid(plates, paper, form)
+            laid_out = laid(plates, paper, form)
         except TooLargeError as error:
             too_large = error
         else:
-            if len(found) == len(plates) or not whole:
-                return paper, found
+            if len(laid_out) == len(plates) or not whole:
+                return paper, laid_out
     assert too_large is not None
     raise too_large
 
 
-def _sheet(case: Case, form: TitleBlock, paper: str, number: int, found: Sequence[Laid]) -> DrawingSheet:
+def _sheet(case: Case, form: TitleBlock, paper: str, number: int, laid_out: Sequence[Laid]) -> DrawingSheet:
     """One of the sheets with its frame and its title block."""
-    shown, parts = found[number - 1]
+    shown, parts = laid_out[number - 1]
     fields = fields_of(case, form, number) | {
         # A set of several works is called by its title itself.
         "title": case.words["plates"]["sets"].get(shown, shown),
         "sheet": str(number),
-        "sheets": str(len(found)),
+        "sheets": str(len(laid_out)),
         "format": paper,
     }
     return framed(parts, form, fields)

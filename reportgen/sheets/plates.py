@@ -288,8 +288,8 @@ def _table(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = 
     """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
     report = sources.report
     at = report.all_positions if cycle else report.positions
-    found = dict.fromkeys(id for columns in listed for id in columns(report))
-    shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
+    tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
+    shown = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
     parts = -(-len(at) // MOST_ROWS)
     rows = [at[len(at) * n // parts : len(at) * (n + 1) // parts] for n in range(parts)]
     head, every = _quantities(report, shown, at)
