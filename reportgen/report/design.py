@@ -112,7 +112,7 @@ class DesignPage(ABC, Generic[Designed]):
     SUMMARY: ClassVar[str]
     """The section with its main results."""
     SECTIONS: ClassVar[Sequence[str]]
-    SHORT: ClassVar[frozenset[str]]
+    SHORT: ClassVar[frozenset[str]] = frozenset()
     """The sections that a short report goes without."""
 
     @property
@@ -136,9 +136,9 @@ class DesignPage(ABC, Generic[Designed]):
         """What the task may name besides, of what is asked for."""
         return {}
 
-    @abstractmethod
     def scenes(self, name: str) -> Iterable[Scene]:
         """The drawings of a figure."""
+        raise KeyError(name)
 
     def section(self, name: str, names: Mapping[str, Any]) -> tuple[Block, ...]:
         return Prose(self.case.places).render(name, names)
