@@ -10,8 +10,9 @@ from typing import Any
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.gears import gears_ids
+from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair_drawings import mesh, region, sliding
-from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.gears.pair_solution import SolvedPair
 from reportgen.report import Block, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.report.design import DesignPage
 from reportgen.report.wording import phrase
