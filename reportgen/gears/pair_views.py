@@ -75,7 +75,7 @@ class PairPage(DesignPage[SolvedPair]):
         return vocabulary.in_language(Symbol(base, sub), self.case.words["symbols"])
 
     def quantity(self, id: str, k: int | None = None) -> Inlines:
-        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
+        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.result(id, k))
 
     def lines(self, quantities: Iterable[str], k: int | None = None) -> Equation:
         """Worked lines of those of the quantities that follow from others, as they follow from one another."""
