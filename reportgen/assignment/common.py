@@ -281,8 +281,8 @@ class AssignedPart:
 
     def within(self, whole: Assignment) -> Assignment:
         """The part as the coursework of `whole` has it: with its cover, its language and its extent."""
-        told = {key: getattr(whole.report, key) for key in whole.report.model_fields_set - {"worked_positions"}}
-        report = ReportSection.model_construct(**told)
+        settings = {key: getattr(whole.report, key) for key in whole.report.model_fields_set - {"worked_positions"}}
+        report = ReportSection.model_construct(**settings)
         return replace(self.alone, report=report, variant=whole.variant, id=whole.id, is_part=True)
 
 
@@ -428,15 +428,15 @@ def same_length(section: str, key: str, rows: Sequence[str]) -> Check:
     where = tuple(section.split("."))
 
     def check(draft: Draft) -> Iterator[Finding]:
-        found = {row: draft.at(*where, row) for row in (key, *rows)}
-        lengths = {row: len(values) for row, values in found.items() if isinstance(values, list)}
+        columns = {row: draft.at(*where, row) for row in (key, *rows)}
+        lengths = {row: len(values) for row, values in columns.items() if isinstance(values, list)}
         if not lengths:
             return
         wanted = mode(lengths.values())
-        other = next(row for row, length in lengths.items() if length == wanted)
+        agreeing = next(row for row, length in lengths.items() if length == wanted)
         for row, length in lengths.items():
             if length != wanted:
-                counts = {"key": row, "given": str(length), "other": other, "wanted": str(wanted)}
+                counts = {"key": row, "given": str(length), "other": agreeing, "wanted": str(wanted)}
                 yield Finding("row-length", (*where, row), counts)
 
     return check

@@ -140,7 +140,10 @@ def read_quantity(text: str, unit: str) -> Given:
     if match is None:
         raise QuantityFault("not-a-number", text=text)
     if not match[2]:
-        raise QuantityFault("missing-unit", text=text, unit=unit)
+        # 1.600 gets a hint of both its readings: with the unit alone it would be as doubtful as before.
+        ways = two_readings(f"{cleaned} {unit}")
+        hint = {"hint": "thousands", "fixed": ways[0], "other": ways[1]} if ways else {}
+        raise QuantityFault("missing-unit", text=text, unit=unit, **hint)
     value, factor = float(match[1]), read_unit(match[2], unit)
     if not math.isfinite(value * factor):
         raise QuantityFault("not-finite", text=text)

@@ -23,7 +23,19 @@ from typing import Any
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
 from reportgen.base.files import OF_SCHOOL, school_strays
 from reportgen.base.gaps import FILLS, filled, gaps, plain_gaps
-from reportgen.base.source import MappingNode, Scalar, Source, plain, read_own, read_words, scalars, text_in
+from reportgen.base.source import (
+    STRANGE,
+    MappingNode,
+    Scalar,
+    Source,
+    in_a_line,
+    plain,
+    read_own,
+    read_text,
+    read_words,
+    scalars,
+    text_in,
+)
 from reportgen.base.source_text import at, path_text
 from reportgen.base.units import Language
 
@@ -134,20 +146,20 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
     A place nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
     file and line for what cannot be read or is not of the form of what it changes, and where no place has any.
     """
-    found: Mapping[str, Any] | None = None
+    merged: Mapping[str, Any] | None = None
     for place in reversed(places):
-        if (table := _words_in(place)) is not None:
-            found = table if found is None else _over(found, table, place)
-    if found is None:
+        if (table := _words_in(place, not place.is_relative_to(places[-1]))) is not None:
+            merged = table if merged is None else _over(merged, table, place)
+    if merged is None:
         raise TemplateError(f"{places[-1]}: there are no words here")
-    return found
+    return merged
 
 
-def _words_in(place: Path) -> Mapping[str, Any] | None:
-    """The words of a file of sections or of a folder."""
+def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
+    """The words of a file of sections, perhaps not the program's own, or of a folder."""
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
-        return None if section is None else _as_written(section, place)
+        return None if section is None else _as_written(section, place, of_others)
     return _read(place / FILE) if (place / FILE).is_file() else None
 
 
@@ -163,20 +175,21 @@ def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
 
 
 @lru_cache(maxsize=FILES)
-def _as_written(section: Passage, place: Path) -> Mapping[str, Any]:
-    """The words that a section holds.
+def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, Any]:
+    """The words that a section holds; those of others are read with care.
 
-    Raises `TemplateError` for a gap that is filled with more than a value, and for a text that is too long.
+    Raises `TemplateError` for a gap that is filled with more than a value, for a text too long, for a strange sign.
     """
-    source = read_own(section.text, str(section.file))
+    source = (read_text if of_others else read_own)(section.text, str(section.file))
     for scalar in scalars(source.top):
         for key, sound in (
             ("template_unsafe", plain_gaps(scalar.text)),
             ("template_word", len(scalar.text) <= LONGEST),
+            ("template_character", not STRANGE.search(in_a_line(scalar.text))),
         ):
             if not sound:
-                told = word(key, of_file(place), longest=LONGEST)
-                raise TemplateError(f"{_below(scalar.mark, section.line)}: {told}")
+                refusal = word(key, of_file(place), longest=LONGEST)
+                raise TemplateError(f"{_below(scalar.mark, section.line)}: {refusal}")
     return _table(source, section.line)
 
 
@@ -217,9 +230,9 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
         raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
 
     def said(scalar: Scalar) -> str:
-        found = _Word(scalar.text)
-        found.mark = _below(scalar.mark, above)
-        return found
+        text = _Word(in_a_line(scalar.text))
+        text.mark = _below(scalar.mark, above)
+        return text
 
     content: Mapping[str, Any] = plain(source.top, said)
     return content
@@ -239,18 +252,20 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
         here, common = (*where, key), below.get(key, value)
         if not _alike(value, common):
             section = sections(place)[SECTION]
-            node = at(read_own(section.text).top, here)
+            node = at(read_text(section.text).top, here)
             line = section.line + (node.mark.line if node else 0)
             raise TemplateError(f"{place}:{line}: {word('template_form', of_file(place), text=path_text(here))}")
         result[key] = _over(common, value, place, here) if isinstance(value, Mapping) else value
     return result | {key: value for key, value in below.items() if key not in result}
 
 
-def _alike(one: Any, other: Any) -> bool:
-    """Whether a word can stand for another one: both are tables, or texts, or lists of at least as many that can."""
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) >= len(other) and all(map(_alike, one, other))
-    return isinstance(one, Mapping) == isinstance(other, Mapping) and isinstance(one, str) == isinstance(other, str)
+def _alike(present: Any, standing_in: Any) -> bool:
+    """Whether a word can stand for another one: both are tables, or texts, or lists of as many that can."""
+    if isinstance(present, list) and isinstance(standing_in, list):
+        return len(present) == len(standing_in) and all(map(_alike, present, standing_in))
+    return isinstance(present, Mapping) == isinstance(standing_in, Mapping) and isinstance(present, str) == isinstance(
+        standing_in, str
+    )
 
 
 def language_of(source: Source) -> Language:
@@ -258,9 +273,9 @@ def language_of(source: Source) -> Language:
 
     A file that asks for none is reported in Vietnamese; one that cannot be read says nothing.
     """
-    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
-    if found:
-        return "en" if found[1] == "en" else "vi"
+    asked = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    if asked:
+        return "en" if asked[1] == "en" else "vi"
     return DEFAULT_LANGUAGE if source.text else spoken()
 
 
@@ -312,9 +327,9 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
     # What is known is the program's own, and told in full.
     arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
     for name in arguments.keys() & {"expected", "reason", "range"}:
-        told = [table["words"].get(one) for one in fault.arguments[name].split("+")]
-        if None not in told:
-            arguments[name] = "".join(map(str, told)).format_map(arguments)
+        words = [table["words"].get(one) for one in fault.arguments[name].split("+")]
+        if None not in words:
+            arguments[name] = "".join(map(str, words)).format_map(arguments)
     message = str(table["faults"][fault.code]).format_map(arguments)
     # The hint that was asked for, then the code's own and its second form.
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
@@ -350,9 +365,8 @@ def _shown(text: str) -> str:
 
 
 # --- words by sections ----------------------------------------------------------------------------
-# A file has many, each behind a line `%% name`, in the order in which they are read.
-# A machine's words and a school's are one file a language; those that all machines share are a folder, in which
-# `report.md` has the section `foreword`, and `dyads.md` the section `RRR-forces` of the name `dyads/RRR-forces`.
+# Each stands behind a line `%% name`, in reading order.  The words of a machine or of a school are a file a language,
+# those of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
 
 HEADING = "%%"
 MACHINES = "catalogue"
@@ -392,8 +406,8 @@ def find(name: str, places: Sequence[Path]) -> Passage | None:
     """The section of this name in the first of some places (files, folders) that has it."""
     if not _NAME.fullmatch(name):
         return None
-    found = (sections(file).get(section) for file, section in (home(name, place) for place in places))
-    return next(filter(None, found), None)
+    passages = (sections(file).get(section) for file, section in (home(name, place) for place in places))
+    return next(filter(None, passages), None)
 
 
 def home(name: str, place: Path) -> tuple[Path, str]:
@@ -438,15 +452,15 @@ def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
         raise TemplateError(str(as_problem(text, of_file(file))))
     lines = re.split(r"\r\n?|\n", text)
     headings = [number for number, line in enumerate(lines, start=1) if line.startswith(HEADING)]
-    found: dict[str, Passage] = {}
+    passages: dict[str, Passage] = {}
     for number, end in pairwise([*headings, len(lines) + 1]):
         name = lines[number - 1].removeprefix(HEADING).strip()
         if not name:
             raise TemplateError(f"{file}:{number}: a section has a name, as in {HEADING} given")
-        if name in found:
-            raise TemplateError(f"{file}:{number}: the section {name} is there already, in line {found[name].line}")
-        found[name] = Passage(file, number, "\n".join(lines[number : end - 1]).rstrip("\n") + "\n")
-    return found
+        if name in passages:
+            raise TemplateError(f"{file}:{number}: the section {name} is there already, in line {passages[name].line}")
+        passages[name] = Passage(file, number, "\n".join(lines[number : end - 1]).rstrip("\n") + "\n")
+    return passages
 
 
 # --- which kinds of assignments there are ---------------------------------------------------------

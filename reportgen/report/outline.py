@@ -42,13 +42,13 @@ from reportgen.report import (
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
-from reportgen.report.case import Calculation
+from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
-from reportgen.report.occurring import occurring
 from reportgen.report.report import Report
+from reportgen.report.used_symbols import used_symbols
 
 # --- names without parentheses ----------------------------------------------------------------------
 
@@ -445,7 +445,7 @@ LISTING = "symbols"
 """The section of what all others use."""
 
 
-def compose(case: Calculation) -> Document:
+def compose(case: MachineAnalysis) -> Document:
     """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
     report = Report(case)
     words, named = report.words, names(report)
@@ -455,7 +455,7 @@ def compose(case: Calculation) -> Document:
         if section == "contents":
             continue
         if section == LISTING:
-            whole = replace(report, occurring=occurring(chain.from_iterable(written.values())))
+            whole = replace(report, used_symbols=used_symbols(chain.from_iterable(written.values())))
             named["table"] = partial(table, whole)
         written[section] = report.prose.render(section, named)
     if "contents" in report.sections:

@@ -22,7 +22,7 @@ from reportgen.base.words import as_error, close_or_known, templates
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.geometry import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
-from reportgen.report.case import Opened
+from reportgen.report.case import Case
 
 SIZES: Mapping[str, tuple[float, float]] = {
     "A0": (1189.0, 841.0),
@@ -167,13 +167,13 @@ def _broken(text: str, height: float, along: float, across: float) -> tuple[floa
     """A text in letters of a height: its lines, as many as make the letters widest, and how narrow these are (≤ 1)."""
     most = max(int((across / height - LINE) / LEADING) + 1, 1) if across >= LINE * height else 0
     words = text.split()
-    found = (height, [text], 0.0)
+    best = (height, [text], 0.0)
     for count in range(1, min(most, len(words)) + 1):
         lines = _evenly(words, count, height)
         narrow = min(along / max(_width(line, height) for line in lines), 1.0)
-        if narrow > found[2]:
-            found = height, lines, narrow
-    return found
+        if narrow > best[2]:
+            best = height, lines, narrow
+    return best
 
 
 def _evenly(words: Sequence[str], count: int, height: float) -> list[str]:
@@ -354,19 +354,21 @@ def framed(parts: Iterable[PlacedScene], form: TitleBlock, fields: Mapping[str, 
 def numbered(sheets: Sequence[DrawingSheet], form: TitleBlock, designation: str) -> list[DrawingSheet]:
     """The sheets of several parts as one set: those with a title block numbered on, all of one designation if given."""
     total, number = sum(bool(sheet.fields) for sheet in sheets), 0
-    found = []
+    numbered_on = []
     for sheet in sheets:
         if sheet.fields:
             number += 1
-            told = {"designation": designation or _filled(form.designation, {**sheet.fields, "sheet": f"{number:02}"})}
-            told |= {"sheet": str(number), "sheets": str(total)}
+            fields = {
+                "designation": designation or _filled(form.designation, {**sheet.fields, "sheet": f"{number:02}"})
+            }
+            fields |= {"sheet": str(number), "sheets": str(total)}
             parts = (part for part in sheet.parts if part.layer != FRAME)
-            sheet = framed(parts, form, {**sheet.fields, **told})
-        found.append(sheet)
-    return found
+            sheet = framed(parts, form, {**sheet.fields, **fields})
+        numbered_on.append(sheet)
+    return numbered_on
 
 
-def fields_of(case: Opened, block: TitleBlock, number: int) -> dict[str, str]:
+def fields_of(case: Case, block: TitleBlock, number: int) -> dict[str, str]:
     """What the assignment says for the title block of a sheet; who lays the sheets out adds their count and format."""
     given, variant = case.assignment.report, case.assignment.variant
     organisation = ", ".join(part for part in (given.university, given.faculty, given.department) if part)

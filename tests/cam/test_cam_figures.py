@@ -84,7 +84,7 @@ def of_its_path(case: CamCase) -> None:
         return
     index = np.round(case.solution.φ / (2 * math.pi) * body.φ.size).astype(int) % body.φ.size
     # Where a position of the report is one of the path, away from corners at which neighbours show a mean.
-    ends = np.array([edge for one in cam.motion.stretches for edge in (one.start, one.stop)])
+    ends = np.array([edge for one in cam.motion.intervals for edge in (one.start, one.stop)])
     met = np.abs(body.φ[index] - case.solution.φ) < 1e-9
     met &= np.abs(case.solution.φ[:, None] - ends).min(axis=1) > 1e-3
     x, y = (printed[f"cam.pitch.{axis}"].values[met] for axis in "xy")

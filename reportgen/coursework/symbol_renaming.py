@@ -1,7 +1,7 @@
 """Letters with one meaning: what a part of a coursework calls as an earlier one calls something else gets its index.
 
-A part's pages, key, film and sheets are trees of frozen nouns, in which a symbol is a symbol wherever it stands: so one
-change of symbols serves them all.
+A part's pages, key, animation and sheets are trees of frozen nouns, in which a symbol is a symbol wherever it stands:
+so one change of symbols serves them all.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ Letters = Mapping[Symbol, Symbol]
 
 def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
     """A tree of dataclasses, tuples and tables with `change` made of each node of a kind; what it leaves is itself."""
-    found: Tree = _changed(tree, kind, change)
-    return found
+    renamed: Tree = _changed(tree, kind, change)
+    return renamed
 
 
 def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Any:
@@ -39,8 +39,8 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
     if is_dataclass(node) and not isinstance(node, type):
         held = {one.name: getattr(node, one.name) for one in fields(node) if one.init}
         new = {name: _changed(value, kind, change) for name, value in held.items()}
-        other = {name: value for name, value in new.items() if value is not held[name]}
-        return replace(node, **other) if other else node
+        changed_fields = {name: value for name, value in new.items() if value is not held[name]}
+        return replace(node, **changed_fields) if changed_fields else node
     return node
 
 
@@ -54,8 +54,8 @@ def nodes(tree: Any, kind: type) -> Iterator[Any]:
     elif isinstance(tree, dict):
         yield from nodes(tuple(tree.values()), kind)
     elif is_dataclass(tree) and not isinstance(tree, type):
-        for one in fields(tree):
-            yield from nodes(getattr(tree, one.name), kind)
+        for field in fields(tree):
+            yield from nodes(getattr(tree, field.name), kind)
 
 
 def relettered(tree: Tree, letters: Letters) -> Tree:
