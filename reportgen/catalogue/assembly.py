@@ -14,7 +14,8 @@ import numpy as np
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import MM, nice_down
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.machine.loads import FULL_TURN, STEPS, Flags, MotionAt, NotToAndFro, course, halved
+from reportgen.machine.laws import FULL_TURN, STEPS, Flags, MotionAt, halved
+from reportgen.machine.loads import turning_points
 from reportgen.machine.motion import SINGULAR, Complexes, Floats, Motion, cross, solve_motion, unit
 
 HALVINGS = 40
@@ -139,11 +140,10 @@ def too_large(linkage: Linkage, drawn: float, where: Where) -> Iterator[Finding]
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
-    """A slider that has dead centres goes once to and fro in a turn."""
-    try:
-        course(linkage, slider, motion_at)
-    except NotToAndFro as fault:
-        yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(fault.reversals)})
+    """A slider that has dead centres goes once to and fro in a turn, so that it turns back twice."""
+    count = len(turning_points(linkage, slider, motion_at))
+    if count != 2:
+        yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(count)})
 
 
 def turns_fully(linkage: Linkage, link: int) -> bool:

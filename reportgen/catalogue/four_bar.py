@@ -44,7 +44,8 @@ from reportgen.formula import (
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, ConstantLaw, Floats
+from reportgen.machine.laws import ConstantLaw, Floats
+from reportgen.machine.loads import Applied, fixed
 
 FLAT = 0.01
 """A coupler point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""
@@ -354,7 +355,7 @@ def machine(assignment: Assignment) -> Machine:
         formulas=lambda q: analytic_method(q, φ1, points, turn, turn * given.side),
         applied=()
         if force is None
-        else (Applied("P3", 3, "C", cmath.rect(1.0, force.angle.si), ConstantLaw(force.P.si)),),
+        else (Applied("P3", 3, "C", fixed(cmath.rect(1.0, force.angle.si)), ConstantLaw(force.P.si)),),
         torques=torque_on(given.torque, 3, linkage, positions, start),
         paths=tuple(names),
         compared=compared(plans),

@@ -22,7 +22,8 @@ from reportgen.base.units import Given
 from reportgen.formula import ids
 from reportgen.machine import Linkage
 from reportgen.machine.gas import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.machine.loads import ConstantLaw, Law, Torque, by_angle, by_stroke, crank_motion, opposing
+from reportgen.machine.laws import ConstantLaw, Law, by_angle, by_stroke, opposing
+from reportgen.machine.loads import Torque, crank_motion
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
 

@@ -17,7 +17,8 @@ from reportgen.catalogue import assembly
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.assembly import Member
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.machine.loads import STEPS, crank_motion
+from reportgen.machine.laws import STEPS
+from reportgen.machine.loads import crank_motion
 from reportgen.machine.motion import Motion, solve_motion
 
 TOP: Where = ("parameters",)

@@ -25,7 +25,7 @@ import numpy as np
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol, asin, cos, ids, signed, sin, sqrt, tan
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.loads import FULL_TURN, Floats, Stroke, halved
+from reportgen.machine.laws import FULL_TURN, Floats, Stroke, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""

@@ -12,7 +12,6 @@ from itertools import dropwhile
 from typing import Any
 
 from reportgen.coursework.symbol_renaming import changed
-from reportgen.marking.feedback import sentence
 from reportgen.report import (
     BlankLine,
     Block,
@@ -32,6 +31,7 @@ from reportgen.report import (
     Text,
 )
 from reportgen.report.numbering import number
+from reportgen.report.wording import sentence
 
 RUN_IN = 4
 """The level of a heading that stands in its paragraph."""

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from reportgen.formula import Number
-from reportgen.marking.feedback import sentence
 from reportgen.report import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
 from reportgen.report.key import capitalised
 from reportgen.report.shafts import Shaft
+from reportgen.report.wording import sentence
 
 KEY = "tab.shafts"
 WIDTHS = (76.0, 26.0, 58.0)

@@ -6,8 +6,7 @@ import cmath
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from pathlib import Path
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.shown import view
@@ -18,7 +17,6 @@ from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
 from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, ids, vocabulary
-from reportgen.formula.sheet import Family
 from reportgen.report import (
     Block,
     Cell,
@@ -33,15 +31,14 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.case import Misconceptions
-from reportgen.report.key import Key
+from reportgen.report.case import AskedFor
 from reportgen.report.numbering import finished
 from reportgen.report.prose import NamedPoint, Prose
+from reportgen.report.result_entries import ResultEntries
+from reportgen.report.wording import MAGNITUDE
 
 if TYPE_CHECKING:
-    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
 
 
@@ -57,69 +54,45 @@ class ExerciseCase(SolvedExercise):
     def printed(self) -> Ledger:
         return self.worked.printed
 
-    @property
-    def families(self) -> Mapping[str, Family]:
-        return self.ledger.families
-
-    @property
-    def positions_of_a_turn(self) -> int:
-        return 1
-
-    @property
-    def speed(self) -> None:
-        """Nothing drives it."""
-
-    @property
-    def balance(self) -> None:
-        """It has no forces."""
-
-    @property
-    def misconceptions(self) -> Misconceptions:
-        return Misconceptions()
-
-    def fault(self) -> str:
-        # That it moves, and only in one way, is among the checks of its file.
-        return ""
+    # That it moves, and only in one way, is among the checks of its file: no fault shows only in the results.
 
     def document(self) -> Document:
         return self.bounded(solution)
 
-    def key(self) -> Key:
-        from reportgen.marking.key import MAGNITUDE, make_key
+    def sense(self, id: str) -> str:
+        """The sign of what is asked says nothing where the data leave its sense open."""
+        return MAGNITUDE if id in self._of_open_sense else ""
 
-        open_ids = {one.id for one in self.exercise.asked if not self.exercise.tells_sense(one)}
-        return make_key(self, self.ledger, self.printed, sense_of=lambda id: MAGNITUDE if id in open_ids else "")
+    @cached_property
+    def _of_open_sense(self) -> frozenset[str]:
+        return frozenset(one.id for one in self.exercise.asked if not self.exercise.tells_sense(one))
 
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        return self.bounded(partial(_task, key=key, by_section=by_section))
+    def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
+        """Its title is one of its words."""
+        return (), Prose(self.places).render("exercise-task", {**task_names(self), "answer_tables": asked.answers})
 
-    def results(self) -> dict[str, Any]:
-        """Its one position has its number alone; null is what is not determined."""
-        from reportgen.marking.results import pair, results
-
+    @cached_property
+    def entries(self) -> ResultEntries:
+        """Its one position has its number alone; None is what is not determined."""
         motion = self.exercise.motion
         points = {
             name: {
-                "p": pair(place),
-                "v": pair(motion.v(name)) if motion.knows_velocity(name) else None,
-                "a": pair(motion.a(name)) if motion.knows_acceleration(name) else None,
+                "p": complex(place),
+                "v": complex(motion.v(name)) if motion.knows_velocity(name) else None,
+                "a": complex(motion.a(name)) if motion.knows_acceleration(name) else None,
             }
             for name, place in motion.system.points.items()
             if motion.system.body_of(name)
         }
         links = {
-            str(body): {
+            body: {
                 "omega": motion.omega(body) if motion.knows_omega(body) else None,
                 "epsilon": motion.epsilon(body) if motion.knows_epsilon(body) else None,
-                "centre": None if not motion.knows_centre(body) or (at := motion.centre(body)) is None else pair(at),
+                "centre": motion.centre(body) if motion.knows_centre(body) else None,
             }
             for body in motion.system.bodies
         }
-        return results(self, [{"number": 1, "points": points, "links": links}])
-
-    def animations(self) -> tuple[Animation, ...]:
-        """Nothing moves at one instant."""
-        return ()
+        return ResultEntries([{"number": 1, "points": points, "links": links}])
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Its figures; there are no sets of them to choose from."""
@@ -134,20 +107,6 @@ class ExerciseCase(SolvedExercise):
             if drawn_at
         ]
         return {"motion": plates}
-
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        from reportgen.sheets import on_sheets
-
-        return on_sheets(self, self.plates(), size, block)
-
-
-def _task(case: SolvedExercise, key: Key, by_section: bool) -> Document:
-    from reportgen.marking.paper import empty_sheet, task_paper
-
-    names = {**task_names(case), "answer_tables": empty_sheet(key, by_section)}
-    return task_paper(case, key, (), Prose(case.places).render("exercise-task", names))
 
 
 # --- solvedExercise → Document --------------------------------------------------------------------

@@ -257,36 +257,6 @@ lone_moment = Name("M.{force}.lone.p")
 balance = Name("M.{method}")
 figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torque
 
-# --- cams
-
-cam_phase = Name("cam.phase.{phase}")
-cam_arc = Name("cam.arc.{phase}")
-cam_limit = Name("cam.limit.{phase}")
-cam_touch = Name("cam.touch.{phase}.{quantity}")  # where a limit line touches
-cam_intercept = Name("cam.c.{phase}")
-cam_node = Name("cam.node.{phase}.{number}.{quantity}")  # of an acceleration given as a graph
-cam_diagram = Name("cam.diagram.{quantity}")  # the length of the turn, the distances of poles
-cam_scale = Name("cam.mu.{quantity}")
-cam_bend = Name("cam.m.{number}")
-cam_pitch = Name("cam.pitch.{axis}")
-cam_profile = Name("cam.profile.{axis}")
-
-# --- gears
-
-gear = Name("gears.{quantity}.{wheel}")
-# --- planetary trains
-
-train_factor = Name("train.factor.{factor}")
-train_teeth = Name("train.z.{wheel}")
-train_row_ratio = Name("train.u.row.{number}")
-train_omega = Name("train.omega.{wheel}")
-train_velocity = Name("train.v.{place}")
-train_efficiency = Name("train.eta.{of}")
-train_line = Name("train.line.{place}")  # on paper
-train_segment = Name("train.seg.{wheel}")  # of the plan of angular velocities
-train_read = Name("train.read.{wheel}")
-train_scale = Name("train.mu.{of}")
-
 # --- a word before the id of another quantity
 
 formula = Name("f.{id}")  # the same by a closed formula
@@ -311,6 +281,14 @@ def linked(joint: str) -> tuple[str, str]:
     """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
     acting, acted_on = joint.split(",") if "," in joint else tuple(joint)
     return acting, acted_on
+
+
+def links_of(reaction: str) -> tuple[int, int]:
+    """The two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
+    found = reaction_force.read(reaction)
+    assert found is not None, f"{reaction} is no reaction"
+    acting, on = linked(found["joint"])
+    return int(acting), int(on)
 
 
 def points(named: str) -> list[str]:

@@ -47,7 +47,7 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motion_at
 from reportgen.machine.forces import Load, as_single_force
-from reportgen.machine.loads import FULL_TURN
+from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon

@@ -18,7 +18,8 @@ from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary,
 from reportgen.formula.plain import python
 from reportgen.formula.vocabulary import Chapter, on_plan
 from reportgen.machine import DRIVER
-from reportgen.machine.loads import FULL_TURN, Applied
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied
 from reportgen.report import (
     Block,
     Cell,

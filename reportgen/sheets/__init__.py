@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
-from reportgen.assignment.common import Drawing
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
 from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
-from reportgen.report.report import Report
-from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, read_block, room
+from reportgen.report.case import Case, CaseOfParts, MachineAnalysis
+from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
 from reportgen.sheets.plates import Set, Sources, plates_of
 
@@ -33,23 +30,29 @@ STEPS = 20
 
 
 def drawing_sheets(
-    case: MachineAnalysis, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
 ) -> list[DrawingSheet]:
-    """The finished drawing sheets of a machine, with `every` plate or those usually handed in.
+    """The finished drawing sheets of a case, with `every` plate or those usually handed in, then its true sizes.
 
-    `sets` are some of `Set`, all if none is named.  Raises `SheetError` where there is nothing to draw, and as
-    `on_sheets` does.
+    `sets` are some of `Set` of a machine, all if none is named.  The parts that follow a machine stand on sheets as
+    large as its own, on no larger ones than A1 if these hold them.  Raises `SheetError` where there is nothing to draw,
+    and as `on_sheets` does.
     """
-    plates = plates_by_set(case, sets, every)
+    plates = case.plates(sets, every)
     if not plates:
         raise SheetError(word("no_plates", case.assignment.language, sets=", ".join(sets)))
-
-    def with_crank(length: float) -> Plates:
-        drawing = Drawing.model_validate({"crank": f"{length:g} mm"})
-        return plates_by_set(type(case)(replace(case.assignment, drawing=drawing)), sets, every)
-
-    crank = Report(case).drawn_crank
-    return on_sheets(case, plates, size, block, (crank, with_crank) if crank else None)
+    crank = None
+    if case.redrawn is not None:
+        length, redraw = case.redrawn
+        crank = length, lambda length: redraw(length).plates(sets, every)
+    found = on_sheets(case, plates, size, block, crank)
+    if isinstance(case, CaseOfParts):
+        assignment = case.assignment
+        least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
+        found += on_sheets(case, case.joined_plates(), size, block, least=least)
+        form = read_block(block or blocks(assignment.school or "")[DEFAULT[assignment.language]], assignment.language)
+        found = numbered(found, form, assignment.sheet.designation or "")
+    return [*found, *case.true_sizes()]
 
 
 def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
@@ -60,7 +63,7 @@ def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool
 
 
 def on_sheets(
-    case: LoadedAssignment,
+    case: Case,
     plates: Plates,
     size: str = "",
     block: Path | None = None,
@@ -114,7 +117,7 @@ def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> li
 
 
 def _fault(
-    case: LoadedAssignment,
+    case: Case,
     error: TooLargeError,
     plates: Plates,
     form: TitleBlock,
@@ -171,7 +174,7 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[
     raise too_large
 
 
-def _sheet(case: LoadedAssignment, form: TitleBlock, paper: str, number: int, laid_out: Sequence[Laid]) -> DrawingSheet:
+def _sheet(case: Case, form: TitleBlock, paper: str, number: int, laid_out: Sequence[Laid]) -> DrawingSheet:
     """One of the sheets with its frame and its title block."""
     shown, parts = laid_out[number - 1]
     fields = fields_of(case, form, number) | {

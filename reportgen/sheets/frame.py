@@ -22,7 +22,7 @@ from reportgen.base.words import as_error, close_or_known, templates
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.geometry import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
-from reportgen.report.case import LoadedAssignment
+from reportgen.report.case import Case
 
 SIZES: Mapping[str, tuple[float, float]] = {
     "A0": (1189.0, 841.0),
@@ -363,7 +363,7 @@ def numbered(sheets: Sequence[DrawingSheet], form: TitleBlock, designation: str)
     return numbered_on
 
 
-def fields_of(case: LoadedAssignment, block: TitleBlock, number: int) -> dict[str, str]:
+def fields_of(case: Case, block: TitleBlock, number: int) -> dict[str, str]:
     """What the assignment says for the title block of a sheet; who lays the sheets out adds their count and format."""
     given, variant = case.assignment.report, case.assignment.variant
     organisation = ", ".join(part for part in (given.university, given.faculty, given.department) if part)

@@ -24,7 +24,7 @@ from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
+from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
@@ -316,7 +316,7 @@ def _quantities(
     return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in quantities)] for k in positions]
 
 
-def on_sheet(case: LoadedAssignment, steps: int) -> FigureSize:
+def on_sheet(case: Case, steps: int) -> FigureSize:
     """How large a sheet shows a figure of a report, by so many standard scales larger."""
     return FigureSize(steps, ENLARGED, case.words["plates"]["report"], case.assignment.language)
 
