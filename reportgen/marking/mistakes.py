@@ -262,7 +262,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *(
             ("too-few-figures", place)
             for place, cell in first.items()
-            if _has_too_few_figures(cell) and not _is_by_a_pitfall(working, place, cell)
+            if _has_too_few_figures(cell) and not _is_by_a_misconception(working, place, cell)
         ),
         # A scale was taken from the task while the plan was drawn at another.
         *(
@@ -291,13 +291,13 @@ def _has_too_few_figures(cell: Marked) -> bool:
     )
 
 
-def _is_by_a_pitfall(working: Working, place: Place, cell: Marked) -> bool:
+def _is_by_a_misconception(working: Working, place: Place, cell: Marked) -> bool:
     """Whether a mistake known of the quantity gives the value in all its figures: a_w = a of 200 mm is not rounded."""
     (id, position), scheme = place, working.scheme
-    known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.pitfalls.changed.get(id, ())]
+    known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]
     index = scheme.rows[id].at(position)
     values = foreseen(working, [id], known)[id][:, index] / working.unit(id)[index]
-    return bool(np.isclose(values, cell.given, rtol=1e-9).any())
+    return cell.given is not None and bool(np.isclose(values, cell.given, rtol=1e-9).any())
 
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
