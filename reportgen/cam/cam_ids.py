@@ -28,7 +28,7 @@ KINDS: Mapping[str, QuantityKind] = {
     "angle on paper": QuantityKind("rad/mm", 1e3, digits=6),
     "reduced velocity on paper": QuantityKind("mm/(rad·mm)", digits=6),
     "reduced acceleration on paper": QuantityKind("mm/(rad²·mm)", digits=6),
-    "rate on paper": QuantityKind("1/mm", 1e3, digits=6),
+    "rate on paper": QuantityKind("mm⁻¹", 1e3, digits=6),
     "phase share": QuantityKind("", decimals=5),
     "follower acceleration": QuantityKind("mm/s²", 1e-3),
     "graph value": QuantityKind("", decimals=5),

@@ -119,7 +119,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
         half = box(str(k), style.SMALL).width / 2
         # Of positions close to each other not every one has room for its number.
         if x - half > taken:
-            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL))
+            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL, background=True))
             taken = x + half + BESIDE
     items += _integrated(case, graphs, scales)
     for number, graph in enumerate(graphs):

@@ -10,6 +10,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar
 
+from reportgen.drawing import Content, Scene
+from reportgen.drawing.respelling import respelled
 from reportgen.formula import Symbol
 
 Tree = TypeVar("Tree")
@@ -57,8 +59,17 @@ def nodes(tree: Any, kind: type) -> Iterator[Any]:
 
 
 def relettered(tree: Tree, letters: Letters) -> Tree:
-    """A tree with other symbols in place of some."""
-    return changed(tree, Symbol, lambda symbol: letters.get(symbol, symbol)) if letters else tree
+    """A tree with other symbols in place of some; drawings make room for them."""
+    if not letters:
+        return tree
+
+    def spelled(content: Content) -> Content:
+        return changed(content, Symbol, lambda symbol: letters.get(symbol, symbol))
+
+    def other(node: Scene | Symbol) -> Scene | Symbol:
+        return respelled(node, spelled) if isinstance(node, Scene) else letters.get(node, node)
+
+    return changed(tree, (Scene, Symbol), other)
 
 
 def with_index(symbol: Symbol, index: str) -> Symbol:

@@ -322,9 +322,10 @@ def _scale(label: Content, ends: tuple[float, float], length: float, degrees: bo
     shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
     text = label.note if isinstance(label, Chain) else str(label)
     unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
-    above, stroke, below = (unit or "1").partition("/")
+    above, stroke, below = unit.partition("/")
     below = below.strip("()")
-    per_mm = f"{above}/({below}·mm)" if stroke else f"{above}/mm"
+    # A figure in the unit would read as one more of the number.
+    per_mm = f"{above}/({below}·mm)" if stroke else f"{above}/mm" if above else "mm⁻¹"
     return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 

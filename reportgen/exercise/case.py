@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from reportgen.base.gaps import NO_LETTER
 from reportgen.base.shown import view
 from reportgen.base.units import Given
 from reportgen.exercise import file
@@ -267,7 +268,7 @@ class SolutionPage(Solution):
         at_angle, along = self.case.words["instant"]["directions"]
         if joint.along is not None:
             return Text(f"{along} "), *(InlineMath(vocabulary.point(name)) for name in joint.along)
-        before, after = str(at_angle).split("{}")
+        before, _, after = at_angle.format(NO_LETTER).partition(NO_LETTER)
         return Text(before), *self._angle(joint.angle.si if joint.angle else 0.0), Text(after)
 
     def _given_items(self) -> Iterator[GivenItem]:

@@ -267,7 +267,7 @@ def region(case: SolvedPair, area: Area | None = None) -> Scene:
         # Both axes have one scale.
         scale = max(area.per_mm(wide, area.width), area.per_mm(tall, area.height))
         per = (1 / scale / area.enlarged, 1 / scale / area.enlarged)
-        notes = [Chain((Symbol("μ", "x"), Number(scale, unit="1/mm")))]
+        notes = [Chain((Symbol("μ", "x"), Number(scale, unit="mm⁻¹")))]
     frame = complex(wide * per[0], tall * per[1])
     grid = _at(pair, x1, x2)
 

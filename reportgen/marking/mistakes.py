@@ -262,7 +262,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *(
             ("too-few-figures", place)
             for place, cell in first.items()
-            if _has_too_few_figures(cell) and not _is_by_a_misconception(working, place, cell)
+            if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place, cell)
         ),
         # A scale was taken from the task while the plan was drawn at another.
         *(
@@ -291,7 +291,7 @@ def _has_too_few_figures(cell: Marked) -> bool:
     )
 
 
-def _is_by_a_misconception(working: Working, place: Place, cell: Marked) -> bool:
+def _comes_of_a_misconception(working: Working, place: Place, cell: Marked) -> bool:
     """Whether a mistake known of the quantity gives the value in all its figures: a_w = a of 200 mm is not rounded."""
     (id, position), scheme = place, working.scheme
     known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]

@@ -24,7 +24,8 @@ from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.prose import NamedPoint, subscripted
+from reportgen.report.markdown import SECRET
+from reportgen.report.prose import NamedPoint, inlines_of, subscripted
 from reportgen.report.report import Report
 
 if TYPE_CHECKING:
@@ -79,7 +80,9 @@ def inlines(of: Any) -> Inlines:
         return (InlineMath(of),)
     if isinstance(of, tuple):
         return tuple(part for one in of for part in inlines(one))
-    return (of,) if isinstance(of, get_args(Inline)) else (Text(as_text(of)),)
+    if isinstance(of, get_args(Inline)):
+        return (of,)
+    return inlines_of(text) if SECRET in (text := as_text(of)) else (Text(text),)
 
 
 def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> Inlines:

@@ -39,8 +39,8 @@ HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
 """Heights of capital letters, mm; the last in narrow cells of a title block only."""
 NARROW = 0.75
 """Letters are made narrower to this share of their width before smaller ones are taken, as type A is beside B."""
-PADDING = 0.6
-"""White beside a text in its cell, mm."""
+PADDING, BESIDE = 0.6, 0.25
+"""White around a text in its cell, mm; before and behind it also at least this share of its height."""
 LEADING = 1.6
 """From line to line, in heights of capitals."""
 
@@ -147,15 +147,20 @@ def _letters(cell: BlockCell) -> Iterator[Label]:
     """
     along, across = (cell.height, cell.width) if cell.turned else (cell.width, cell.height)
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
-    tried = [_broken(cell.text, height, along - 2 * PADDING, across - 2 * PADDING) for height in heights]
+    tried = [_broken(cell.text, height, along - 2 * _beside(height), across - 2 * PADDING) for height in heights]
     height, lines, narrow = next((one for one in tried if one[2] >= NARROW), tried[-1])
     anchor: Anchor = "left" if cell.align == "left" else "center"
     u = 1j if cell.turned else 1 + 0j
     middle = complex(cell.x + cell.width / 2, cell.y + cell.height / 2)
-    start = middle - u * (along / 2 - PADDING) if cell.align == "left" else middle
+    start = middle - u * (along / 2 - _beside(height)) if cell.align == "left" else middle
     for number, line in enumerate(lines):
         down = LEADING * height * (number - (len(lines) - 1) / 2)
         yield Label(start - 1j * u * down, line, anchor, font_size(height), 90 * cell.turned, narrow=narrow)
+
+
+def _beside(height: float) -> float:
+    """White before and behind a text in letters of a height (mm)."""
+    return max(PADDING, BESIDE * height)
 
 
 def _broken(text: str, height: float, along: float, across: float) -> tuple[float, list[str], float]:

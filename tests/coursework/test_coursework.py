@@ -22,6 +22,7 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case, opened, opener
 from reportgen.coursework.case import Coursework, PartCase
 from reportgen.coursework.symbol_renaming import nodes
+from reportgen.drawing import Scene
 from reportgen.formula import Symbol
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
@@ -32,6 +33,7 @@ from reportgen.report import Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced
 from reportgen.results.files import result_file
 from reportgen.sheets import drawing_sheets
+from tests.drawing.overlaps import overlaps
 from tests.lanes import proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -305,6 +307,16 @@ def test_no_symbol_of_a_part_stays_in_its_drawings() -> None:
     first = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3")
     last = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3.7")
     assert not set(nodes(document.blocks[first:last], Symbol)) & set(case.letters["cam"])
+
+
+def test_a_letter_with_an_index_has_room_in_its_drawings() -> None:
+    """φ_cam is three times as wide as φ: it stands neither on the arrow of its axis nor off the sheet."""
+    case = coursework(TWIN)
+    widened = {str(symbol) for symbol in case.letters["cam"].values()}
+    (name, plates) = list(case.plates().items())[-1]
+    scenes = list(nodes(tuple(plates), Scene))
+    assert widened & {str(symbol) for symbol in nodes(tuple(scenes), Symbol)}, name
+    assert [one for scene in scenes for one in overlaps(scene) if one.startswith(tuple(widened))] == []
 
 
 # --- faults -----------------------------------------------------------------------------------------

@@ -78,6 +78,7 @@ def test_every_scale_is_a_standard_one(name: str) -> None:
                 number = chain.parts[1]
                 assert isinstance(number, Number)
                 assert is_standard(number.value), chain
+                assert not number.unit[0].isdigit(), "0,04 1/mm reads as 0,041"
                 met += 1
     assert met
 
