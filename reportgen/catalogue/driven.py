@@ -237,7 +237,7 @@ class GivenSheet(Sheet):
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
-        """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
+        """A fixed point or a guide's point `at` (m) that lies at a `length` from the origin, and so goes with it."""
         far = self.construct(ids.far(id), length)
         if self.si(far):
             self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
@@ -267,7 +267,7 @@ class GivenSheet(Sheet):
 
 
 def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:
-    """Cycle angles of evenly spaced positions [count·turns]."""
+    """Cycle angles (rad) of evenly spaced positions [count·turns]."""
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
 
 
@@ -327,7 +327,7 @@ def driven(
     sections: Mapping[str, Any] | None = None,
     **own: Any,
 ) -> Machine:
-    """The machine of an assignment whose crank stands at the angle `start` in position 1.
+    """The machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
 
     `sections` go to `outline`, all further fields of its `Machine` are given by name; loads that are zero throughout
     are left out.

@@ -156,7 +156,7 @@ def chart(
     half: bool = False,
     area: Area | None = None,
 ) -> Scene:
-    """Curves in one frame, see `plotted`."""
+    """Curves in one frame (mm), see `plotted`."""
     return plotted(series, x_label, y_label, turn=turn, levels=levels, half=half, area=area).scene
 
 

@@ -205,7 +205,7 @@ def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
 def draw_forces(
     forces: Sequence[Force], arms: Sequence[ArmOf] = (), bars: Sequence[tuple[complex, complex]] = ()
 ) -> Canvas:
-    """Arrows with their labels and the arms to their lines; forces without direction are left out.
+    """Arrows with their labels and the arms to their lines (mm); forces without direction are left out.
 
     A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
     would lie on another force beside it, a thin line from its point.
@@ -270,7 +270,7 @@ def draw_couples(couples: Sequence[Couple]) -> Canvas:
 
 
 def foot(about: complex, start: complex, end: complex) -> complex:
-    """The foot of the perpendicular from `about` on the line through two points."""
+    """The foot of the perpendicular from `about` on the line through two points, in one unit."""
     return complex(constructions.foot(about, start, unit(end - start)))
 
 

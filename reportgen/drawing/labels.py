@@ -154,7 +154,7 @@ class _Taken:
             self.leaders.append(leader)
 
     def clear(self, centres: Complexes, half: complex) -> Flags:
-        """Which of the boxes keep apart from every label and leader."""
+        """Which of the boxes [N] (mm) keep apart from every label and leader."""
         apart, room = centres[:, None] - self.centres, self.halves + (half + APART * (1 + 1j))
         free: Flags = np.asarray(((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1))
         if self.leaders:
@@ -162,7 +162,7 @@ class _Taken:
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
-        """Which leaders run through a label or another leader."""
+        """Which leaders [K, 2] (mm) run through a label or another leader."""
         through: Flags = np.asarray(overlap(self.centres, self.halves, leaders, 0.2).any(axis=0))
         if self.leaders:
             through |= crossings(leaders, np.array(self.leaders)) > 0
@@ -228,7 +228,7 @@ class _Spots:
         return int(np.count_nonzero(self.first))
 
     def best(self, taken: _Taken) -> complex | None:
-        """The first spot free of strokes, labels and leaders; None where there is none."""
+        """The first spot (mm) free of strokes, labels and leaders; None where there is none."""
         for start in range(0, len(self.centres), FIRST):
             free = self.first if start == 0 else self.free(self.centres[start : start + FIRST])
             centres = self.centres[start : start + FIRST][free]
@@ -237,14 +237,14 @@ class _Spots:
         return None
 
     def free(self, centres: Complexes, nearest: bool = True) -> Flags:
-        """Which spots are free of strokes and nearest to their own point."""
+        """Which spots [N] (mm) are free of strokes and nearest to their own point."""
         free: Flags = ~self.field.ink.touches(centres, np.array(self.half + CLEAR * (1 + 1j)))
         if nearest:
             free[free] = self.nearest(centres[free])
         return free
 
     def nearest(self, centres: Complexes) -> Flags:
-        """Where the label is nearer to its own point than to any that another label names."""
+        """Where [N] the label is nearer to its own point (mm) than to any that another label names."""
         return self.field.nearest(centres, np.array([self.half]), np.array([self.number]))
 
     def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
@@ -259,7 +259,7 @@ class _Spots:
         return self.far[at]
 
     def breaking(self, taken: _Taken, led: bool) -> tuple[complex, Segment | None] | None:
-        """The best spot, clear of labels, that hides gray lines, and the leader if it is far; None if there is none."""
+        """The best spot (mm), clear of labels, that hides gray lines, and the leader if it is far; None if none is."""
         if led not in self.over:
             self.over[led] = self._over(led)
         centres, leaders, near = self.over[led]
@@ -446,7 +446,7 @@ class Canvas:
         return Canvas(self.items + other.items, self.requests + other.requests)
 
     def moved(self, by: complex) -> Canvas:
-        """The draft shifted by a vector; its labels must have been placed before."""
+        """The draft shifted by a vector (mm); its labels must have been placed before."""
         return Canvas(tuple(moved(item, by) for item in self.items))
 
 

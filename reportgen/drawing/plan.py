@@ -138,7 +138,7 @@ class Construction(Generic[Corner]):
         )
 
     def drawn(self: Plan) -> tuple[PlanVector[complex], ...]:
-        """The vectors that can be seen."""
+        """The vectors that can be seen: those of some length (mm)."""
         return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
     @property
@@ -332,7 +332,7 @@ def _labels(
 
 
 def point_names(points: Sequence[PlanPoint[complex]]) -> list[Content]:
-    """The parts of one label for several points: a ≡ b where they coincide, else a, b."""
+    """The parts of one label for several points (mm): a ≡ b where they coincide, else a, b."""
     parts: list[Content] = []
     for n, point in enumerate(points):
         if any(point.label == earlier.label for earlier in points[:n]):

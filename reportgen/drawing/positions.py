@@ -209,7 +209,7 @@ class SwingMarks:
 
 
 def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
-    """Arcs of the radii to both ends about the crank's centre, the lines to them and the angles between these."""
+    """Arcs of the radii to both ends about the crank's centre (m, `scale` mm to a metre), lines and angles between."""
     centre, pivot = marks.centre * scale, marks.pivot * scale
     ends = [end * scale for end in marks.ends]
     items: list[Item] = []
@@ -368,7 +368,7 @@ class Frame:
 def beside(
     top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """The ends of the diagram's axis beside the cylinder, and the round μ_p that makes it fit.
+    """The ends (mm) of the diagram's axis beside the cylinder, and the round μ_p (Pa per mm) that makes it fit.
 
     μ_p is that of the drawing once it is `enlarged` so many times.
     """

@@ -177,7 +177,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
 def groups(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, titles: Sequence[str] = ()
 ) -> tuple[Scene, ...]:
-    """The driver with the ground, then each Assur group alone, a scene each."""
+    """The driver with the ground, then each Assur group alone, a scene each, `scale` mm to a metre."""
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]

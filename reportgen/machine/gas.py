@@ -41,7 +41,7 @@ SETTLED = 1e-9
 
 
 def stroke_at(cycle_angle: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> NDArray[np.int64]:
-    """Which stroke (0…3 of `STROKES`) a cycle angle lies in; a dead centre begins its stroke.
+    """Which stroke [N] (0…3 of `STROKES`) cycle angles (rad) lie in; a dead centre begins its stroke.
 
     `dead_centres` are the cycle angles at which the four strokes begin, the first of them 0.
     """

@@ -47,19 +47,19 @@ def unit(angle: Floats | float) -> Complexes:
 
 
 def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a × b = aₓb_y − a_y bₓ, the component along z."""
+    """a × b = aₓb_y − a_y bₓ [N], the component along z."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.imag - a.imag * b.real, dtype=np.float64)
 
 
 def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a · b = aₓbₓ + a_y b_y."""
+    """The scalar product a · b = aₓbₓ + a_y b_y [N]."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.real + a.imag * b.imag, dtype=np.float64)
 
 
 def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | complex) -> tuple[Floats, Floats]:
-    """The real x, y with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
+    """Cramer's rule: the real x, y [N] with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
     area = cross(u, w)
     regular = np.abs(area) > SINGULAR * np.abs(u) * np.abs(w)
     area = np.where(regular, area, np.nan)

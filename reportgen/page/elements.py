@@ -82,7 +82,7 @@ class Pens:
         return self._names.setdefault((stroke, fill), f"{self._letter}{len(self._names)}")
 
     def size(self, points: float) -> str:
-        """The class of a font size."""
+        """The class of a font size (points)."""
         return self._sizes.setdefault(points, f"{self._letter}s{len(self._sizes)}")
 
     def rules(self) -> str:
@@ -122,7 +122,7 @@ class Painter:
         )
 
     def items(self, items: Iterable[Item], height: float = 0.0) -> str:
-        """The elements of items, y turned over about the `height` of their sheet."""
+        """The elements of items, y turned over about the `height` (mm) of their sheet."""
         paths = []
         shapes = (shape for item in items for shape in self._shapes(item, height))
         for (name, joins), group in groupby(shapes, key=lambda shape: shape[:2]):

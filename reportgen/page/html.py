@@ -360,7 +360,7 @@ class Blocks:
         return f"<{name}{start}>{lines}</{name}>"
 
     def equation(self, equation: tree.Equation, room: float) -> str:
-        """Rows that are set alike in one block each; the number beside the last."""
+        """Rows that are set alike in one block each, in a room (mm); the number beside the last."""
         groups = "".join(map(self.group, layout.in_groups(equation.rows, room)))
         number = f'<span class="number">({escape(equation.number)})</span>' if equation.number else ""
         return f'<div class="equation"{_id(equation.key)}><div class="rows">{groups}</div>{number}</div>'

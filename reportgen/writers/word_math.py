@@ -220,7 +220,7 @@ def _filled(pieces: Sequence[Part], room: float, indent: float) -> list[FormulaL
 
 
 def abreast(lines: Sequence[FormulaLine], room: float) -> bool:
-    """Whether lines have room two by two."""
+    """Whether lines have room (mm) two by two."""
     widths = (max(line.widths[side] for line in lines[at::2]) for at in (0, 1) for side in (0, 1))
     return sum(widths) + ABREAST <= room
 
@@ -248,7 +248,7 @@ def term_widths(term: TermColumn) -> tuple[float, float]:
 
 
 def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range]:
-    """Terms of these widths in as few grids as the room asks for, each beside the names of the rows."""
+    """Terms of these widths (mm) in as few grids as the room asks for, each beside the names of the rows."""
     storeys: list[range] = []
     start, used = 0, names
     for index, term in enumerate(widths):
@@ -314,7 +314,7 @@ class Equations:
         self.formulas = OmmlFormulas(language)
 
     def displayed(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
-        """Rows that are set alike in one table each; the number beside the last."""
+        """Rows that are set alike in one table each, indented (mm); the number beside the last."""
         room = TEXT_WIDTH - indent
         *before, last = in_groups(rows, room)
         groups = [*((group, "", KEPT) for group in before), (last, number, kept)]
