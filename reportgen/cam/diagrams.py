@@ -49,6 +49,7 @@ class Graph:
     zero: float
 
     def at(self, y: Floats) -> Floats:
+        """The ordinate (mm) on paper of one of the diagram (mm)."""
         return self.zero + y
 
 
@@ -64,11 +65,12 @@ class LawScales:
     poles: tuple[float, float]
 
     def shrunk(self, times: float) -> LawScales:
-        """Those of diagrams so many times smaller."""
+        """Those of diagrams smaller by a factor."""
         (s, ds, dds), (one, two) = self.per_mm, self.poles
         return LawScales(self.turn / times, (s * times, ds * times, dds * times), (one / times, two / times))
 
     def across(self, φ: Floats) -> Floats:
+        """Abscissae (mm) [N] of angles of the cam (rad)."""
         return φ / (2 * math.pi) * self.turn
 
 

@@ -151,6 +151,7 @@ def _within(end: complex, start: complex, left: float, right: float) -> complex:
 
 
 def style_point(at: complex) -> tuple[Item, ...]:
+    """A point of the construction at a place (mm)."""
     return (Circle(at, 0.6, None, style.BLACK),)
 
 
@@ -306,7 +307,7 @@ def _laid_off(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item
 
 
 def pivot_of(cam: Cam) -> complex:
-    """The pivot of an oscillating follower in the fixed frame."""
+    """The pivot of an oscillating follower in the fixed frame (m)."""
     return complex(cam.mirrored(np.array([complex(cam.opposite * cam.a, 0)]))[0])
 
 
@@ -335,7 +336,7 @@ def _position(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item
 
 
 def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: bool = True) -> Iterator[Item]:
-    """The follower with its tip (centre of the roller, edge, point of contact) at a place of the paper.
+    """The follower, its tip (centre of the roller, edge, point of contact) at a place of the paper (mm).
 
     With `walls` what holds it is drawn, too.
     """
@@ -360,7 +361,7 @@ def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: boo
 
 
 def guide_walls(tip: complex) -> Iterator[Item]:
-    """The guide of a translating follower whose end is in its highest position."""
+    """The guide (mm) of a translating follower whose end is in its highest position."""
     for side in (-1, 1):
         wall = tip + complex(side * GUIDE, 0.6 * FOLLOWER)
         yield from style.ground(wall - 4j, wall + 4j, 1 if side < 0 else -1)

@@ -85,14 +85,14 @@ class Cam:
         return CamProfile(self, φ, *self.motion(φ, of))
 
     def lifting(self, s: Floats) -> Complexes:
-        """The way in which the follower lifts, of length 1 in the fixed frame of a cam that turns anticlockwise."""
+        """The way in which the follower lifts [N], of length 1 in the fixed frame of a cam that turns anticlockwise."""
         if self.translating:
             return np.full(s.shape, 1j)
         lifting: Complexes = 1j * np.exp(-1j * self.opposite * (self.psi0 + s))
         return lifting
 
     def mirrored(self, points: Complexes) -> Complexes:
-        """Points of a cam that turns anticlockwise as they are at one that turns as this does."""
+        """Points [N] of a cam that turns anticlockwise as they are at one that turns as this does, in their unit."""
         return points if self.turn > 0 else -points.conj()
 
     # --- curves
@@ -134,7 +134,7 @@ class Cam:
 
     @cached_property
     def undercut(self) -> tuple[float, ...]:
-        """Angles of the cam at which the working profile has a cusp or is cut away, the worst of each interval."""
+        """Angles of the cam (rad) where the working profile has a cusp or is cut away, the worst of each interval."""
         if not (self.flat or self.roller):
             return ()
         found = []
@@ -147,7 +147,7 @@ class Cam:
         return tuple(sorted(set(found)))
 
     def worst(self, number: int, of: Callable[[CamProfile], Floats]) -> tuple[float, float]:
-        """Where in an interval a quantity of the cam is greatest, and how great it is."""
+        """Where in an interval (rad) a quantity of the cam is greatest, and how great it is (SI)."""
         one = self.motion.intervals[number]
 
         def value(φ: Floats) -> Floats:
@@ -217,12 +217,12 @@ class CamProfile:
 
     @cached_property
     def normal(self) -> Complexes:
-        """The outward normal, of length 1: the way in which the follower lifts, turned by the pressure angle."""
+        """The outward normal [N], of length 1: the way in which the follower lifts, turned by the pressure angle."""
         return self.cam.mirrored(self.cam.lifting(self.s) * np.exp(1j * (self.alpha - self.φ)))
 
 
 def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[float, float]:
-    """Where in an interval a function is greatest, and its value: sampled, then closer and closer about the best."""
+    """Where in an interval a function of it is greatest, and its value in its unit: sampled, then ever closer."""
     x = np.linspace(low, high, 361)
     for _ in range(8):
         y = np.nan_to_num(of(x), nan=-np.inf, posinf=np.inf, neginf=-np.inf)

@@ -100,7 +100,7 @@ class Driven(Part):
 
     @property
     def unevenness(self) -> float | None:
-        """δ of the flywheel, None if none is asked for."""
+        """δ of the flywheel, a ratio; None if none is asked for."""
         return None if self.flywheel is None else self.flywheel.delta.si
 
     @classmethod
@@ -172,7 +172,7 @@ class GivenSheet(Sheet):
         self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
 
     def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
-        """The crank's drawn length by a round scale of the drawing."""
+        """The crank's drawn length (mm) by a round scale (m per mm) of the drawing."""
         μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
         self.define(ids.drawn(start, end), crank / μ, drawn_length(start, end))
 

@@ -140,7 +140,7 @@ class Ram:
         return self.crank.place(1j * (self.height - self.crank.d))
 
     def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
-        """The mechanism; the ram's guide points against its working way, E lies on the working side of D."""
+        """The mechanism (gravity in m/s²); the ram's guide points against its working way, E lies on its side of D."""
         towards = self.crank.place(1 + 0j)
         guide = Guide(self.line, math.atan2(towards.imag, towards.real))
         return Linkage(

@@ -131,6 +131,7 @@ class _Window:
         return np.column_stack((across, up))
 
     def at(self, x: float, y: float) -> complex:
+        """The place on paper (mm) of x and y in the units of the axes."""
         across, up = self.vertices([x], [y])[0]
         return complex(across, up)
 

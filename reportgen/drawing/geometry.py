@@ -184,6 +184,7 @@ class HalfPlane:
     inward: complex
 
     def depth(self, point: complex) -> float:
+        """How deep a point lies in the half-plane (mm); negative outside."""
         return ((point - self.at) * self.inward.conjugate()).real
 
 

@@ -141,13 +141,16 @@ class _Taken:
 
     @property
     def centres(self) -> Complexes:
+        """The middles of all labels and leaders that stand (mm) [N]."""
         return self._centres[: self.count]
 
     @property
     def halves(self) -> Complexes:
+        """Half their sizes (mm) [N]."""
         return self._halves[: self.count]
 
     def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
+        """Enter a label by its middle and half its size (mm), with its leader."""
         self._centres[self.count], self._halves[self.count] = centre, half
         self.count += 1
         if leader:

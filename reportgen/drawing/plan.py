@@ -68,10 +68,12 @@ class PlanVector(Generic[Corner]):
 
     @property
     def middle(self: PlanVector[complex]) -> complex:
+        """The middle of the vector (mm)."""
         return (self.start + self.end) / 2
 
     @property
     def length(self: PlanVector[complex]) -> float:
+        """Its length (mm)."""
         return abs(self.end - self.start)
 
 

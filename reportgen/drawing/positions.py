@@ -145,7 +145,7 @@ def centre_plan(
     looks: Looks,
     moving: Sequence[PlaneMotion] = (),
 ) -> Scene:
-    """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them.
+    """The mechanism at position `index`, `scale` mm to a metre, with its links' instant centres and normals to them.
 
     Of links that are `moving` the velocities are drawn, not to scale, with their angles.
     """

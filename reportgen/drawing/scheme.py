@@ -164,6 +164,7 @@ class Looks:
         return () if self.scale is None else (self.scale,)
 
     def block(self, link: int) -> tuple[float, float]:
+        """Length and width of a block (mm)."""
         return self.blocks.get(link, style.BLOCK)
 
 

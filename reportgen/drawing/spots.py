@@ -44,7 +44,7 @@ def nearby(half: complex, gap: float) -> Complexes:
 
 @lru_cache(maxsize=KEPT)
 def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
-    """The order [72 × anchors] of nearby spots: the first point and the preferred directions first."""
+    """The order [72 × anchors] of nearby spots: the first point and preferred directions (rad) first."""
     cost = (np.asarray(NEAR)[:, None] * 0.45 + turned(prefer)).ravel()
     total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
     return np.argsort(total, kind="stable")

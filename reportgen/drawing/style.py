@@ -117,7 +117,7 @@ def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
 def guide(
     low: complex, high: complex, size: tuple[float, float], bars: Sequence[tuple[complex, complex]] = ()
 ) -> tuple[Item, ...]:
-    """Walls on both sides of the way of a block, half a block longer than the way, open where `bars` cross them."""
+    """Walls (mm) on both sides of a block's way, half a block longer than it, open where `bars` cross them."""
     u = unit(high - low)
     away = u * 1j * (size[1] / 2 + PLAY)
     on = u * (size[0] / 2 + 2.0)
@@ -151,6 +151,7 @@ def _uncrossed(
 
 
 def block(at: complex, angle: float, size: tuple[float, float]) -> Item:
+    """A block of a size (mm) at a place (mm), turned by an angle (rad)."""
     return Polyline(rectangle(at, *size, angle), VISIBLE, closed=True, fill=TINT)
 
 

@@ -26,7 +26,7 @@ SPREAD, CURVED = 1.5, 6.0
 
 
 def crossing(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function that is below 0 at `low` and above at `high` is 0, to the last bit: the interval is halved."""
+    """Where (in its unit) a function below 0 at `low` and above at `high` is 0, to the last bit: by bisection."""
     while low != (middle := (low + high) / 2) and middle != high:
         low, high = (middle, high) if function(middle) < 0 else (low, middle)
     return middle
@@ -42,12 +42,12 @@ class Rack:
 
     @property
     def rounding(self) -> float:
-        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α), which ends where the addendum does."""
+        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α) (modules), which ends where the addendum does."""
         return self.c / (1 - math.sin(self.alpha))
 
     @property
     def land(self) -> float:
-        """Half the flat of its tip; negative where the rounding has no room."""
+        """Half the flat of its tip (modules); negative where the rounding has no room."""
         return math.pi / 4 - self.ha * math.tan(self.alpha) - self.rounding * math.cos(self.alpha)
 
 
@@ -63,19 +63,22 @@ class Wheel:
 
     @property
     def r(self) -> float:
+        """The reference radius r = m z/2 (m)."""
         return self.m * self.z / 2
 
     @property
     def r_b(self) -> float:
+        """The base radius r_b = r cos α (m)."""
         return self.r * math.cos(self.rack.alpha)
 
     @property
     def r_f(self) -> float:
+        """The root radius r_f = r − m (h_a* + c* − x) (m)."""
         return self.r - self.m * (self.rack.ha + self.rack.c - self.x)
 
     @property
     def pitch(self) -> float:
-        """The angle of a tooth with its space."""
+        """The angle of a tooth with its space (rad)."""
         return 2 * math.pi / self.z
 
     # --- the flank
@@ -94,7 +97,7 @@ class Wheel:
     # --- the fillet
 
     def fillet(self, ψ: Floats) -> Complexes:
-        """Points that the rack's rounding cuts where its outward normal has the direction ψ, from −π/2 to −α.
+        """Points (m) [N] that the rack's rounding cuts where its outward normal has the direction ψ, −π/2 to −α (rad).
 
         The normal through the centre of the rounding, y below the pitch line, passes through the pitch point:
         their distance is y/sin ψ.
@@ -109,7 +112,7 @@ class Wheel:
 
     @cached_property
     def join(self) -> tuple[float, float]:
-        """Where fillet and flank meet: the direction ψ and the radius; they touch unless the tooth is undercut."""
+        """Where fillet and flank meet: direction ψ (rad) and radius (m); they touch unless the tooth is undercut."""
         α, m = self.rack.alpha, self.m
         along = self.r * math.sin(α) - (self.rack.ha - self.x) * m / math.sin(α)
         if along >= 0:
@@ -130,7 +133,7 @@ class Wheel:
     # --- a tooth, the wheel
 
     def side(self, chord: float = CHORD) -> tuple[Complexes, Complexes]:
-        """The fillet from the root circle, and the flank from there to the tip, no chord farther than `chord` off."""
+        """The fillet from the root circle, the flank on to the tip (m) [N], no chord farther off than `chord` (m)."""
         ψ, start = self.join
         steps = math.ceil(SPREAD * math.sqrt(CURVED * self.m / (8 * chord)))
         fillet = self.fillet(np.linspace(-math.pi / 2, ψ, steps + 1))
@@ -140,7 +143,7 @@ class Wheel:
         return fillet, self.flank(self.r_b * np.hypot(1.0, np.linspace(low, high, steps + 1)))
 
     def tooth(self, chord: float = CHORD) -> Complexes:
-        """A tooth clockwise, from the middle of the space on its left to that on its right."""
+        """A tooth clockwise (m) [N], from the middle of the space on its left to that on its right."""
         fillet, flank = self.side(chord)
         steps = max(math.ceil(self.pitch * math.sqrt(self.r_a / (8 * chord)) / 2), 2)
         root = self.r_f * np.exp(1j * np.linspace(self.pitch / 2, np.angle(fillet[0]), steps))
@@ -149,6 +152,6 @@ class Wheel:
         return np.concatenate((left, left[-2::-1].conjugate()))
 
     def outline(self, chord: float = CHORD) -> Complexes:
-        """All teeth, clockwise, as a closed polyline."""
+        """All teeth, clockwise, as a closed polyline (m) [N]."""
         turns = np.exp(-1j * self.pitch * np.arange(self.z))
         return np.asarray((turns[:, None] * self.tooth(chord)[:-1]).ravel())

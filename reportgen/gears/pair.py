@@ -49,30 +49,35 @@ class GearPair:
 
     @cached_property
     def x(self) -> Floats:
+        """The shifts x (modules) [2, ...]."""
         return np.asarray(self.shifts, float)
 
     @cached_property
     def z(self) -> Floats:
+        """The numbers of teeth [2, 1 …]."""
         return np.reshape(np.array(self.teeth, float), (2,) + (1,) * (self.x.ndim - 1))
 
     # --- the pair in mesh
 
     @cached_property
     def alpha_w(self) -> Floats:
-        """The working pressure angle: inv α_w = inv α + 2 (x₁ + x₂) tan α/(z₁ + z₂)."""
+        """The working pressure angle (rad): inv α_w = inv α + 2 (x₁ + x₂) tan α/(z₁ + z₂)."""
         α = self.rack.alpha
         return np.asarray(arcinv(inv(α) + 2 * self.x.sum(axis=0) * math.tan(α) / sum(self.teeth)))
 
     @property
     def a(self) -> float:
+        """The reference centre distance a = m (z₁ + z₂)/2 (m)."""
         return self.m * sum(self.teeth) / 2
 
     @property
     def a_w(self) -> Floats:
+        """The working centre distance a_w = a cos α/cos α_w (m) [...]."""
         return np.asarray(self.a * math.cos(self.rack.alpha) / np.cos(self.alpha_w))
 
     @property
     def y(self) -> Floats:
+        """The centre distance modification y = (a_w − a)/m (modules) [...]."""
         return np.asarray((self.a_w - self.a) / self.m)
 
     @property
@@ -84,78 +89,86 @@ class GearPair:
 
     @property
     def d(self) -> Floats:
+        """The reference diameters d = m z (m) [2, ...]."""
         return np.asarray(self.m * self.z)
 
     @property
     def d_b(self) -> Floats:
+        """The base diameters d_b = d cos α (m) [2, ...]."""
         return np.asarray(self.d * math.cos(self.rack.alpha))
 
     @property
     def d_w(self) -> Floats:
+        """The pitch diameters d_w = d_b/cos α_w (m) [2, ...]."""
         return np.asarray(self.d_b / np.cos(self.alpha_w))
 
     @property
     def d_a(self) -> Floats:
+        """The tip diameters d_a = d + 2m (h_a* + x − Δy) (m) [2, ...]."""
         return np.asarray(self.d + 2 * self.m * (self.rack.ha + self.x - self.dy))
 
     @property
     def d_f(self) -> Floats:
+        """The root diameters d_f = d − 2m (h_a* + c* − x) (m) [2, ...]."""
         return np.asarray(self.d - 2 * self.m * (self.rack.ha + self.rack.c - self.x))
 
     @property
     def s(self) -> Floats:
+        """The tooth thickness s = m (π/2 + 2x tan α) on the reference circles (m) [2, ...]."""
         return np.asarray(self.m * (math.pi / 2 + 2 * self.x * math.tan(self.rack.alpha)))
 
     @property
     def alpha_a(self) -> Floats:
-        """The pressure angle at the tips."""
+        """The pressure angle at the tips (rad) [2, ...]: cos α_a = d_b/d_a."""
         with np.errstate(invalid="ignore"):
             return np.asarray(np.arccos(self.d_b / self.d_a))
 
     @property
     def s_a(self) -> Floats:
-        """The thickness at the tips; negative beyond a pointed tooth."""
+        """The thickness at the tips (m) [2, ...]; negative beyond a pointed tooth."""
         return np.asarray(self.d_a * (self.s / self.d + inv(self.rack.alpha) - inv(self.alpha_a)))
 
     @property
     def x_min(self) -> Floats:
-        """The least shifts without undercut."""
+        """The least shifts without undercut (modules) [2]."""
         return np.asarray(self.rack.ha - self.z * math.sin(self.rack.alpha) ** 2 / 2)
 
     # --- contact
 
     @property
     def epsilon(self) -> Floats:
+        """The contact ratio ε_α, the path of contact over p_b [...]."""
         return np.asarray((self.z * (np.tan(self.alpha_a) - np.tan(self.alpha_w))).sum(axis=0) / (2 * math.pi))
 
     @property
     def p_b(self) -> float:
+        """The base pitch p_b = π m cos α (m)."""
         return math.pi * self.m * math.cos(self.rack.alpha)
 
     @property
     def path(self) -> Floats:
-        """N₁N₂, the line of action between the base circles."""
+        """N₁N₂, the line of action between the base circles (m) [...]."""
         return np.asarray(self.a_w * np.sin(self.alpha_w))
 
     @property
     def rho_a(self) -> Floats:
-        """The radii of curvature of the flanks at the tips."""
+        """The radii of curvature of the flanks at the tips (m) [2, ...]."""
         return np.asarray(self.d_b / 2 * np.tan(self.alpha_a))
 
     @property
     def rho_p(self) -> Floats:
-        """The radii of curvature where each flank's active part begins: there the mate's tip touches."""
+        """The radii of curvature (m) [2, ...] where each flank's active part begins: there the mate's tip touches."""
         return np.asarray(self.path - self.rho_a[::-1])
 
     @property
     def rho_f(self) -> Floats:
-        """The radii of curvature where each involute begins; negative on undercut teeth."""
+        """The radii of curvature (m) [2, ...] where each involute begins; negative on undercut teeth."""
         α = self.rack.alpha
         return np.asarray(self.d / 2 * math.sin(α) - (self.rack.ha - self.x) * self.m / math.sin(α))
 
     @property
     def sliding(self) -> Floats:
-        """The specific sliding λ at the feet of both wheels, where it is worst: below 0."""
+        """The specific sliding λ [2, ...] at the feet of both wheels, where it is worst: below 0."""
         return np.asarray(1 - self.z / self.z[::-1] * self.rho_a[::-1] / self.rho_p)
 
     # --- what is asked of it
@@ -188,12 +201,12 @@ def sum_for(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
 
 
 def least_shifts(pair: GearPair) -> Floats:
-    """x_min in hundredths upwards, and no shift where none is needed."""
+    """x_min [2] in hundredths upwards, and no shift where none is needed (modules)."""
     return np.maximum(np.ceil(np.round(pair.x_min / HUNDREDTH, 9)) * HUNDREDTH, 0.0).round(2)
 
 
 def balanced(pair: GearPair, total: float) -> Floats:
-    """The shifts of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
+    """The shifts (modules) of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
     first = np.linspace(total / 2 - LARGEST, total / 2 + LARGEST, 601)
 
     def unlike(x1: Floats) -> Floats:
@@ -212,7 +225,7 @@ def balanced(pair: GearPair, total: float) -> Floats:
 
 
 def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
-    """Of all shifts in hundredths within the limits those with the least greater |λ|: there the two are nearly equal.
+    """Of shifts [2] in hundredths of the module within limits those of the least greater |λ|, λ₁ ≈ λ₂.
 
     Raises `NoPairError` where none keep the limits.
     """
@@ -247,7 +260,7 @@ class Chosen:
         return self.a_w is not None
 
     def broken(self) -> Iterator[tuple[str, int, float, float]]:
-        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, and its limit."""
+        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, its limit (ratios, or modules)."""
         pair, limits = self.pair, self.limits
         for i in (0, 1):
             checks = (

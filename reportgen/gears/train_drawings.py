@@ -65,7 +65,7 @@ def radii(case: SolvedTrain) -> dict[str, float]:
 
 
 def outermost(r: dict[str, float]) -> float:
-    """How far wheels reach from the axis, by their reference circles."""
+    """How far wheels reach from the axis, by their reference circles, in the unit of the radii."""
     return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
 
 

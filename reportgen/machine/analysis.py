@@ -314,7 +314,7 @@ class Machine:
 
 
 def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """Cycle angles of one turn's positions, and labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
+    """Cycle angles (rad) of a turn's positions, labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
 
     Of the `extra` angles those that coincide with an even one are left out; the letters follow the angle and
     go on from turn to turn, as the numbers do.

@@ -38,7 +38,7 @@ class Load:
     couple: Floats
 
     def moment(self, about: Complexes | complex) -> Floats:
-        """Moment about a point: (point − about) × force + couple."""
+        """Moment about a point (N·m) [N]: (point − about) × force + couple."""
         return cross(self.point - about, self.force) + self.couple
 
     def power(self, motion: Motion) -> Floats:
@@ -201,6 +201,7 @@ class _Wrench(NamedTuple):
     couple: Floats | float
 
     def moment(self, about: Complexes) -> Floats:
+        """Moment about a point (N·m) [N]."""
         return cross(self.point - about, self.force) + self.couple
 
 

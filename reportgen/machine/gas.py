@@ -147,7 +147,7 @@ class StrokeIndicator:
     def breaks(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[float, ...]:
-        """All cycle angles in [0, 4π] where the pressure bends or jumps, rising.
+        """All cycle angles in [0, 4π] (rad) where the pressure bends or jumps, rising.
 
         `fraction_of` gives s/H at cycle angles [N]; it is monotonic between dead centres, so each
         stroke crosses every node once.
@@ -223,7 +223,7 @@ class AngleIndicator:
     def breaks(
         self, fraction_of: Callable[[Floats], Floats] | None = None, dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[float, ...]:
-        """All cycle angles in [0, 4π] where the pressure bends, rising."""
+        """All cycle angles in [0, 4π] (rad) where the pressure bends, rising."""
         return self.angles
 
     def work(self, volume_rate: Callable[[Floats], Floats]) -> float:

@@ -114,12 +114,12 @@ class Law(ABC):
 
     @abstractmethod
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        """Cycle angles where the size bends or jumps, in any order and any turn."""
+        """Cycle angles (rad) where the size bends or jumps, in any order and any turn."""
 
     @property
     @abstractmethod
     def sizes(self) -> tuple[float, ...]:
-        """All sizes that it is given by."""
+        """All sizes (N or N·m) that it is given by."""
 
     @property
     def acts(self) -> bool:
@@ -369,12 +369,12 @@ class Resistance(Law):
 
 
 def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:
-    """Forces over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
+    """Forces (N) over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 
 
 def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> Indicator:
-    """Forces over one turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
+    """Forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
     second = tuple(angle + FULL_TURN for angle in angles)
     if values[0] == values[-1]:
         return AngleIndicator((*angles, *second[1:]), (*values, *values[1:]))
@@ -383,7 +383,7 @@ def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> Indicator:
 
 
 def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
-    """What resists a `rate` over the cycle angle (0…2π) with a constant size."""
+    """What resists a `rate` (m/s or rad/s) over the cycle angle (0…2π) with a constant size (N or N·m)."""
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
     signs = np.sign(rate(edges))
     changes = np.flatnonzero(signs[1:] != signs[:-1])

@@ -36,7 +36,7 @@ def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
 
 
 def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[float, ...]:
-    """The cycle angles of one turn, rising, at which a slider on the frame turns back."""
+    """The cycle angles (rad) of one turn, rising, at which a slider on the frame turns back."""
     dyad, guide = rails(linkage)[link]
     along = cmath.exp(1j * guide.angle)
 
@@ -93,7 +93,7 @@ class Piston(Stroke):
 
     @classmethod
     def on(cls, course: Stroke, bore: float, indicator: Indicator) -> Piston:
-        """The piston that is the slider of a course."""
+        """The piston, its bore in m, that is the slider of a course."""
         return cls(**vars(course), bore=bore, indicator=indicator)
 
     @property
@@ -117,7 +117,7 @@ Direction = Callable[[Motion], Complexes]
 
 
 def fixed(direction: complex) -> Direction:
-    """The same direction at every position."""
+    """The same direction, of length 1, at every position."""
     return lambda motion: np.full(motion.driver.shape, direction, dtype=np.complex128)
 
 

@@ -93,7 +93,7 @@ class Marked:
     elsewhere: bool = False
 
     def equals(self, value: float, band: float) -> bool:
-        """Whether a value was given that lies within a band of another."""
+        """Whether a value was given that lies within a band of another, all in the printed unit."""
         return self.given is not None and abs(self.given - value) <= band
 
 
@@ -329,7 +329,7 @@ class MarkingScheme:
         return computed_bands(self.ledger, self.policy.digits)
 
     def bands_at(self, scales: Values) -> dict[str, np.ndarray]:
-        """The tolerances where plans are drawn at multiples of the report's scales."""
+        """The tolerances (SI) [N] where plans are drawn at multiples of the report's scales."""
         policy = self.policy
         drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
         return {

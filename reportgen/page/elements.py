@@ -177,7 +177,7 @@ class Painter:
     # --- labels
 
     def label(self, label: Label, height: float = 0.0) -> str:
-        """A label as text: its middle, left or right end where the scene has it, its base line as its metrics say."""
+        """A label as text on a sheet so high (mm): its middle or an end where the scene has it, its own base line."""
         extent, (centre, half) = box(label.content, label.size), frame(label)
         turned = label.turn == 90
         side = "s" if "left" in label.anchor else "e" if "right" in label.anchor else "m"

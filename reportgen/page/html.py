@@ -235,6 +235,7 @@ class Blocks:
         return "\n".join(filter(None, lines))
 
     def block(self, block: tree.Block, room: float) -> str:
+        """A block in a room (mm)."""
         match block:
             case tree.Section(level, title, _, _, number):
                 name = f"h{level + self.below}"
@@ -354,6 +355,7 @@ class Blocks:
     # --- formulas, lists and tables -----------------------------------------------------------------
 
     def items(self, block: tree.List, room: float) -> str:
+        """The items of a list in a room (mm)."""
         name = "ol" if block.ordered else "ul"
         start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
         lines = "".join(f"<li>{self.write(item, room)}</li>" for item in block.items)

@@ -36,6 +36,7 @@ class Sizes:
     rotation: float
 
     def of(self, what: What) -> float:
+        """What counts as one (SI) of velocities or accelerations."""
         return self.velocity if what == "v" else self.acceleration
 
 
@@ -229,7 +230,7 @@ LONGEST_DRAWN = 0.08
 
 
 def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
-    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, and pa, πa′ are the drawn crank."""
+    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` (SI per mm) μ_v = ω₁ μ_l, μ_a = ω₁² μ_l; pa, πa′ are O₁A."""
     centre, pin = driver.centre, driver.pin
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)

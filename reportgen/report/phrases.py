@@ -100,7 +100,7 @@ def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> 
 
 
 def shown_smaller(report: Report, times: float, name: str) -> Inlines:
-    """What is said of a figure that is shown so many times smaller than to μ_l; nothing for one that is not."""
+    """What is said of a figure shown smaller than to μ_l by a factor; nothing for one that is not."""
     if times == 1.0:
         return ()
     scale = Chain((report.ledger.symbol("mu.l"), report.ledger.number("mu.l")))

@@ -300,7 +300,7 @@ def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
         return 0 if vector.stage < known else 2 + vector.stage - known
 
     def reached(corner: complex) -> int:
-        """The first step that draws an arrow to or from a corner."""
+        """The first step that draws an arrow to or from a corner (mm)."""
         return min(step(v) for v in drawing.vectors if corner in (v.start, v.end))
 
     steps = replace(

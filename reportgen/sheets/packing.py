@@ -87,10 +87,12 @@ class Packing:
 
     @property
     def wide(self) -> float:
+        """The sheet's room across (mm)."""
         return (self.room.high - self.room.low).real
 
     @property
     def high(self) -> float:
+        """The sheet's room upwards (mm)."""
         return (self.room.high - self.room.low).imag
 
     @property
