@@ -194,7 +194,8 @@ def grade(
 ) -> None:
     """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen.classes import assess
-    from reportgen.classes.platforms import files_read, read_gradebook
+    from reportgen.classes.gradebooks import read_gradebook
+    from reportgen.classes.platforms import files_read
     from reportgen.marking.marks import Policy, read_policy
 
     with ending(lang):
