@@ -26,8 +26,10 @@ from reportgen.marking.feedback import feedback_book, feedback_document
 from reportgen.marking.grades import class_document, grade_rows, person
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, MarkingScheme, Policy, Submission, marking_scheme
+from reportgen.marking.marks import Marking, Submission
 from reportgen.marking.parts import check_shares
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx

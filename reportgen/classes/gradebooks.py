@@ -17,7 +17,7 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.source import encoding_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
-from reportgen.marking.marks import Scale
+from reportgen.marking.policy import Scale
 from reportgen.workbook import read
 from reportgen.workbook.reading import BOOKS, SEPARATORS
 

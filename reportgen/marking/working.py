@@ -12,7 +12,8 @@ from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit
-from reportgen.marking.marks import MarkingScheme, Place, Submission, Values, makes_scale
+from reportgen.marking.marks import Place, Submission
+from reportgen.marking.scheme import MarkingScheme, Values, makes_scale
 from reportgen.report.key import KeyRow, Role
 
 Change = Callable[[np.ndarray, Values], np.ndarray]

@@ -14,8 +14,10 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import EVERYTHING, Ask, key_of
-from reportgen.marking.marks import Policy, Scale, Verdict, marking_scheme, read_policy
+from reportgen.marking.marks import Verdict
 from reportgen.marking.paper import answer_tables, task_of
+from reportgen.marking.policy import Policy, Scale, read_policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import PageBreak, text_of
 from reportgen.report.key import Key
