@@ -101,7 +101,8 @@ def batch(
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
     from reportgen.api import MAKERS
-    from reportgen.classes.run import NAME, Order, run_batch
+    from reportgen.classes.manifest import NAME
+    from reportgen.classes.run import Order, run_batch
     from reportgen.marking.policy import read_policy
 
     if (spec is None) == (assignments is None):
