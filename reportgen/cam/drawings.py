@@ -14,8 +14,9 @@ from reportgen.cam import cam_ids
 from reportgen.cam.profile import Cam, CamProfile
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Symbol
 

@@ -13,8 +13,9 @@ from itertools import combinations
 from typing import Literal
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import clusters, on_one_line, polar, unit
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.plan import CROWDED, Plan, point_names
 from reportgen.drawing.scheme import Looks, mechanism, skeleton
 from reportgen.formula import Symbol, constructions

@@ -18,21 +18,8 @@ from functools import cached_property, lru_cache, reduce
 
 import numpy as np
 
-from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import (
-    Box,
-    Complexes,
-    Flags,
-    Floats,
-    Ink,
-    bounds,
-    box,
-    corners_of,
-    frame,
-    moved,
-    overlap,
-    segments,
-)
+from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
+from reportgen.drawing.geometry import Box, Complexes, Flags, Floats, Ink, box, frame, overlap, segments
 from reportgen.drawing.spots import (
     CLEAR,
     FINE,
@@ -114,7 +101,7 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
     return parts[1:]
 
 
-def _row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
+def label_row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
     """Labels side by side on one baseline, their common box centred on `at`; `over` lines they stand on paper."""
     boxes = [box(part, size) for part in parts]
     total = reduce(Box.beside, boxes)
@@ -388,7 +375,7 @@ def _place_in(
             if labelled is None:
                 crowded.append(i)
             centre, leader = labelled or _least_touched(spot, taken)
-        labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over)
+        labels: tuple[Item, ...] = label_row(centre, request.parts, request.size, over)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)
         if leader:
@@ -429,65 +416,3 @@ def _least_touched(spot: _Spots, taken: _Taken) -> tuple[complex, Segment]:
     best = int(np.argmin(cost + len(cost) * (touches + 2.0 * ~apart)))
     first, last = at + ways[best]
     return complex(centres[best]), (complex(first), complex(last))
-
-
-# --- from drafts to finished scenes ---------------------------------------------------------------
-# Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added. `finish` places the
-# labels, crops to the content and gives the `Scene`.
-
-MARGIN = 6.0
-
-
-@dataclass(frozen=True, slots=True)
-class Canvas:
-    """Items in the order of painting and the labels still to be placed."""
-
-    items: tuple[Item, ...] = ()
-    requests: tuple[Request, ...] = ()
-
-    def __add__(self, other: Canvas) -> Canvas:
-        return Canvas(self.items + other.items, self.requests + other.requests)
-
-    def moved(self, by: complex) -> Canvas:
-        """The draft shifted by a vector (mm); its labels must have been placed before."""
-        return Canvas(tuple(moved(item, by) for item in self.items))
-
-
-def settle(draft: Canvas) -> Canvas:
-    """The draft with its labels placed."""
-    return Canvas(draft.items + place(draft.items, draft.requests).items)
-
-
-def finish(
-    draft: Canvas,
-    *,
-    notes: Sequence[Content] = (),
-    title: str = "",
-    margin: float = MARGIN,
-    frame: tuple[complex, complex] | None = None,
-) -> Scene:
-    """The scene: labels placed, `notes` (the figure's scale) below, cropped with `margin` mm around.
-
-    `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
-    the same paper.
-    """
-    labels = place(draft.items, draft.requests)
-    done = Canvas(draft.items + labels.items)
-    low, high = corners_of((*bounds(done.items), *(frame or ())))
-    below = _notes([*labels.key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
-    low, high = corners_of((low, high, *(bounds(below) if below else ())))
-    white = complex(margin, margin)
-    size = high + white - (low - white)
-    items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
-    return Scene(size.real, size.imag, items, title, margin, labels.crowded)
-
-
-def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:
-    """Lines of text, each of several parts, centred on x, the first below y."""
-    lines: list[Item] = []
-    for note in notes:
-        extent = reduce(Box.beside, (box(part, style.LABEL) for part in note))
-        height = extent.height + extent.depth
-        lines += _row(complex(x, y - height / 2), note, style.LABEL)
-        y -= height + 1.5
-    return tuple(lines)

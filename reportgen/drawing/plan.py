@@ -16,8 +16,9 @@ from typing import Generic, Literal, TypeVar
 
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.canvas import MARGIN, Canvas, finish, settle
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
-from reportgen.drawing.labels import KEY, MARGIN, Canvas, Request, finish, label, settle
+from reportgen.drawing.labels import KEY, Request, label
 
 Style = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]

@@ -14,8 +14,9 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import Complexes, box, clusters, coincident, polar, unit
-from reportgen.drawing.labels import LEFT_OUT, Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Symbol, vocabulary

@@ -12,8 +12,9 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
+from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label, settle
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.motion import Motion

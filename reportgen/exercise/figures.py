@@ -11,8 +11,9 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
+from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.geometry import bounds, clusters
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label, settle
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.solved import SolvedExercise

@@ -24,7 +24,8 @@ from reportgen.drawing.animation import (
     Track,
     extent,
 )
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered

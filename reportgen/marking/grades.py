@@ -12,7 +12,7 @@ from typing import Any
 from reportgen.base.units import Language, write
 from reportgen.base.words import load_words, search_path
 from reportgen.drawing import Content
-from reportgen.drawing.charts import bars, histogram
+from reportgen.drawing.counts import bars, histogram
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import points_text
 from reportgen.marking.key import symbol_text

@@ -16,11 +16,11 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
+from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import Sliding, link_and_plan
 from reportgen.drawing.forces import coriolis as coriolis_figure
 from reportgen.drawing.forces import inclination as inclination_figure
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.labels import Canvas
 from reportgen.drawing.positions import (
     DrawnCentre,
     PlaneMotion,

@@ -10,10 +10,11 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Item, Line, Scene
+from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
 from reportgen.drawing.forces import lever as lever_figure
-from reportgen.drawing.labels import Canvas, label
+from reportgen.drawing.labels import label
 from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
