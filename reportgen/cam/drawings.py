@@ -64,12 +64,12 @@ def limit_diagram(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 
 def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     """s upwards over s′, both at one scale; the centre at e to the right and s₀ below."""
-    found, cam = case.solution.designed, case.solution.cam
+    design, cam = case.solution.designed, case.solution.cam
     profile = cam.sampled()
     curve = profile.ds + 1j * profile.s
     centre = complex(cam.e, -cam.s0)
     places = [*curve, centre, 0j, complex(0, -1.25 * cam.s0)]
-    least = found.least
+    least = design.least
     if least is not None:
         places += [complex(least.e, -least.s0)] + ([least.apex.conjugate()] if least.apex is not None else [])
     usual, at = fitting(places, DIAGRAM_ROOM, size)
@@ -81,8 +81,8 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     requests: list[Request] = []
     planes: list[HalfPlane] = []
     limits = (
-        ("rise", found.limits.rise, 1, None if least is None else least.rise),
-        ("return", found.limits.back, -1, None if least is None else least.back),
+        ("rise", design.limits.rise, 1, None if least is None else least.rise),
+        ("return", design.limits.back, -1, None if least is None else least.back),
     )
     for _, limit, side, touch in limits:
         if limit is None or touch is None:
@@ -163,17 +163,17 @@ def _centre(at: complex) -> tuple[Item, ...]:
 
 def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     """On each position of the arm l k is laid off along it; a line at 90° − [α] to the arm through its end bounds."""
-    found, cam = case.solution.designed, case.solution.cam
+    design, cam = case.solution.designed, case.solution.cam
     σ, pivot = cam.opposite, pivot_of(cam)
     planes: list[HalfPlane] = []
     shown: list[tuple[complex, complex, HalfPlane]] = []
-    for phase, limit, sign in (("rise", found.limits.rise, 1), ("return", found.limits.back, -1)):
+    for phase, limit, sign in (("rise", design.limits.rise, 1), ("return", design.limits.back, -1)):
         if limit is None:
             continue
-        for number, one in enumerate(cam.motion.intervals):
-            if one.phase != phase:
+        for number, interval in enumerate(cam.motion.intervals):
+            if interval.phase != phase:
                 continue
-            φ = np.linspace(one.start, one.stop, 161)
+            φ = np.linspace(interval.start, interval.stop, 161)
             s, ds, _ = cam.motion(φ, np.full(φ.shape, number))
             for index, (ψ, rate) in enumerate(zip(s, ds, strict=True)):
                 arm = _arm(cam, float(ψ))

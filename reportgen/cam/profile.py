@@ -100,9 +100,9 @@ class Cam:
     def sampled(self, count: int = 720) -> CamProfile:
         """A whole turn, both sides of each corner of the motion: evenly spaced within each interval."""
         angles, numbers = [], []
-        for number, one in enumerate(self.motion.intervals):
-            steps = max(math.ceil(count * (one.stop - one.start) / (2 * math.pi)), 8)
-            angles.append(np.linspace(one.start, one.stop, steps + 1))
+        for number, interval in enumerate(self.motion.intervals):
+            steps = max(math.ceil(count * (interval.stop - interval.start) / (2 * math.pi)), 8)
+            angles.append(np.linspace(interval.start, interval.stop, steps + 1))
             numbers.append(np.full(steps + 1, number))
         return self.profile_at(np.concatenate(angles), np.concatenate(numbers))
 
@@ -137,23 +137,23 @@ class Cam:
         """Angles of the cam (rad) where the working profile has a cusp or is cut away, the worst of each interval."""
         if not (self.flat or self.roller):
             return ()
-        found = []
+        angles = []
         for number in range(len(self.motion.intervals)):
             φ, least = self.worst(number, lambda cam: -cam.effective)
             if -least <= 0:
-                found.append(φ)
+                angles.append(φ)
         # Where a uniform law stops at once a convex corner is left.
-        found += [one.angle for one in self.motion.impacts if one.kind == "rigid" and one.jump < 0]
-        return tuple(sorted(set(found)))
+        angles += [one.angle for one in self.motion.impacts if one.kind == "rigid" and one.jump < 0]
+        return tuple(sorted(set(angles)))
 
     def worst(self, number: int, of: Callable[[CamProfile], Floats]) -> tuple[float, float]:
         """Where in an interval (rad) a quantity of the cam is greatest, and how great it is (SI)."""
-        one = self.motion.intervals[number]
+        interval = self.motion.intervals[number]
 
         def value(φ: Floats) -> Floats:
             return of(self.profile_at(φ, np.full(φ.shape, number)))
 
-        return greatest(value, one.start, one.stop)
+        return greatest(value, interval.start, interval.stop)
 
 
 @dataclass(frozen=True)
@@ -172,8 +172,8 @@ class CamProfile:
     def _of(self, *wanted: str) -> list[Floats]:
         """Some quantities of the cam's sheet, by their ids."""
         motion = zip(self.cam.kind.moved, (self.s, self.ds, self.dds), strict=True)
-        found = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
-        return [np.broadcast_to(found[id], self.φ.shape) for id in wanted]
+        evaluated = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
+        return [np.broadcast_to(evaluated[id], self.φ.shape) for id in wanted]
 
     @cached_property
     def alpha(self) -> Floats:
@@ -227,6 +227,6 @@ def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[f
     for _ in range(8):
         y = np.nan_to_num(of(x), nan=-np.inf, posinf=np.inf, neginf=-np.inf)
         best = int(y.argmax())
-        found = float(x[best]), float(y[best])
+        top = float(x[best]), float(y[best])
         x = np.linspace(x[max(best - 1, 0)], x[min(best + 1, x.size - 1)], 33)
-    return found
+    return top

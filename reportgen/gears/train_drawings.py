@@ -281,7 +281,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
     z, (inner1, inner3) = train.teeth, case.scheme.inner
     ω1, ω2, ωH = (float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
     θ = math.copysign(1, ωH) * knots
-    one, satellite = ω1 / ωH, ω2 / ωH
+    wheel1, satellite = ω1 / ωH, ω2 / ωH
     still, placed = turned(train, case.given.k)
     centre, red = Track(np.zeros(1, complex)), Pen(0.35, style.RED)
 
@@ -295,7 +295,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
 
     items: list[MovingItem] = [
         MovingBody(marked("3", z.three, inner3), centre, Track(np.array([still]))),
-        MovingBody(marked("1", z.one, inner1), centre, Track(one * θ)),
+        MovingBody(marked("1", z.one, inner1), centre, Track(wheel1 * θ)),
     ]
     arm: list[Item] = [style.joint(0j)]
     for number, ψ in enumerate(placed):

@@ -206,13 +206,13 @@ class AngleIndicator:
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[Branch, ...]:
         """Each stroke's line over s/H, carried over by the piston's motion: `fraction_of` gives s/H at cycle angles."""
-        found = []
+        corners = []
         for start, end in pairwise((*np.asarray(dead_centres), CYCLE)):
             nodes = [angle for angle in self.angles if start < angle < end]
             angle = np.union1d(np.linspace(start, end, DRAWN_IN_A_STROKE), nodes)
             pressure = np.interp(angle, self.angles, self.pressures)
-            found.append((tuple(map(float, fraction_of(angle))), tuple(map(float, pressure))))
-        return tuple(found)
+            corners.append((tuple(map(float, fraction_of(angle))), tuple(map(float, pressure))))
+        return tuple(corners)
 
     def pressure(
         self, cycle_angle: ArrayLike, fraction: ArrayLike = 0.0, dead_centres: ArrayLike = DEAD_CENTRES

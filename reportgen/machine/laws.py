@@ -71,13 +71,13 @@ class Stroke:
     @property
     def dead_centres(self) -> Floats:
         """Its own cycle angles over two turns at which it turns back [4]; the first is 0, the top."""
-        way = (self.bottom_angle - self.top_angle) % FULL_TURN or np.pi
-        return np.array([0.0, way, FULL_TURN, FULL_TURN + way])
+        inward_turn = (self.bottom_angle - self.top_angle) % FULL_TURN or np.pi
+        return np.array([0.0, inward_turn, FULL_TURN, FULL_TURN + inward_turn])
 
     def fraction(self, motion: Motion) -> Floats:
         """s/H [N]: the pin's way from its top over the stroke."""
-        way = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
-        return np.asarray(np.clip(way, 0.0, 1.0))
+        fraction = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
+        return np.asarray(np.clip(fraction, 0.0, 1.0))
 
     def fraction_rate(self, motion: Motion) -> Floats:
         """d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
@@ -394,10 +394,10 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
         return np.asarray(np.sign(rate(angle.ravel()).reshape(angle.shape)) == first[:, None])
 
     _, high = halved(edges[changes], edges[changes + 1], unchanged, halvings)
-    found = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
+    reversals = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
     # The first of them in the turn is where the sign before it ends.
-    after = rate(np.array([(found[0] + found[1]) / 2])) if found.size > 1 else -rate(np.array([0.0]))
-    return Opposing(size, tuple(map(float, found)), -float(np.sign(after[0])))
+    after = rate(np.array([(reversals[0] + reversals[1]) / 2])) if reversals.size > 1 else -rate(np.array([0.0]))
+    return Opposing(size, tuple(map(float, reversals)), -float(np.sign(after[0])))
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:

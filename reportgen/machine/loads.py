@@ -27,12 +27,12 @@ def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: fl
 
 def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
     """The sliders on guides of the frame, by link: their group and guide."""
-    found = {}
+    rails = {}
     for dyad in linkage.dyads:
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
             if isinstance(end, Guide) and end.link == GROUND:
-                found[link] = dyad, end
-    return found
+                rails[link] = dyad, end
+    return rails
 
 
 def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[float, ...]:
@@ -60,20 +60,20 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     ends = motion_at(np.array(reversals)).points[dyad.middle].p
     high = int(np.argmax(np.real(np.conj(along) * ends)))
     first = float(np.mod(reversals[high] + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
-    way = (reversals[1 - high] - reversals[high]) % FULL_TURN
+    inward_turn = (reversals[1 - high] - reversals[high]) % FULL_TURN
     whole = turns * FULL_TURN
     phase = (-(first + FULL_TURN * (top - 1)) + BEFORE_A_TURN) % whole - BEFORE_A_TURN
     crank_pin = dyad.start if isinstance(dyad.start, str) else dyad.middle
-    other = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
+    rod = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
     return Stroke(
         link=link,
-        rod=other,
+        rod=rod,
         pin=dyad.middle,
         crank_pin=crank_pin,
         top=complex(ends[high]),
         bottom=complex(ends[1 - high]),
         top_angle=0.0,
-        bottom_angle=way,
+        bottom_angle=inward_turn,
         phase=phase,
     )
 

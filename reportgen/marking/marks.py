@@ -85,8 +85,8 @@ Cells = Mapping[Place, Marked]
 
 def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
     """The points that cells earned, and those that they are worth."""
-    found = [(cell.points, cell.worth) for cell in cells]
-    return sum(points for points, _ in found), sum(worth for _, worth in found)
+    earned = [(cell.points, cell.worth) for cell in cells]
+    return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,11 +78,11 @@ class MarkingScheme:
         near: np.ndarray = np.max([np.roll(values, shift) for shift in range(-reach, reach + 1)], axis=0)
         return near
 
-    def distance(self, id: str, one: np.ndarray | float, other: np.ndarray | float) -> np.ndarray:
+    def distance(self, id: str, values: np.ndarray | float, references: np.ndarray | float) -> np.ndarray:
         """How far values (SI) lie apart: directions around the circle; what has no sense of its own by size."""
         if self.is_unsigned(id):
-            one, other = np.abs(one), np.abs(other)
-        return np.asarray(vocabulary.distance(id, np.asarray(one), np.asarray(other)))
+            values, references = np.abs(values), np.abs(references)
+        return np.asarray(vocabulary.distance(id, np.asarray(values), np.asarray(references)))
 
     def is_unsigned(self, id: str) -> bool:
         """Whether the sign of a quantity is not judged: an arm's, or one of which the sheet leaves the sense open."""
@@ -109,48 +109,48 @@ class MarkingScheme:
     @cached_property
     def alike(self) -> dict[str, tuple[str, ...]]:
         """Of each judged row those before it that have its values at all positions."""
-        found: dict[str, tuple[str, ...]] = {}
+        alike: dict[str, tuple[str, ...]] = {}
         for number, row in enumerate(self.judged):
-            one = self.ledger[row.id]
+            own = self.ledger[row.id]
             before = (
-                other
-                for other in self.judged[:number]
-                if other.kind == row.kind and len(other.values) == len(row.values)
+                earlier
+                for earlier in self.judged[:number]
+                if earlier.kind == row.kind and len(earlier.values) == len(row.values)
             )
-            found[row.id] = tuple(
-                other.id
-                for other in before
-                if np.allclose(one.values, self.ledger[other.id].values, rtol=1e-9, atol=0, equal_nan=True)
+            alike[row.id] = tuple(
+                earlier.id
+                for earlier in before
+                if np.allclose(own.values, self.ledger[earlier.id].values, rtol=1e-9, atol=0, equal_nan=True)
             )
-        return found
+        return alike
 
     @cached_property
     def makers(self) -> dict[str, tuple[str, str]]:
         """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
-        found: dict[str, tuple[str, str]] = {}
+        makers: dict[str, tuple[str, str]] = {}
         for row in self.judged:
             scale = vocabulary.plan(row.id)
-            if row.single and scale in self.ledger and scale not in found and makes_scale(self.ledger, row.id, scale):
+            if row.single and scale in self.ledger and scale not in makers and makes_scale(self.ledger, row.id, scale):
                 value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
                 sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
                 size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
                 if size:
-                    found[scale] = size, row.id
-        return found
+                    makers[scale] = size, row.id
+        return makers
 
     @cached_property
     def sizes(self) -> dict[str, set[str]]:
         """The quantities that each length of a plan stands for: μ times it, and the size of the vector laid as it."""
-        found: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
+        sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
         for id, family in self.ledger.families.items():
             if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
                 used = [one.id for one in family.definition.factors if isinstance(one, Ref)]
                 for length in used:
                     if vocabulary.plan(length) in used:
-                        found[length].add(id)
-            if id in found and family.of in self.ledger:
-                found[id].add(self.ledger[family.of].of)
-        return found
+                        sizes[length].add(id)
+            if id in sizes and family.of in self.ledger:
+                sizes[id].add(self.ledger[family.of].of)
+        return sizes
 
     def stands_on(self, place: Place, places: Container[Place]) -> bool:
         """Whether a value on the sheet stands on one at any of `places`."""

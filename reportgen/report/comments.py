@@ -264,8 +264,8 @@ def balance_senses(report: Report) -> list[Inlines]:
     positions_by_sense = {"against": course.against, "along": course.along, "none": course.none}
     motion = report.words["driven"][report.driver.kind]["motion_of"]
     return [
-        say(report, words[way], where=where(report, there), motion=motion)
-        for way, there in positions_by_sense.items()
+        say(report, words[sense], where=where(report, there), motion=motion)
+        for sense, there in positions_by_sense.items()
         if there
     ]
 

@@ -169,7 +169,7 @@ def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
 
 
 def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
-    from reportgen.classes import run as manifest
+    from reportgen.classes import manifest
     from reportgen.classes.pool import Job, Outcome, making
     from tests.classes.little import little
 
