@@ -9,9 +9,10 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
 from reportgen.drawing.geometry import clipped
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.model import model

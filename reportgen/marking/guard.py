@@ -23,8 +23,9 @@ from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Notice, Place, Submission, Verdict
+from reportgen.marking.marks import Cells, Marked, Notice, Place, Submission, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Working, last_half_unit
 from reportgen.report.key import Key, KeyRow, Role
 

@@ -19,22 +19,12 @@ from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit
 from reportgen.marking.guard import Classmate, guard, not_from_own
 from reportgen.marking.key import Ask, symbol_text, words_of
-from reportgen.marking.marks import (
-    Cells,
-    Marked,
-    Marking,
-    MarkingScheme,
-    Notice,
-    Place,
-    Policy,
-    Submission,
-    Values,
-    Verdict,
-    marking_scheme,
-)
+from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict
 from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
 from reportgen.marking.parts import joined, sheets_of
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme, Values, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working, lay_out
 from reportgen.report.case import Case

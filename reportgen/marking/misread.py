@@ -16,8 +16,9 @@ import numpy as np
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Verdict
+from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Change, Working, last_half_unit
 
 FACTORS = np.geomspace(1 / 4, 4, 120)

@@ -423,7 +423,7 @@ def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
-    """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
+    """What quantities come to (SI) by each mistake, from a student's own earlier values [mistakes, positions]."""
     scheme = working.scheme
     ledger = scheme.ledger
     made: dict[str, list[tuple[int, Change]]] = {}

@@ -20,6 +20,8 @@ from reportgen.formula.ledger import standing_on
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.working import Change
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
