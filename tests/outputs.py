@@ -6,10 +6,10 @@
 
 It calls the command line alone, so it stands outside whatever is rebuilt.  Written are, of each file in
 `assignments/` and its folders, in each language: results, tables, key, task and answer sheet, that
-sheet filled in with some mistakes and marked, the drawing sheets (PDF and DXF), the page for a browser with its film;
-with each typesetter the report's source and its PDF's words and strokes with their places; and the marks and feedback
-of the example class.  A PART is a word of the jobs' names ("engine-twin", "typst", "key", "class", "sheet", "page",
-"marks"); only jobs with all of them are run.
+sheet filled in with some mistakes and marked, the drawing sheets (PDF and DXF), the page for a browser with its
+animation; with each typesetter the report's source and its PDF's words and strokes with their places; and the marks
+and feedback of the example class.  A PART is a word of the jobs' names ("engine-twin", "typst", "key", "class",
+"sheet", "page", "marks"); only jobs with all of them are run.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ EVERY, WRONG = 17, 1.13
 """Of a filled sheet the second and then each so many-th answer is wrong by this factor."""
 
 PACKED = re.compile(r"(?<=\")[A-Za-z0-9+/]{400,}={0,2}(?=\")")
-"""The packed samples of a film."""
+"""The packed samples of an animation."""
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
@@ -108,7 +108,7 @@ def workbook_text(path: Path) -> str:
 
 
 def browser_text(path: Path) -> str:
-    """The elements of a page, a line each; the samples of its film as numbers."""
+    """The elements of a page, a line each; the samples of its animation as numbers."""
     text = path.read_text(encoding="utf-8").replace("><", ">\n<")
     return PACKED.sub(lambda found: " ".join(f"{number:.7g}" for number in _floats(found[0])), text)
 

@@ -41,17 +41,17 @@ def read(
 
     `find` gives what the reader must know of a kind, `assess` the assignment of a part's nodes.
     """
-    found: list[AssignedPart] = []
+    parts: list[AssignedPart] = []
     faults: list[Fault] = []
     numbers: Counter[str] = Counter()
-    for index, one in enumerate(named):
+    for index, part in enumerate(named):
         source, own = source_of(top, path, index)
         taken = tuple(
             TakenDatum(key, wanted.of, wanted.times.text.strip() if wanted.times else "1")
-            for key, wanted in one.from_.items()
+            for key, wanted in part.from_.items()
         )
         if source.top is not None and not own:
-            source, own = _with_taken(source, top, index, taken, one)
+            source, own = _with_taken(source, top, index, taken, part)
             if not own and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
                 source, own = _with_direction(source, top, find)
         own = own or list(_no_part(source, find))
@@ -61,8 +61,8 @@ def read(
             continue
         head = find(assignment.kind).part
         numbers[head] += 1
-        found.append(AssignedPart(numbered(head, numbers[head]), head, one.title or "", assignment, taken))
-    return found, faults
+        parts.append(AssignedPart(numbered(head, numbers[head]), head, part.title or "", assignment, taken))
+    return parts, faults
 
 
 def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
@@ -90,7 +90,7 @@ def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Sourc
     """A coursework's table with its parts in place of their files; these files by the part's number; what is wrong."""
     whole: Node = top
     listed = at(top, (PARTS,))
-    found: dict[int, Source] = {}
+    sources: dict[int, Source] = {}
     faults: list[Fault] = []
     for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
         if not isinstance(item, MappingNode):
@@ -102,22 +102,22 @@ def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Sourc
             own = without(source.top, (*UNUSED, *ABOUT))
             whole = put(whole, (PARTS, index), MappingNode((*about, *own.entries), item.mark))
             if item.find("file"):
-                found[index] = source
+                sources[index] = source
     assert isinstance(whole, MappingNode), "parts are put into a table"
-    return whole, found, faults
+    return whole, sources, faults
 
 
 def named(top: MappingNode, find: Callable[[str], Kind]) -> dict[int, str]:
     """The names of parts that stand in place, by number: each that of its kind, numbered on."""
     listed, met = at(top, (PARTS,)), Counter[str]()
-    found: dict[int, str] = {}
+    names: dict[int, str] = {}
     for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
         name = at(item, ("kind",))
         if isinstance(name, Scalar) and name.text in kinds():
             head = find(name.text).part
             met[head] += 1
-            found[index] = numbered(head, met[head])
-    return found
+            names[index] = numbered(head, met[head])
+    return names
 
 
 def frozen(stem: str, name: str) -> str:
@@ -153,7 +153,7 @@ def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fa
 
 
 def _with_taken(
-    source: Source, top: MappingNode, index: int, taken: Sequence[TakenDatum], one: NamedPart
+    source: Source, top: MappingNode, index: int, taken: Sequence[TakenDatum], part: NamedPart
 ) -> tuple[Source, list[Fault]]:
     """The part with the machine's values among its parameters."""
     node: Node | None = source.top
@@ -170,7 +170,7 @@ def _with_taken(
         elif own is not None:
             faults.append(Fault("datum-twice", own.mark, {"key": datum.key}))
         elif node is not None:
-            times = one.from_[datum.key].times
+            times = part.from_[datum.key].times
             text = value.text if times is None else scaled(value.text, times.si)
             node = put(node, ("parameters", datum.key), Scalar(text, wanted.mark))
     return replace(source, top=node), faults

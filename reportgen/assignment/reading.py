@@ -59,8 +59,8 @@ def assess(
     else:
         numbered = (worked_positions(kind.turns, kind.labels),) if kind.has_positions else ()
         for check_one in (school_of(path), *kind.checks, *numbered):
-            found = {finding.where for finding in findings}
-            findings += [finding for finding in check_one(draft) if finding.where not in found]
+            places = {finding.where for finding in findings}
+            findings += [finding for finding in check_one(draft) if finding.where not in places]
     # What the source already refuses is not judged a second time.
     refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
     placed = [_placed(finding, top) for finding in findings]
@@ -199,8 +199,8 @@ def _sections(raw: dict[str, Any], kind: Kind | None) -> tuple[list[Finding], Dr
             findings.append(_unknown((key,), ["kind", *known]))
     for key, (type_, default) in known.items():
         if raw.get(key) is not None:
-            valid[key], found = _section(key, type_, raw[key])
-            findings += found
+            valid[key], faulty = _section(key, type_, raw[key])
+            findings += faulty
         elif default is ...:
             findings.append(Finding("missing-key", (key,), {"key": key}))
         else:
@@ -291,8 +291,8 @@ def known_keys(kind: Kind, where: Where) -> list[str]:
 
 def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
     """What a file of a kind may hold at `where`: "table", "list", "scalar"; empty for an unknown place."""
-    found = [one.get("type", "string") for one in _at(_file_schema(kind), where)]
-    types = [name for type_ in found for name in (type_ if isinstance(type_, list) else [type_])]
+    kinds_of_node = [one.get("type", "string") for one in _at(_file_schema(kind), where)]
+    types = [name for type_ in kinds_of_node for name in (type_ if isinstance(type_, list) else [type_])]
     return frozenset(_FORMS.get(str(name), "scalar") for name in types if name != "null")
 
 
@@ -310,28 +310,28 @@ def _at(schema: dict[str, Any], where: Where) -> list[dict[str, Any]]:
     return level
 
 
-def _inside(one: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
+def _inside(schema: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
     """What a JSON Schema says of a key, of an item of a list, or of any key of a table of names."""
     if isinstance(step, int):
-        if isinstance(one.get("items"), dict):
-            yield one["items"]
-    elif step in one.get("properties", {}):
-        yield one["properties"][step]
-    elif isinstance(one.get("additionalProperties"), dict):
-        yield one["additionalProperties"]
+        if isinstance(schema.get("items"), dict):
+            yield schema["items"]
+    elif step in schema.get("properties", {}):
+        yield schema["properties"][step]
+    elif isinstance(schema.get("additionalProperties"), dict):
+        yield schema["additionalProperties"]
     else:
-        yield from one.get("patternProperties", {}).values()
+        yield from schema.get("patternProperties", {}).values()
 
 
-def _alternatives(one: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _alternatives(part: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
     """A part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
-    if "$ref" in one:
-        yield from _alternatives(schema["$defs"][one["$ref"].rsplit("/", 1)[-1]], schema)
-    elif choices := [*one.get("oneOf", ()), *one.get("anyOf", ())]:
+    if "$ref" in part:
+        yield from _alternatives(schema["$defs"][part["$ref"].rsplit("/", 1)[-1]], schema)
+    elif choices := [*part.get("oneOf", ()), *part.get("anyOf", ())]:
         for choice in choices:
             yield from _alternatives(choice, schema)
     else:
-        yield one
+        yield part
 
 
 def _placed(finding: Finding, top: MappingNode) -> Fault:

@@ -24,6 +24,7 @@ SETS = {
     "report": r"report\.(pdf|html|docx|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
+    "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
     "feedback": r"feedback\.(pdf|xlsx)",
     "class": r"grades\.csv|class\.pdf|feedback\.zip",
@@ -31,7 +32,7 @@ SETS = {
 """The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")
 """A link in these folders stands for what is open, even where it leads to a regular file."""
-_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml)\.[a-z0-9_]{8}")
+_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
 
@@ -192,8 +193,8 @@ OF_SCHOOL = ("vi.md", "en.md", "report.docx", "blocks", "blocks/*.yaml")
 def school_strays(folder: Path, *within: Path) -> list[Path]:
     """What of a school's folder leads out of it, or out of the folders that it has to stay in, by a link or a way."""
     patterns = OF_SCHOOL if os.path.isdir(folder) else ()
-    found = [folder, *(path for pattern in patterns for path in folder.glob(pattern))]
-    return [path for path in found if leads_out(path, folder) or (within and leads_out(path, *within))]
+    paths = [folder, *(path for pattern in patterns for path in folder.glob(pattern))]
+    return [path for path in paths if leads_out(path, folder) or (within and leads_out(path, *within))]
 
 
 # --- what stands already ----------------------------------------------------------------------------
@@ -209,17 +210,17 @@ def overwritten(outputs: Iterable[Path], inputs: Iterable[Path]) -> Iterator[Fau
     """A fault for each output that is an input, by whatever name: a link, another way, another case."""
     known = {identity: path for path in inputs for identity in _identities(path)}
     for output in outputs:
-        if found := [known[identity] for identity in _identities(output) if identity in known]:
-            yield Fault("is-input", Mark(str(output)), {"text": str(found[0])})
+        if same := [known[identity] for identity in _identities(output) if identity in known]:
+            yield Fault("is-input", Mark(str(output)), {"text": str(same[0])})
 
 
 def _identities(path: Path) -> list[str | tuple[int, int]]:
     """What all names of one file have in common: the file itself, or the way to it in no case."""
-    way = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
+    real = unicodedata.normalize("NFC", os.path.realpath(path)).casefold()
     with suppress(OSError):
         about = path.stat()
-        return [way, (about.st_dev, about.st_ino)]
-    return [way]
+        return [real, (about.st_dev, about.st_ino)]
+    return [real]
 
 
 # --- temporary files beside the results -----------------------------------------------------------
@@ -319,30 +320,30 @@ LARGEST, OLDEST = 20_000_000, 60 * 24 * 3600.0
 def kept(name: str) -> bytes | None:
     """What this version of the program kept under a name; None if there is nothing to be had, or it is damaged."""
     with suppress(OSError):
-        if (found := folder()) is not None:
-            seal, _, data = (found / name).read_bytes().partition(b"\n")
+        if (kept_in := folder()) is not None:
+            seal, _, data = (kept_in / name).read_bytes().partition(b"\n")
             if seal == _seal(data):
                 with suppress(OSError):
-                    os.utime(found / name)
+                    os.utime(kept_in / name)
                 return data
     return None
 
 
 def keep(name: str, data: bytes) -> Path | None:
     """Keep something under a name, whole or not at all; the file it stands in, None where it could not be kept."""
-    found = folder()
-    if found is None:
+    kept_in = folder()
+    if kept_in is None:
         return None
     with suppress(OSError):
-        with tempfile.NamedTemporaryFile(dir=found, prefix=f"{name}-", delete=False) as stream:
+        with tempfile.NamedTemporaryFile(dir=kept_in, prefix=f"{name}-", delete=False) as stream:
             stream.write(_seal(data) + b"\n" + data)
         try:
-            os.replace(stream.name, found / name)
+            os.replace(stream.name, kept_in / name)
         except OSError:
             os.unlink(stream.name)
             raise
-        prune(found)
-        return found / name
+        prune(kept_in)
+        return kept_in / name
     return None
 
 
@@ -361,13 +362,13 @@ def version() -> str:
 
 
 @cache
-def prune(found: Path) -> None:
+def prune(folder_kept: Path) -> None:
     """Remove from the folder what was used least, down to the `LARGEST` size, and what is older than the `OLDEST`.
 
     Once a process, when something is added: looking at every file takes longer than reading a few.
     """
     files = []
-    for path in found.iterdir():
+    for path in folder_kept.iterdir():
         # Another process may have removed it meanwhile.
         with suppress(OSError):
             files.append((path.lstat(), path))
@@ -384,17 +385,17 @@ def folder() -> Path | None:
     """The folder that things are kept in; None where there can be none of this user's own."""
     from platformdirs import user_cache_path
 
-    found = user_cache_path("reportgen", appauthor=False)
+    private = user_cache_path("reportgen", appauthor=False)
     with suppress(OSError):
-        found.mkdir(mode=0o700, parents=True, exist_ok=True)
-        if _is_private(found):
-            return found
+        private.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if _is_private(private):
+            return private
     return None
 
 
-def _is_private(found: Path) -> bool:
+def _is_private(place: Path) -> bool:
     """Whether nobody else can have written there: what is kept is run."""
     if not hasattr(os, "getuid"):
         return True
-    about = found.stat()
+    about = place.stat()
     return about.st_uid == os.getuid() and not about.st_mode & (stat.S_IWGRP | stat.S_IWOTH)

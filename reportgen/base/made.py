@@ -106,8 +106,8 @@ def put_made(folder: Path, files: Mapping[str, bytes], kind: str, of: MadeOf, al
     gone = set() if alone else outlived
     *paths, _ = put_files(folder, {**files, RECORD: _text({**record, kind: made})}, gone)
     left = {folder / name for one in before for name in one.files} | standing(folder, kind)
-    told = () if alone else sorted(path for path in left if path.name not in settled)
-    return Put(tuple(paths), tuple(sorted(gone)), tuple(told))
+    strays = () if alone else sorted(path for path in left if path.name not in settled)
+    return Put(tuple(paths), tuple(sorted(gone)), tuple(strays))
 
 
 def _text(record: Mapping[str, list[Made]]) -> bytes:

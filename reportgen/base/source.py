@@ -329,7 +329,7 @@ def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
         numbers
         and ends[1] == ends[0] + 1
         and ends[2] == ends[3]
-        and re.fullmatch(r"[+-]?[0-9]+(?:,[0-9]+)*", before.value) is not None
+        and re.fullmatch(r"[+\-\N{MINUS SIGN}]?[0-9]+(?:[.,][0-9]+)*", before.value) is not None
         and key.value[:1].isdigit()
     )
 

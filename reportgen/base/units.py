@@ -72,7 +72,7 @@ SPELLED: Mapping[str, str] = {
     **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
     "%": "percent",
     "1/s": "s-1",
-    "1/mm": "mm-1",
+    **dict.fromkeys(("1/mm", "mm⁻¹"), "mm-1"),
     **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
 }
 """Units as people write them, by names that pint knows."""
@@ -140,7 +140,10 @@ def read_quantity(text: str, unit: str) -> Given:
     if match is None:
         raise QuantityFault("not-a-number", text=text)
     if not match[2]:
-        raise QuantityFault("missing-unit", text=text, unit=unit)
+        # 1.600 gets a hint of both its readings: with the unit alone it would be as doubtful as before.
+        ways = two_readings(f"{cleaned} {unit}")
+        hint = {"hint": "thousands", "fixed": ways[0], "other": ways[1]} if ways else {}
+        raise QuantityFault("missing-unit", text=text, unit=unit, **hint)
     value, factor = float(match[1]), read_unit(match[2], unit)
     if not math.isfinite(value * factor):
         raise QuantityFault("not-finite", text=text)

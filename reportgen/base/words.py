@@ -146,13 +146,13 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
     A place nearer on the search path need only hold the words it changes.  Raises `TemplateError` with
     file and line for what cannot be read or is not of the form of what it changes, and where no place has any.
     """
-    found: Mapping[str, Any] | None = None
+    merged: Mapping[str, Any] | None = None
     for place in reversed(places):
         if (table := _words_in(place, not place.is_relative_to(places[-1]))) is not None:
-            found = table if found is None else _over(found, table, place)
-    if found is None:
+            merged = table if merged is None else _over(merged, table, place)
+    if merged is None:
         raise TemplateError(f"{places[-1]}: there are no words here")
-    return found
+    return merged
 
 
 def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
@@ -188,8 +188,8 @@ def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, 
             ("template_character", not STRANGE.search(in_a_line(scalar.text))),
         ):
             if not sound:
-                told = word(key, of_file(place), longest=LONGEST)
-                raise TemplateError(f"{_below(scalar.mark, section.line)}: {told}")
+                refusal = word(key, of_file(place), longest=LONGEST)
+                raise TemplateError(f"{_below(scalar.mark, section.line)}: {refusal}")
     return _table(source, section.line)
 
 
@@ -230,9 +230,9 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
         raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
 
     def said(scalar: Scalar) -> str:
-        found = _Word(in_a_line(scalar.text))
-        found.mark = _below(scalar.mark, above)
-        return found
+        text = _Word(in_a_line(scalar.text))
+        text.mark = _below(scalar.mark, above)
+        return text
 
     content: Mapping[str, Any] = plain(source.top, said)
     return content
@@ -259,11 +259,13 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
     return result | {key: value for key, value in below.items() if key not in result}
 
 
-def _alike(one: Any, other: Any) -> bool:
+def _alike(present: Any, standing_in: Any) -> bool:
     """Whether a word can stand for another one: both are tables, or texts, or lists of as many that can."""
-    if isinstance(one, list) and isinstance(other, list):
-        return len(one) == len(other) and all(map(_alike, one, other))
-    return isinstance(one, Mapping) == isinstance(other, Mapping) and isinstance(one, str) == isinstance(other, str)
+    if isinstance(present, list) and isinstance(standing_in, list):
+        return len(present) == len(standing_in) and all(map(_alike, present, standing_in))
+    return isinstance(present, Mapping) == isinstance(standing_in, Mapping) and isinstance(present, str) == isinstance(
+        standing_in, str
+    )
 
 
 def language_of(source: Source) -> Language:
@@ -271,9 +273,9 @@ def language_of(source: Source) -> Language:
 
     A file that asks for none is reported in Vietnamese; one that cannot be read says nothing.
     """
-    found = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
-    if found:
-        return "en" if found[1] == "en" else "vi"
+    asked = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    if asked:
+        return "en" if asked[1] == "en" else "vi"
     return DEFAULT_LANGUAGE if source.text else spoken()
 
 
@@ -325,9 +327,9 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
     # What is known is the program's own, and told in full.
     arguments = {name: text if name in {"known", "place"} else _shown(text) for name, text in fault.arguments.items()}
     for name in arguments.keys() & {"expected", "reason", "range"}:
-        told = [table["words"].get(one) for one in fault.arguments[name].split("+")]
-        if None not in told:
-            arguments[name] = "".join(map(str, told)).format_map(arguments)
+        words = [table["words"].get(one) for one in fault.arguments[name].split("+")]
+        if None not in words:
+            arguments[name] = "".join(map(str, words)).format_map(arguments)
     message = str(table["faults"][fault.code]).format_map(arguments)
     # The hint that was asked for, then the code's own and its second form.
     keys = (fault.arguments.get("hint"), fault.code, f"{fault.code}-otherwise")
@@ -404,8 +406,8 @@ def find(name: str, places: Sequence[Path]) -> Passage | None:
     """The section of this name in the first of some places (files, folders) that has it."""
     if not _NAME.fullmatch(name):
         return None
-    found = (sections(file).get(section) for file, section in (home(name, place) for place in places))
-    return next(filter(None, found), None)
+    passages = (sections(file).get(section) for file, section in (home(name, place) for place in places))
+    return next(filter(None, passages), None)
 
 
 def home(name: str, place: Path) -> tuple[Path, str]:
@@ -450,15 +452,15 @@ def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
         raise TemplateError(str(as_problem(text, of_file(file))))
     lines = re.split(r"\r\n?|\n", text)
     headings = [number for number, line in enumerate(lines, start=1) if line.startswith(HEADING)]
-    found: dict[str, Passage] = {}
+    passages: dict[str, Passage] = {}
     for number, end in pairwise([*headings, len(lines) + 1]):
         name = lines[number - 1].removeprefix(HEADING).strip()
         if not name:
             raise TemplateError(f"{file}:{number}: a section has a name, as in {HEADING} given")
-        if name in found:
-            raise TemplateError(f"{file}:{number}: the section {name} is there already, in line {found[name].line}")
-        found[name] = Passage(file, number, "\n".join(lines[number : end - 1]).rstrip("\n") + "\n")
-    return found
+        if name in passages:
+            raise TemplateError(f"{file}:{number}: the section {name} is there already, in line {passages[name].line}")
+        passages[name] = Passage(file, number, "\n".join(lines[number : end - 1]).rstrip("\n") + "\n")
+    return passages
 
 
 # --- which kinds of assignments there are ---------------------------------------------------------

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
+from reportgen.cam import cam_ids
 from reportgen.cam.laws import PHASES, Floats
 from reportgen.cam.solution import HEIGHT, LEAST_POLE, TURN_ON_PAPER
 from reportgen.cam.solved import SolvedCam
@@ -17,7 +18,7 @@ from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
 from reportgen.drawing.geometry import box
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.vocabulary import KINDS
 
 STEPS = 6
@@ -73,18 +74,18 @@ class LawScales:
 
 def usual_scales(case: SolvedCam) -> LawScales:
     """Those of a report."""
-    ids_of = (ids.cam_scale(id.removeprefix("cam.")) for id in case.solution.moved)
+    ids_of = (cam_ids.scale(id.removeprefix("cam.")) for id in case.solution.moved)
     first, second, third = (float(case.printed[id].values[0]) / MM for id in ids_of)
-    turn, *poles = (float(case.printed[ids.cam_diagram(name)].values[0]) * MM for name in ("L", 1, 2))
+    turn, *poles = (float(case.printed[cam_ids.diagram(name)].values[0]) * MM for name in ("L", 1, 2))
     return LawScales(turn, (first, second, third), (poles[0], poles[1]))
 
 
 def standard_scales(case: SolvedCam, steps: int) -> LawScales:
     """Those of a drawing sheet: standard ones, for its length about as high as in a report; the poles follow."""
     turn = 360 / DEGREES_PER_MM[steps]
-    traced, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
+    profile, μ_φ = case.solution.cam.sampled(), 2 * math.pi / turn
     height = HEIGHT * MM * turn / TURN
-    first, second, third = (float(np.ptp(part)) / height for part in (traced.s, traced.ds, traced.dds))
+    first, second, third = (float(np.ptp(part)) / height for part in (profile.s, profile.ds, profile.dds))
     lowest = nice_up(third or second / μ_φ / height)
     middle = nice_up(max(second, lowest * μ_φ * LEAST_POLE))
     highest = nice_up(max(first, middle * μ_φ * LEAST_POLE))
@@ -93,14 +94,14 @@ def standard_scales(case: SolvedCam, steps: int) -> LawScales:
 
 def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
     """s, s′ and s″ one below the other to their scales, each integrated graphically from the one below."""
-    traced = case.solution.cam.sampled(1440)
+    profile = case.solution.cam.sampled(1440)
     names = case.solution.moved
     scales = standard_scales(case, size.steps) if size.beside else usual_scales(case)
     notes = list(_notes(case, scales, size))
     scales = scales.shrunk(size.enlarged)
     graphs: list[Graph] = []
     zero = 0.0
-    for id, values, per_mm in zip(names, (traced.s, traced.ds, traced.dds), scales.per_mm, strict=True):
+    for id, values, per_mm in zip(names, (profile.s, profile.ds, profile.dds), scales.per_mm, strict=True):
         up = values / per_mm
         if graphs:
             # Below the lowest of the one before.
@@ -109,7 +110,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
     poles, width = scales.poles, scales.turn
     items: list[Item] = []
     requests: list[Request] = []
-    across = scales.across(traced.φ)
+    across = scales.across(profile.φ)
     taken = -math.inf
     for φ, k in zip(case.solution.φ, range(1, case.count + 1), strict=True):
         x = φ / (2 * math.pi) * width
@@ -118,7 +119,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
         half = box(str(k), style.SMALL).width / 2
         # Of positions close to each other not every one has room for its number.
         if x - half > taken:
-            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL))
+            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL, background=True))
             taken = x + half + BESIDE
     items += _integrated(case, graphs, scales)
     for number, graph in enumerate(graphs):
@@ -132,7 +133,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
         items += [Arrow(complex((start + stop) / 2, y), complex(end, y), style.DIMENSION, 1.6) for end in (start, stop)]
         requests.append(
             label(
-                complex((start + stop) / 2, y), case.ledger.symbol(ids.cam_phase(name)), gap=0.8, prefer=(math.pi / 2,)
+                complex((start + stop) / 2, y), case.ledger.symbol(cam_ids.phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
@@ -140,7 +141,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 
 def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Content]:
     """The scales, on a sheet with those of the report and the pole distances."""
-    phi = ids.cam_scale("phi")
+    phi = cam_ids.scale("phi")
     shown = _shown(case, phi, 2 * math.pi / scales.turn)
     note = size.told(case.printed.symbol(phi), shown, case.printed.number(phi))
     if size.beside:
@@ -148,11 +149,11 @@ def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Con
         note = replace(note, parts=(note.parts[0], degrees, shown))
     yield note
     for id, per_mm in zip(case.solution.moved, scales.per_mm, strict=True):
-        of = ids.cam_scale(id.removeprefix("cam."))
+        of = cam_ids.scale(id.removeprefix("cam."))
         yield size.told(case.printed.symbol(of), _shown(case, of, per_mm), case.printed.number(of))
     if size.beside:
         for number, pole in enumerate(scales.poles, start=1):
-            K = ids.cam_diagram(number)
+            K = cam_ids.diagram(number)
             yield size.told(case.printed.symbol(K), Number(pole, 2, "mm"), case.printed.number(K))
 
 
@@ -228,32 +229,32 @@ def angle_axis(case: SolvedCam) -> Chain:
 
 def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None) -> Plotted:
     """The pressure angle over a turn, with its limits."""
-    traced, limits = case.solution.cam.sampled(), case.solution.designed.limits
+    profile, limits = case.solution.cam.sampled(), case.solution.designed.limits
     levels = [
         (
             sign * math.degrees(limit),
-            case.ledger.symbol(ids.cam_limit(phase)) if sign > 0 else -case.ledger.symbol(ids.cam_limit(phase)),
+            case.ledger.symbol(cam_ids.limit(phase)) if sign > 0 else -case.ledger.symbol(cam_ids.limit(phase)),
         )
         for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1))
         if limit is not None
     ]
-    shown = PlottedCurve(Symbol("α"), np.degrees(traced.φ), np.degrees(traced.alpha))
+    shown = PlottedCurve(Symbol("α"), np.degrees(profile.φ), np.degrees(profile.alpha))
     return plotted((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=levels, half=half, area=area)
 
 
 def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
     """The radius of curvature of the pitch curve, and of the working profile under a roller, over a turn."""
     cam = case.solution.cam
-    traced = cam.sampled()
-    most = FARTHEST * max(cam.r0, float(np.abs(traced.pitch).max()) / 2)
+    profile = cam.sampled()
+    most = FARTHEST * max(cam.r0, float(np.abs(profile.pitch).max()) / 2)
 
     def drawn(values: Floats) -> Floats:
         return np.where(np.abs(values) <= most, values * MM, np.nan)
 
-    series = [PlottedCurve(Symbol("ρ"), np.degrees(traced.φ), drawn(traced.rho))]
+    series = [PlottedCurve(Symbol("ρ"), np.degrees(profile.φ), drawn(profile.rho))]
     if cam.roller:
-        inner = np.where(np.isfinite(drawn(traced.rho)), traced.rho - cam.roller, np.nan)
-        series.append(PlottedCurve(case.ledger.symbol("cam.rho.working"), np.degrees(traced.φ), inner * MM))
+        inner = np.where(np.isfinite(drawn(profile.rho)), profile.rho - cam.roller, np.nan)
+        series.append(PlottedCurve(case.ledger.symbol("cam.rho.working"), np.degrees(profile.φ), inner * MM))
     limit = case.ledger["cam.limit.rho"].values[0] * MM
     levels = [(float(limit), case.ledger.symbol("cam.limit.rho"))]
     return plotted(series, angle_axis(case), axis(Symbol("ρ"), "mm"), levels=levels, half=half)
@@ -261,7 +262,7 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
 
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
     """s, s′ and s″ (or those of the swing) with their printed units, over `Cam.sampled`."""
-    traced = case.solution.cam.sampled()
-    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
+    profile = case.solution.cam.sampled()
+    for id, values in zip(case.solution.moved, (profile.s, profile.ds, profile.dds), strict=True):
         how = KINDS[case.ledger[id].kind]
         yield case.ledger.symbol(id), how.unit, values / how.scale

@@ -10,13 +10,14 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.cam.profile import Cam, Traced
+from reportgen.cam import cam_ids
+from reportgen.cam.profile import Cam, CamProfile
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.formula import Symbol, ids
+from reportgen.formula import Symbol
 
 DIAGRAM_ROOM = 118 + 128j
 """What the S–S′ diagram may fill on a page (mm)."""
@@ -63,8 +64,8 @@ def limit_diagram(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     """s upwards over s′, both at one scale; the centre at e to the right and s₀ below."""
     found, cam = case.solution.designed, case.solution.cam
-    traced = cam.sampled()
-    curve = traced.ds + 1j * traced.s
+    profile = cam.sampled()
+    curve = profile.ds + 1j * profile.s
     centre = complex(cam.e, -cam.s0)
     places = [*curve, centre, 0j, complex(0, -1.25 * cam.s0)]
     least = found.least
@@ -72,7 +73,7 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
         places += [complex(least.e, -least.s0)] + ([least.apex.conjugate()] if least.apex is not None else [])
     usual, at = fitting(places, DIAGRAM_ROOM, size)
     low = min(place.imag for place in places) * at - 10
-    high = float(traced.s.max()) * at
+    high = float(profile.s.max()) * at
     left, right = float(min(p.real for p in places)) * at - 14, float(max(p.real for p in places)) * at + 14
     box = (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     items: list[Item] = []
@@ -107,7 +108,7 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
         requests.append(
             label(
                 plane.at + 20 * np.exp(1j * (turn - side * limit / 2)),
-                case.ledger.symbol(ids.cam_limit(phase)),
+                case.ledger.symbol(cam_ids.limit(phase)),
                 gap=0.4,
                 prefer=(turn - side * limit / 2,),
             )
@@ -121,8 +122,8 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     ]
     items.append(Polyline(tuple(curve * at), Pen(0.4, style.BLUE), closed=True))
     for k in range(case.count):
-        place = complex(case.solution.traced.ds[k], case.solution.traced.s[k]) * at
-        if case.solution.stretches[k].piece is not None and abs(place) > 1:
+        place = complex(case.solution.profile.ds[k], case.solution.profile.s[k]) * at
+        if case.solution.intervals[k].piece is not None and abs(place) > 1:
             items.append(Circle(place, 0.5, Pen(0.2), style.PAPER))
             requests.append(label(place, str(k + 1), gap=0.8, size=style.SMALL))
     if least is not None and least.apex is not None:
@@ -167,7 +168,7 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     for phase, limit, sign in (("rise", found.limits.rise, 1), ("return", found.limits.back, -1)):
         if limit is None:
             continue
-        for number, one in enumerate(cam.motion.stretches):
+        for number, one in enumerate(cam.motion.intervals):
             if one.phase != phase:
                 continue
             φ = np.linspace(one.start, one.stop, 161)
@@ -246,7 +247,7 @@ def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: Figu
         items.append(Polyline(tuple(outline * at), PROFILE, closed=True, fill=style.TINT))
     items += [Circle(0j, radius * at, style.THIN) for radius in (cam.r0, abs(cam.e)) if radius]
     if stage == "cam":
-        items += follower_parts(cam, complex(cam.traced(np.zeros(1)).at[0]) * at, at, pivot_of(cam) * at)
+        items += follower_parts(cam, complex(cam.profile_at(np.zeros(1)).at[0]) * at, at, pivot_of(cam) * at)
     else:
         items += _positions(case, stage, at, requests)
     if stage != "displacements":
@@ -267,27 +268,27 @@ def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: Figu
 
 def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:
     """The follower at all positions, with their numbers."""
-    cam, traced = case.solution.cam, case.solution.traced
-    for k in range(traced.φ.size):
-        centre = complex(traced.pitch[k]) * at
-        out = complex(traced.normal[k]) if cam.flat else centre
+    cam, profile = case.solution.cam, case.solution.profile
+    for k in range(profile.φ.size):
+        centre = complex(profile.pitch[k]) * at
+        out = complex(profile.normal[k]) if cam.flat else centre
         if stage == "displacements":
-            yield from _laid_off(cam, traced, k, at)
+            yield from _laid_off(cam, profile, k, at)
             place = centre
         else:
-            yield from _position(cam, traced, k, at)
+            yield from _position(cam, profile, k, at)
             place = centre + unit(out) * (cam.roller * at)
         prefer = (float(np.angle(out)),)
         requests.append(label(place, str(k + 1), size=style.SMALL, gap=0.9, prefer=prefer))
 
 
-def _laid_off(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
+def _laid_off(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item]:
     """The displacement at a position, from the base circle on along the follower's axis or about its pivot."""
-    back = complex(np.exp(-1j * cam.turn * traced.φ[k]))
-    first = cam.traced(np.zeros(1))
-    start, end = complex(first.at[0]) * back * at, complex(traced.at[k]) * back * at
+    back = complex(np.exp(-1j * cam.turn * profile.φ[k]))
+    first = cam.profile_at(np.zeros(1))
+    start, end = complex(first.at[0]) * back * at, complex(profile.at[k]) * back * at
     if cam.flat and cam.translating:
-        start, end = 1j * back * cam.r0 * at, 1j * back * (cam.r0 + traced.s[k]) * at
+        start, end = 1j * back * cam.r0 * at, 1j * back * (cam.r0 + profile.s[k]) * at
     if cam.translating:
         foot = CLEAR * start if cam.flat else complex(cam.turn * cam.e) * back * at
         yield Line(foot, start, RAY)
@@ -309,10 +310,10 @@ def pivot_of(cam: Cam) -> complex:
     return complex(cam.mirrored(np.array([complex(cam.opposite * cam.a, 0)]))[0])
 
 
-def _position(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
+def _position(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item]:
     """One position of the follower in the cam's frame: its axis or arm, and its roller, edge or face."""
-    back = complex(np.exp(-1j * cam.turn * traced.φ[k]))
-    centre = complex(traced.pitch[k]) * at
+    back = complex(np.exp(-1j * cam.turn * profile.φ[k]))
+    centre = complex(profile.pitch[k]) * at
     if cam.translating and not cam.flat:
         along = 1j * back
         foot = complex(cam.turn * cam.e) * back * at
@@ -322,7 +323,7 @@ def _position(cam: Cam, traced: Traced, k: int, at: float) -> Iterator[Item]:
         yield Line(pivot, centre, RAY)
         yield Circle(pivot, 0.7, Pen(0.15), style.PAPER)
     if cam.flat:
-        out = complex(traced.normal[k])
+        out = complex(profile.normal[k])
         yield Line(CLEAR * cam.r0 * at * out, out * abs((centre * out.conjugate()).real), RAY)
         yield Line(centre - 1j * out * HALF_FACE, centre + 1j * out * HALF_FACE, style.VISIBLE)
         yield from style_point(centre)

@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.laws import NODE, Floats, FollowerMotion
-from reportgen.formula import ids
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
 
@@ -80,9 +80,9 @@ class Cam:
         """ψ₀ of arm or face and line of centres at the start (rad)."""
         return self.sheet.si("cam.psi0")
 
-    def traced(self, φ: Floats, of: Numbers | None = None) -> Traced:
-        """The cam at angles [N]; `of` says in which stretch of the motion each is taken to be."""
-        return Traced(self, φ, *self.motion(φ, of))
+    def profile_at(self, φ: Floats, of: Numbers | None = None) -> CamProfile:
+        """The cam at angles [N]; `of` says in which interval of the motion each is taken to be."""
+        return CamProfile(self, φ, *self.motion(φ, of))
 
     def lifting(self, s: Floats) -> Complexes:
         """The way in which the follower lifts, of length 1 in the fixed frame of a cam that turns anticlockwise."""
@@ -97,48 +97,48 @@ class Cam:
 
     # --- curves
 
-    def sampled(self, count: int = 720) -> Traced:
-        """A whole turn, both sides of each corner of the motion: evenly spaced within each stretch."""
+    def sampled(self, count: int = 720) -> CamProfile:
+        """A whole turn, both sides of each corner of the motion: evenly spaced within each interval."""
         angles, numbers = [], []
-        for number, one in enumerate(self.motion.stretches):
+        for number, one in enumerate(self.motion.intervals):
             steps = max(math.ceil(count * (one.stop - one.start) / (2 * math.pi)), 8)
             angles.append(np.linspace(one.start, one.stop, steps + 1))
             numbers.append(np.full(steps + 1, number))
-        return self.traced(np.concatenate(angles), np.concatenate(numbers))
+        return self.profile_at(np.concatenate(angles), np.concatenate(numbers))
 
     def outline(self, count: int = 720, side: int = -1) -> Complexes:
         """The closed profile that is cut [N], no point twice; with `side` +1 the outer flank of the roller's groove.
 
         Corners that a rigid impact leaves are rounded.
         """
-        traced = self.sampled(count)
-        points = traced.pitch + side * self.roller * traced.normal
+        profile = self.sampled(count)
+        points = profile.pitch + side * self.roller * profile.normal
         if self.roller:
-            points = np.concatenate([*self._with_arcs(traced, points, side)])
+            points = np.concatenate([*self._with_arcs(profile, points, side)])
         apart = np.abs(np.diff(np.append(points, points[0])))
         return points[apart > NODE * self.r0]
 
-    def _with_arcs(self, traced: Traced, points: Complexes, side: int) -> Iterator[Complexes]:
+    def _with_arcs(self, profile: CamProfile, points: Complexes, side: int) -> Iterator[Complexes]:
         """The points with an arc about the roller's centre wherever its normal turns at once."""
         last = 0
-        following = np.roll(traced.normal, -1)
-        turned = np.angle(following / traced.normal)
+        following = np.roll(profile.normal, -1)
+        turned = np.angle(following / profile.normal)
         for number in map(
-            int, np.flatnonzero((np.abs(np.roll(traced.pitch, -1) - traced.pitch) < NODE) & (abs(turned) > 1e-6))
+            int, np.flatnonzero((np.abs(np.roll(profile.pitch, -1) - profile.pitch) < NODE) & (abs(turned) > 1e-6))
         ):
             yield points[last : number + 1]
             between = np.exp(1j * np.linspace(0, turned[number], 12)[1:-1])
-            yield traced.pitch[number] + side * self.roller * traced.normal[number] * between
+            yield profile.pitch[number] + side * self.roller * profile.normal[number] * between
             last = number + 1
         yield points[last:]
 
     @cached_property
     def undercut(self) -> tuple[float, ...]:
-        """Angles of the cam at which the working profile has a cusp or is cut away, the worst of each stretch."""
+        """Angles of the cam at which the working profile has a cusp or is cut away, the worst of each interval."""
         if not (self.flat or self.roller):
             return ()
         found = []
-        for number in range(len(self.motion.stretches)):
+        for number in range(len(self.motion.intervals)):
             φ, least = self.worst(number, lambda cam: -cam.effective)
             if -least <= 0:
                 found.append(φ)
@@ -146,18 +146,18 @@ class Cam:
         found += [one.angle for one in self.motion.impacts if one.kind == "rigid" and one.jump < 0]
         return tuple(sorted(set(found)))
 
-    def worst(self, number: int, of: Callable[[Traced], Floats]) -> tuple[float, float]:
-        """Where in a stretch a quantity of the cam is greatest, and how great it is."""
-        one = self.motion.stretches[number]
+    def worst(self, number: int, of: Callable[[CamProfile], Floats]) -> tuple[float, float]:
+        """Where in an interval a quantity of the cam is greatest, and how great it is."""
+        one = self.motion.intervals[number]
 
         def value(φ: Floats) -> Floats:
-            return of(self.traced(φ, np.full(φ.shape, number)))
+            return of(self.profile_at(φ, np.full(φ.shape, number)))
 
         return greatest(value, one.start, one.stop)
 
 
 @dataclass(frozen=True)
-class Traced:
+class CamProfile:
     """A cam over angles φ [N] with the follower's motion there; all else [N] is worked out when it is first asked for.
 
     Points and normals are in the cam's frame, but for `at`.
@@ -188,7 +188,7 @@ class Traced:
     @cached_property
     def pitch(self) -> Complexes:
         """The follower's point (m)."""
-        x, y = self._of(*map(ids.cam_profile if self.cam.flat else ids.cam_pitch, "xy"))
+        x, y = self._of(*map(cam_ids.profile if self.cam.flat else cam_ids.pitch, "xy"))
         return x + 1j * y
 
     @cached_property
@@ -196,7 +196,7 @@ class Traced:
         """The point of the profile (m)."""
         if not self.cam.roller:
             return self.pitch
-        x, y = self._of(*map(ids.cam_profile, "xy"))
+        x, y = self._of(*map(cam_ids.profile, "xy"))
         return x + 1j * y
 
     @property

@@ -1,6 +1,6 @@
 """A cam as a ledger: every number by its id, worked out from those above it, as the report prints it.
 
-Positions are rows.  What follows other formulas in each phase is a `branch` of the number of its stretch, so that the
+Positions are rows.  What follows other formulas in each phase is a `branch` of the number of its interval, so that the
 line of a position prints the formula of its own phase.
 """
 
@@ -14,29 +14,16 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
+from reportgen.cam import cam_ids
 from reportgen.cam.design import Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
-from reportgen.cam.laws import Floats, FollowerMotion, Stretch
-from reportgen.cam.profile import Cam, Traced
-from reportgen.formula import (
-    PI,
-    Expression,
-    Number,
-    Operand,
-    Ref,
-    Symbol,
-    acos,
-    as_expression,
-    branch,
-    cos,
-    ids,
-    sqrt,
-    tan,
-)
+from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
+from reportgen.cam.profile import Cam, CamProfile
+from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, cos, sqrt, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
-from reportgen.report.case import Pitfalls, with_another
+from reportgen.report.case import Misconceptions, with_another
 
 LINES: Mapping[str, tuple[str, ...]] = {
     "arcs": ("cam.arc.rise", "cam.arc.return", "cam.arc.swing"),
@@ -93,14 +80,14 @@ class CamSolution:
         return np.radians(self.degrees)
 
     @cached_property
-    def traced(self) -> Traced:
+    def profile(self) -> CamProfile:
         """The cam at its positions."""
-        return self.cam.traced(self.φ)
+        return self.cam.profile_at(self.φ)
 
     @cached_property
-    def stretches(self) -> tuple[Stretch, ...]:
-        """The stretch of each position."""
-        return tuple(self.motion.stretches[number] for number in self.motion.of(self.φ))
+    def intervals(self) -> tuple[LawInterval, ...]:
+        """The interval of each position."""
+        return tuple(self.motion.intervals[number] for number in self.motion.of(self.φ))
 
     @cached_property
     def sheet(self) -> Sheet:
@@ -117,8 +104,8 @@ class CamSolution:
         return q.q
 
     @cached_property
-    def pitfalls(self) -> Pitfalls:
-        return Pitfalls(readings=self._exchanged, changed=self._changed)
+    def misconceptions(self) -> Misconceptions:
+        return Misconceptions(readings=self._exchanged, changed=self._changed)
 
     @property
     def _exchanged(self) -> Mapping[str, list[tuple[str, np.ndarray]]]:
@@ -141,8 +128,8 @@ class CamSolution:
             if id in families and (definition := families[id].definition) is not None:
                 also("cam-degrees", [(id, definition * (math.pi / 180) ** power)])
         begun = {id: one for id, one in families.items() if id in ("cam.x", "cam.start.return")}
-        also("cam-phase-sum", with_another({"cam.x": begun["cam.x"]}, {"cam.start.return": Ref(ids.cam_phase("rise"))}))
-        also("cam-phase-sum", with_another(begun, {ids.cam_phase("far"): 0.0}))
+        also("cam-phase-sum", with_another({"cam.x": begun["cam.x"]}, {"cam.start.return": Ref(cam_ids.phase("rise"))}))
+        also("cam-phase-sum", with_another(begun, {cam_ids.phase("far"): 0.0}))
         also("cam-offset-side", with_another(families, {"cam.e": -Ref("cam.e")}))
         if "cam.k" in families:
             turned = -Ref(self.moved[1])
@@ -174,11 +161,11 @@ class CamSheet:
         with q.within(Chapter.data):
             self.stroke = q.give("cam.h" if cam.translating else "cam.swing", cam.motion.stroke)
             for phase, degrees in zip(("rise", "far", "return", "near"), given.phase_degrees, strict=True):
-                q.give(ids.cam_phase(phase), math.radians(degrees))
+                q.give(cam_ids.phase(phase), math.radians(degrees))
             limits = self.of.designed.limits
             for phase, limit in (("rise", limits.rise), ("return", limits.back)):
                 if limit is not None and not cam.flat:
-                    q.give(ids.cam_limit(phase), limit)
+                    q.give(cam_ids.limit(phase), limit)
             q.give("cam.limit.rho", limits.rho)
             if given.n is not None:
                 n = q.give("cam.n", given.n.value)
@@ -190,25 +177,25 @@ class CamSheet:
     def enter_motion(self) -> None:
         q, motion = self.q, self.cam.motion
         for phase in MOVING:
-            q.define(ids.cam_arc(phase), q[ids.cam_phase(phase)])
-        self.arc = self.stroke if self.cam.translating else q.define(ids.cam_arc("swing"), self.stroke)
-        q.define("cam.start.return", q[ids.cam_phase("rise")] + q[ids.cam_phase("far")])
+            q.define(cam_ids.arc(phase), q[cam_ids.phase(phase)])
+        self.arc = self.stroke if self.cam.translating else q.define(cam_ids.arc("swing"), self.stroke)
+        q.define("cam.start.return", q[cam_ids.phase("rise")] + q[cam_ids.phase("far")])
         laws = {"rise": motion.rise, "return": motion.back}
         for phase, law in laws.items():
             if law.table is not None:
                 self._enter_nodes(MOVING[phase], law.table.nodes[0], law.table.x)
         φ = q.give("cam.phi", self.of.φ)
-        stretches = motion.stretches
+        intervals = motion.intervals
         number = q.give("cam.stretch", motion.of(self.of.φ), "stretch", "count", hidden=True)
         places = {
-            "rise": φ / q[ids.cam_phase("rise")],
-            "return": (φ - q["cam.start.return"]) / q[ids.cam_phase("return")],
+            "rise": φ / q[cam_ids.phase("rise")],
+            "return": (φ - q["cam.start.return"]) / q[cam_ids.phase("return")],
         }
-        x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in stretches)), scale=1.0)
+        x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in intervals)), scale=1.0)
         if any(law.table is not None for law in laws.values()):
-            begun = [self._beyond(one, x) for one in stretches]
+            begun = [self._beyond(one, x) for one in intervals]
             q.define("cam.z", branch(number, *begun), scale=1.0)
-        written = [self._formulas(one, x) for one in stretches]
+        written = [self._formulas(one, x) for one in intervals]
         for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
             q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
         _, ds, dds = (q[id] for id in self.of.moved)
@@ -225,24 +212,24 @@ class CamSheet:
         names = ("psi", "dpsi", "ddpsi") if turned else ("s", "ds", "dds")
         symbols = ("ψ", "ψ′", "ψ″") if turned else ("s", "s′", "s″")
         kinds = ("angle on paper", "rate on paper", "rate on paper") if turned else KINDS_ON_PAPER
-        traced = self.cam.sampled()
-        first, second, third = (float(np.ptp(part)) for part in (traced.s, traced.ds, traced.dds))
-        L = q.give(ids.cam_diagram("L"), TURN_ON_PAPER, optional=True)
-        μ_φ = q.define(ids.cam_scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
+        profile = self.cam.sampled()
+        first, second, third = (float(np.ptp(part)) for part in (profile.s, profile.ds, profile.dds))
+        L = q.give(cam_ids.diagram("L"), TURN_ON_PAPER, optional=True)
+        μ_φ = q.define(cam_ids.scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
         chosen = nice_up(third / HEIGHT) if third else nice_up(second / HEIGHT / q.si(μ_φ) / HEIGHT)
-        above = q.give(ids.cam_scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
+        above = q.give(cam_ids.scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
         for number, (name, shown, kind, range_) in enumerate(
             ((names[1], symbols[1], kinds[1], second), (names[0], symbols[0], kinds[0], first)), start=1
         ):
             wanted = range_ / HEIGHT / (q.si(above) * q.si(μ_φ)) * MM
             pole = min(max(round(wanted), LEAST_POLE), MOST_POLE) / MM
-            K = q.give(ids.cam_diagram(number), pole, Symbol("K", str(number)), optional=True)
-            above = q.define(ids.cam_scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
+            K = q.give(cam_ids.diagram(number), pole, Symbol("K", str(number)), optional=True)
+            above = q.define(cam_ids.scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
 
-    def _formulas(self, one: Stretch, x: Ref) -> tuple[Operand, ...]:
+    def _formulas(self, one: LawInterval, x: Ref) -> tuple[Operand, ...]:
         if one.piece is None:
             return one.formulas(x, 1.0, self.stroke, self.stroke)
-        arc = self.q[ids.cam_arc(one.phase)]
+        arc = self.q[cam_ids.arc(one.phase)]
         piece = one.piece
         if piece.node >= 0:
             z = self.q["cam.z"]
@@ -253,43 +240,43 @@ class CamSheet:
                 for cubic in table.pieces(lambda what, i: self._node(MOVING[one.phase], i, what), lambda *_: z)
             }
             piece = named[piece.node]
-        return Stretch(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
+        return LawInterval(one.phase, one.start, one.stop, one.begin, one.angle, piece).formulas(
             x, arc, self.stroke, self.arc
         )
 
-    def _beyond(self, one: Stretch, x: Ref) -> Expression:
-        """How far x lies beyond the node that a stretch begins at."""
+    def _beyond(self, one: LawInterval, x: Ref) -> Expression:
+        """How far x lies beyond the node that an interval begins at."""
         if one.piece is None or one.piece.node < 0:
             return STILL
         return x - self._node(MOVING[one.phase], one.piece.node, "x")
 
     def _node(self, phase: int, number: int, what: str) -> Ref:
-        return self.q[ids.cam_node(phase, number, what)]
+        return self.q[cam_ids.node(phase, number, what)]
 
     def _enter_nodes(self, phase: int, A: Floats, x: Floats) -> None:
         """The graph of the acceleration, integrated from node to node."""
         q = self.q
         for i, (at, value) in enumerate(zip(x, A, strict=True)):
-            here = q.give(ids.cam_node(phase, i, "x"), float(at))
-            now = q.give(ids.cam_node(phase, i, "A"), float(value), exact=False)
+            here = q.give(cam_ids.node(phase, i, "x"), float(at))
+            now = q.give(cam_ids.node(phase, i, "A"), float(value), exact=False)
             if not i:
-                q.give(ids.cam_node(phase, i, "V"), 0.0)
-                q.give(ids.cam_node(phase, i, "S"), 0.0)
+                q.give(cam_ids.node(phase, i, "V"), 0.0)
+                q.give(cam_ids.node(phase, i, "S"), 0.0)
                 continue
             last, before, V, S = (self._node(phase, i - 1, what) for what in ("x", "A", "V", "S"))
             if abs(at - x[i - 1]) == 0:
-                q.define(ids.cam_node(phase, i, "V"), V)
-                q.define(ids.cam_node(phase, i, "S"), S)
+                q.define(cam_ids.node(phase, i, "V"), V)
+                q.define(cam_ids.node(phase, i, "S"), S)
                 continue
             Δ = here - last
-            q.define(ids.cam_node(phase, i - 1, "J"), (now - before) / Δ, scale=1.0)
+            q.define(cam_ids.node(phase, i - 1, "J"), (now - before) / Δ, scale=1.0)
             if i == len(x) - 1:
                 # The follower comes to rest at the end of its stroke.
-                q.give(ids.cam_node(phase, i, "V"), 0.0)
-                q.give(ids.cam_node(phase, i, "S"), 1.0)
+                q.give(cam_ids.node(phase, i, "V"), 0.0)
+                q.give(cam_ids.node(phase, i, "S"), 1.0)
                 continue
-            q.define(ids.cam_node(phase, i, "V"), V + (before + now) * Δ / 2, scale=1.0)
-            q.define(ids.cam_node(phase, i, "S"), S + V * Δ + (2 * before + now) * Δ**2 / 6, scale=1.0)
+            q.define(cam_ids.node(phase, i, "V"), V + (before + now) * Δ / 2, scale=1.0)
+            q.define(cam_ids.node(phase, i, "S"), S + V * Δ + (2 * before + now) * Δ**2 / 6, scale=1.0)
 
     # --- the least cam
 
@@ -318,9 +305,9 @@ class CamSheet:
         """Where a limit line touches, as it is read off the diagram."""
         q, number = self.q, MOVING[phase]
         names = ("s", "ds") if self.cam.translating else ("psi", "dpsi")
-        q.give(ids.cam_touch(number, "phi"), touch.phi, exact=False)
-        s = q.give(ids.cam_touch(number, names[0]), touch.s, exact=False)
-        return s, q.give(ids.cam_touch(number, names[1]), touch.ds, exact=False)
+        q.give(cam_ids.touch(number, "phi"), touch.phi, exact=False)
+        s = q.give(cam_ids.touch(number, names[0]), touch.s, exact=False)
+        return s, q.give(cam_ids.touch(number, names[1]), touch.ds, exact=False)
 
     def _translating(self) -> None:
         q, least = self.q, self.of.designed.least
@@ -328,12 +315,12 @@ class CamSheet:
         assert least.rise is not None
         s, ds = self._touch("rise", least.rise)
         t1 = tan(q["cam.limit.rise"])
-        c1 = q.define(ids.cam_intercept(1), ds - s * t1)
+        c1 = q.define(cam_ids.intercept(1), ds - s * t1)
         c2, t2 = None, None
         if least.back is not None:
             s, ds = self._touch("return", least.back)
             t2 = tan(q["cam.limit.return"])
-            c2 = q.define(ids.cam_intercept(2), -ds - s * t2)
+            c2 = q.define(cam_ids.intercept(2), -ds - s * t2)
         if not self.given.seeks("e"):
             top = c1 if least.rule == "rise" else c2
             assert top is not None
@@ -371,7 +358,7 @@ class CamSheet:
             if touch is None:
                 continue
             ψ, dψ = self._touch(phase, touch)
-            limit = q[ids.cam_limit(phase)]
+            limit = q[cam_ids.limit(phase)]
             aside = acos(arm * factor(dψ, self.σ) * cos(limit) / a)
             found[phase] = limit - aside - ψ if side > 0 else aside - limit - ψ
         ψ0 = q.define("cam.least.psi0", found[least.rule])

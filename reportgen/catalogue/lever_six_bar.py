@@ -14,7 +14,7 @@ from reportgen.assignment.common import Assignment, Part, Positions, of_paramete
 from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import reach
+from reportgen.catalogue import assembly
 from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
 from reportgen.catalogue.loops import ClosedLoops
@@ -23,7 +23,8 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, ConstantLaw, Law, NotToAndFro, Stroke, course, crank_motion, opposing
+from reportgen.machine.laws import ConstantLaw, Law, Stroke, opposing
+from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_points
 
 TURNS = 1
 TURN = Number(360.0, unit="°")
@@ -172,10 +173,13 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
         return
     linkage = _linkage(given, q)
-    members = {(2, 3): reach.Member("AC, CD", ("parameters", "CD")), (4, 5): reach.Member("EF", ("parameters", "EF"))}
-    found = list(reach.findings(linkage, members))
-    yield from found
-    if not found and reach.turns_fully(linkage, 3):
+    members = {
+        (2, 3): assembly.Member("AC, CD", ("parameters", "CD")),
+        (4, 5): assembly.Member("EF", ("parameters", "EF")),
+    }
+    obstacles = list(assembly.findings(linkage, members))
+    yield from obstacles
+    if not obstacles and assembly.turns_fully(linkage, 3):
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
@@ -205,10 +209,8 @@ def machine(assignment: Assignment) -> Machine:
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
     motion_at = crank_motion(linkage, positions, start)
-    try:
-        sliders: tuple[Stroke, ...] = (course(linkage, 5, motion_at),)
-    except NotToAndFro:
-        sliders = ()
+    to_and_fro = len(turning_points(linkage, 5, motion_at)) == 2
+    sliders = (course(linkage, 5, motion_at),) if to_and_fro else ()
     fixed = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")})
 
@@ -263,4 +265,4 @@ def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: f
         law: Law = opposing(size, lambda angle: motion_at(angle).points["F"].v.real)
     else:
         law = ConstantLaw(size if sense == "right" else -size)
-    return (Applied("P5", 5, "F", 1 + 0j, law),)
+    return (Applied("P5", 5, "F", fixed(1 + 0j), law),)

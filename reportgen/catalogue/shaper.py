@@ -13,15 +13,16 @@ from reportgen.assignment.common import Assignment, Part, of_parameters
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given, nice_up
-from reportgen.catalogue import reach, slotted
+from reportgen.catalogue import assembly, slotted
+from reportgen.catalogue.assembly import Member
 from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
-from reportgen.catalogue.reach import Member
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
 from reportgen.formula import Symbol, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, CuttingLaw, crank_motion
+from reportgen.machine.laws import CuttingLaw
+from reportgen.machine.loads import Applied, crank_motion, fixed
 
 TURNS = 1
 CENTRES = {2: "B", 3: "S3", 4: "S4", 5: "E"}
@@ -107,7 +108,7 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
         sizes = {"reach": f"{farthest * 1e3:.6g}", "length": f"{given.l3.si * 1e3:.6g}", "angle": "90"}
         yield Finding("leaves-slot", ("parameters", "l3"), block | sizes)
     members = {(2, 3): Member("CD", ("parameters", "H")), (4, 5): Member("DE", ("parameters", "l4"))}
-    yield from reach.findings(geometry.linkage((), (), 0.0), members)
+    yield from assembly.findings(geometry.linkage((), (), 0.0), members)
 
 
 CHECKS = (_check_assembly,)
@@ -139,7 +140,7 @@ def machine(assignment: Assignment) -> Machine:
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
         law = CuttingLaw(course, cutting.F.si, cutting.free.si)
-        applied = (Applied("P5", 5, "E", -course.inward, law),)
+        applied = (Applied("P5", 5, "E", fixed(-course.inward), law),)
 
     def formulas(q: Sheet) -> None:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))

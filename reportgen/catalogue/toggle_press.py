@@ -15,13 +15,14 @@ from reportgen.assignment.common import Assignment, Positions, of_parameters
 from reportgen.assignment.fields import Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
-from reportgen.catalogue import given_loads, reach
+from reportgen.catalogue import assembly, given_loads
 from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
 from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, TableLaw, course, crank_motion
+from reportgen.machine.laws import Stroke, TableLaw
+from reportgen.machine.loads import Applied, course, crank_motion, fixed
 
 TURNS = 1
 BARS = {2: ("A", "B"), 3: ("D", "B"), 4: ("B", "C")}
@@ -70,14 +71,17 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, B stays below D, and the slider goes once down and up."""
     linkage = _linkage(given, _sheet(given))
-    members = {(2, 3): reach.Member("AB, BD", ("parameters", "AB")), (4, 5): reach.Member("BC", ("parameters", "BD"))}
+    members = {
+        (2, 3): assembly.Member("AB, BD", ("parameters", "AB")),
+        (4, 5): assembly.Member("BC", ("parameters", "BD")),
+    }
     motion_at = crank_motion(linkage, Positions(), 0.0)
-    if found := list(reach.findings(linkage, members)):
-        yield from found
+    if obstacles := list(assembly.findings(linkage, members)):
+        yield from obstacles
     elif motion_at(even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
         yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
     elif given.press is not None:
-        yield from reach.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
+        yield from assembly.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
 
 
 CHECKS = (*given_loads.PRESS_CHECKS, _check_turning)
@@ -91,7 +95,11 @@ def machine(assignment: Assignment) -> Machine:
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", q["p.D"])
     minus = (given.B == "left") == (turn > 0)
-    sliders = () if press is None else (course(linkage, 5, crank_motion(linkage, positions, start)),)
+    sliders: tuple[Stroke, ...] = ()
+    pressing: tuple[Applied, ...] = ()
+    if press is not None:
+        way = course(linkage, 5, crank_motion(linkage, positions, start))
+        sliders, pressing = (way,), (Applied("P5", 5, "C", fixed(1j), TableLaw(way, press.table, turns=1)),)
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
@@ -122,7 +130,7 @@ def machine(assignment: Assignment) -> Machine:
         linkage,
         start,
         formulas=formulas,
-        applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
+        applied=pressing,
         sliders=sliders,
         paths=("B",),
         facts={"form": "less" if minus else "plus", "B": given.B},

@@ -56,14 +56,14 @@ class Classroom:
     @cached_property
     def keys(self) -> tuple[Key, ...]:
         """The keys of all assignments that are in order."""
-        found = []
+        keys = []
         for name in self.files:
             try:
-                found.append(self.scheme(name).key)
+                keys.append(self.scheme(name).key)
             except ReportgenError:
                 # Nobody's sheet can come from an assignment that cannot be worked out.
                 continue
-        return tuple(found)
+        return tuple(keys)
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,13 +118,13 @@ def grade(
     owners: dict[str, Owner] = {}
     problems: list[Problem] = []
     faults: list[Fault] = []
-    for handed, found in read_sheets(handed_in(submissions, faults), language):
+    for handed, pages in read_sheets(handed_in(submissions, faults), language):
         path, owner = handed.path, handed.owner
-        if isinstance(found, list):
-            problems += found
+        if isinstance(pages, list):
+            problems += pages
             continue
         try:
-            submission = read_submission(path, lambda name: room.scheme(name).key, language, found)
+            submission = read_submission(path, lambda name: room.scheme(name).key, language, pages)
             name = room.scheme(submission.assignment).key.student.get("name", "")
             if owner and not owner.may_be(name):
                 fault = Fault("sheet-other-hands", Mark(str(path)), {"text": name, "owner": owner.name})

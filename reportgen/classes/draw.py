@@ -72,10 +72,10 @@ class Draw:
     def each(self, roster: Roster) -> Iterator[DrawnVariant]:
         """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end."""
         for student in roster.students:
-            one = self._draw_for(student)
-            if one is not None:
-                self.taken[self._key(student, one.combination)] += 1
-                yield one
+            variant = self._draw_for(student)
+            if variant is not None:
+                self.taken[self._key(student, variant.combination)] += 1
+                yield variant
             elif student.overrides:
                 self.faults += self._faults_of_roster(student)
             else:
@@ -93,17 +93,17 @@ class Draw:
         for combination in self._attempts(student):
             if not self.taken[self._key(student, combination)] and not self._faults(student, combination):
                 return self._drawn(student, combination)
-        found: Combination | None = None
+        chosen: Combination | None = None
         fewest = 0
         for combination in self._in_order(student):
             if self._faults(student, combination):
                 continue
             count = self.taken[self._key(student, combination)]
-            if found is None or count < fewest:
-                found, fewest = combination, count
+            if chosen is None or count < fewest:
+                chosen, fewest = combination, count
             if not count:
                 break
-        return None if found is None else self._drawn(student, found)
+        return None if chosen is None else self._drawn(student, chosen)
 
     def _drawn(self, student: RosterEntry, combination: Combination) -> DrawnVariant:
         return DrawnVariant(student, combination, self._settings(student, combination))
@@ -141,13 +141,13 @@ class Draw:
 
     def _reasons(self, student: RosterEntry) -> list[Fault]:
         """Why the first combinations fail."""
-        found: dict[tuple[str, str], Fault] = {}
+        reasons: dict[tuple[str, str], Fault] = {}
         for combination in self._attempts(student):
             for fault in self._faults(student, combination):
-                found.setdefault((fault.code, str(fault.mark)), fault)
-            if len(found) >= MOST_REASONS:
+                reasons.setdefault((fault.code, str(fault.mark)), fault)
+            if len(reasons) >= MOST_REASONS:
                 break
-        return list(found.values())[:MOST_REASONS]
+        return list(reasons.values())[:MOST_REASONS]
 
     def _faults_of_roster(self, student: RosterEntry) -> list[Fault]:
         """The reasons at the cells of the student's own values, or else the first reason at the first cell."""
@@ -166,8 +166,8 @@ def _key(settings: Settings) -> Key:
 def shared(drawn: Iterable[DrawnVariant]) -> list[tuple[DrawnVariant, ...]]:
     """Students with the same variant, together."""
     groups: dict[Key, list[DrawnVariant]] = {}
-    for one in drawn:
-        groups.setdefault(_key(one.settings), []).append(one)
+    for variant in drawn:
+        groups.setdefault(_key(variant.settings), []).append(variant)
     return [tuple(group) for group in groups.values() if len(group) > 1]
 
 

@@ -60,8 +60,8 @@ class Owner:
         """Whether it can be the student of that name, whatever the order of names, case and accents."""
         if not self.name or not name:
             return True
-        own, other = _words(self.name), _words(name)
-        return sorted("".join(own)) == sorted("".join(other)) or not (own - other and other - own)
+        own, given = _words(self.name), _words(name)
+        return sorted("".join(own)) == sorted("".join(given)) or not (own - given and given - own)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,9 +80,9 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
     """
     for path in paths:
         if path.is_dir():
-            found = sorted(file for file in path.rglob("*") if file.is_file())
-            inside = [file for file in found if not leads_out(file, path)]
-            strays = sorted(set(found) - set(inside))
+            files = sorted(file for file in path.rglob("*") if file.is_file())
+            inside = [file for file in files if not leads_out(file, path)]
+            strays = sorted(set(files) - set(inside))
             faults += [Fault("path-outside", Mark(str(file)), {"text": file.name}) for file in strays]
             named = [(file.relative_to(path.parent).as_posix(), file) for file in inside]
             owners = _owners([name for name, _ in named])
@@ -280,12 +280,12 @@ class Gradebook:
         """The file with the grades, and faults for students that it has no row for."""
         changes: dict[_Cell, str] = {}
         faults: list[Fault] = []
-        for one in results:
-            cells = _of(one, self.table.rows)
+        for student in results:
+            cells = _of(student, self.table.rows)
             if len(cells) == 1:
-                changes[cells[0]] = _grade(scale.mark(one.share) / scale.highest, self.table.highest)
+                changes[cells[0]] = _grade(scale.mark(student.share) / scale.highest, self.table.highest)
             else:
-                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": one.who}))
+                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": student.who}))
         return self.mark + _changed(self.text, changes, self.separator).encode(self.encoding), faults
 
 
@@ -303,17 +303,17 @@ def read_gradebook(path: Path, column: str = "", language: Language | None = Non
     text = data.removeprefix(mark).decode(encoding)
     separator = _separator(text)
     rows = [row for row in _rows(text, separator) if any(cell.text.strip() for cell in row)]
-    found = _canvas(rows, column, path) if _is_canvas(rows) else _moodle(rows, path)
-    if isinstance(found, Fault):
-        raise as_error([found], language)
-    return Gradebook(path, text, mark, encoding, separator, found)
+    table = _canvas(rows, column, path) if _is_canvas(rows) else _moodle(rows, path)
+    if isinstance(table, Fault):
+        raise as_error([table], language)
+    return Gradebook(path, text, mark, encoding, separator, table)
 
 
-def _of(one: StudentResult, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
+def _of(student: StudentResult, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
     """The cells of the rows that are the student's: by the platform's number if it is known, else by id or e-mail."""
-    if one.number and (cells := [cell for cell, number, _ in rows if number == one.number]):
+    if student.number and (cells := [cell for cell, number, _ in rows if number == student.number]):
         return cells
-    return [cell for cell, _, names in rows if names & one.ids]
+    return [cell for cell, _, names in rows if names & student.ids]
 
 
 def _grade(share: float, highest: str) -> str:
@@ -340,10 +340,10 @@ def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
         return Fault("gradebook-unknown", Mark(str(path)))
     columns = [[row[k].text.strip() for row in full] for k in range(len(head))]
     # A scale of words has no greatest grade, and Moodle takes no numbers for it.
-    found = [k for k in range(2, len(head)) if _is_greatest(columns[k], columns[k - 1])]
-    if len(found) != 1:
+    graded = [k for k in range(2, len(head)) if _is_greatest(columns[k], columns[k - 1])]
+    if len(graded) != 1:
         return Fault("gradebook-no-column", Mark(str(path)))
-    (greatest,) = found
+    (greatest,) = graded
     table = zip(full, numbers, strict=True)
     return _Table(
         tuple(
@@ -456,15 +456,15 @@ Pages = tuple[Page, ...]
 def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator[tuple[Handed, Pages | list[Problem]]]:
     """Each file with its pages, in their order, or with the faults for which it cannot be read."""
     calls = ((one, language) for one in handed)
-    for (one, _), found in each_within(LIMITS, _read, calls, __name__):
-        yield one, [_beyond(one.path, language)] if found is None else found
+    for (sheet, _), pages in each_within(LIMITS, _read, calls, __name__):
+        yield sheet, [_beyond(sheet.path, language)] if pages is None else pages
 
 
 def _read(call: tuple[Handed, Language | None]) -> Pages | list[Problem]:
     """The pages of a file, in the process that reads it."""
-    one, language = call
+    sheet, language = call
     try:
-        return read(one.path, language, one.data)
+        return read(sheet.path, language, sheet.data)
     except AssignmentError as error:
         return list(error.problems)
 

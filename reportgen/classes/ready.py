@@ -29,14 +29,14 @@ def kinds(given: Path, language: Language | None) -> frozenset[str]:
 
     `language` is that of all, if one is given.
     """
-    found: set[str] = set()
+    pairs: set[str] = set()
     for file in sorted(given.rglob("*.yaml"))[:FEW] if given.is_dir() else (given,):
         with suppress(OSError, UnicodeDecodeError):
             text = file.read_text(encoding="utf-8")
             if kind := _KIND.search(text):
                 own = _LANGUAGE.search(text)
-                found.add(f"{kind[1]}:{language or (own[1] if own else DEFAULT_LANGUAGE)}")
-    return frozenset(found)
+                pairs.add(f"{kind[1]}:{language or (own[1] if own else DEFAULT_LANGUAGE)}")
+    return frozenset(pairs)
 
 
 def prepare(kind: str, language: Language) -> None:

@@ -79,15 +79,15 @@ def folded(text: str) -> str:
 
 def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
     """The headings of a row; empty ones are left out."""
-    found = []
+    headed = []
     for index, cell in enumerate(row):
         title = unicodedata.normalize("NFC", cell.text).strip()
         known = _known_columns().get(folded(title))
         match = None if known else _WITH_UNIT.fullmatch(title)
         name, unit = (match[1], match[2]) if match else (title, "")
         if title:
-            found.append(RosterColumn(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
-    return found
+            headed.append(RosterColumn(index, known or _known_columns().get(folded(name)) or name, unit, cell.mark))
+    return headed
 
 
 def heading_row(page: Page, wanted: str) -> int | None:
@@ -184,12 +184,12 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     if start is None:
         first = next((cell.mark for row in page.rows for cell in row if not cell.blank), Mark(str(path)))
         raise as_error([Fault("no-id-column", first)], language)
-    found = columns(page.rows[start])
+    headed = columns(page.rows[start])
     of_canvas = any(cell.text.strip() == CANVAS_ID for cell in page.rows[start])
     if of_canvas:
         # Its "ID" is the platform's own number.
-        found = [column for column in found if column.name != "id" or page.rows[start][column.index].text != "ID"]
-    headings = [_normal(column, faults) for column in found]
+        headed = [column for column in headed if column.name != "id" or page.rows[start][column.index].text != "ID"]
+    headings = [_normal(column, faults) for column in headed]
     used = _used(headings)
     rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
     if of_canvas:
@@ -312,9 +312,9 @@ def assignment_files(folder: Path, language: Language | None) -> dict[str, Path]
         raise as_error([Fault("no-folder", Mark(str(folder)))], language)
     files: dict[str, Path] = {}
     faults: list[Fault] = []
-    found = [path for path in sorted(folder.rglob("*")) if _is_assignment(path, folder) and not _is_frozen(path)]
-    of_others = {part.resolve() for path in found for part in beside(path)}
-    for path in found:
+    assignments = [path for path in sorted(folder.rglob("*")) if _is_assignment(path, folder) and not _is_frozen(path)]
+    of_others = {part.resolve() for path in assignments for part in beside(path)}
+    for path in assignments:
         if path.resolve() in of_others and _may_be_part(path):
             continue
         first = files.setdefault(comparable(path.stem), path)
@@ -363,9 +363,9 @@ def match_files(
     files = assignment_files(folder, language)
     assigned: list[Assigned] = []
     for student in students:
-        found = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
+        own_file = next((files[stem] for stem in map(comparable, (student.folder, student.id)) if stem in files), None)
         missing = Fault("no-assignment", student.mark, {"text": student.id})
-        assigned.append((student, found or as_problem(missing, language)))
+        assigned.append((student, own_file or as_problem(missing, language)))
     taken = {file for _, file in assigned}
     return assigned, [path for path in files.values() if path not in taken]
 

@@ -447,8 +447,8 @@ def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
 
 def _plain(entry: ManifestEntry) -> dict[str, Any]:
     common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
-    told = {"problems": list(entry.problems), "files": dict(entry.files)}
-    return common | {name: some for name, some in told.items() if some}
+    details = {"problems": list(entry.problems), "files": dict(entry.files)}
+    return common | {name: some for name, some in details.items() if some}
 
 
 def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:

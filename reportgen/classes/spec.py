@@ -408,9 +408,9 @@ def _unreadable(spec: Spec) -> list[Fault]:
     if any(not axis.choices for axis in spec.axes):
         return []
     first = assembled(spec.top, spec.settings([0] * len(spec.axes)))
-    found: dict[tuple[str, Mark], Fault] = {}
+    faults: dict[tuple[str, Mark], Fault] = {}
     for axis in spec.axes:
         for choice in axis.choices:
             for fault in misread(assembled(first, choice.settings), spec.kind):
-                found.setdefault((fault.code, fault.mark), fault)
-    return list(found.values())
+                faults.setdefault((fault.code, fault.mark), fault)
+    return list(faults.values())

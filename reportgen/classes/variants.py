@@ -363,10 +363,10 @@ def _shown(value: float) -> str:
 
 def _remarks(files: Sequence[StudentFile], efforts: Sequence[Effort | None], language: Language) -> Iterator[str]:
     """What to say of the files that were kept."""
-    for file, found in zip(files, efforts, strict=True):
+    for file, effort in zip(files, efforts, strict=True):
         if file.state == "kept":
             yield word("variants_kept", language, path=file.path)
-        if found is None:
+        if effort is None:
             yield word("variants_unchecked", language, id=file.drawn.student.id)
 
 
@@ -398,11 +398,11 @@ def _csv(files: Sequence[StudentFile], efforts: Sequence[Effort | None]) -> byte
     """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures."""
     places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
     rows: list[list[str | float | None]] = [["id", "name", "file", "variant", *map(path_text, places), *Effort._fields]]
-    for file, one in zip(files, efforts, strict=True):
+    for file, effort in zip(files, efforts, strict=True):
         top = file.whole
-        found = (at(top, where) for where in (("variant",), *places))
-        values = [node.text if isinstance(node, Scalar) else None for node in found]
-        tail = one or (None,) * len(Effort._fields)
+        nodes = (at(top, where) for where in (("variant",), *places))
+        values = [node.text if isinstance(node, Scalar) else None for node in nodes]
+        tail = effort or (None,) * len(Effort._fields)
         rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
         student = file.drawn.student
         rows.append([student.id, student.card.get("name"), file.path.name, *values, *rounded])

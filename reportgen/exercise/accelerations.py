@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.exercise import file
-from reportgen.exercise.board import Board, BoardEquation, Projected, Step, Vector, components
 from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.derivation import Derivation, DerivationEquation, Projected, Step, Vector, components
 from reportgen.exercise.places import direction_of, parallel, perpendicular, unit
 from reportgen.formula import ids, sqrt
 
@@ -20,22 +20,22 @@ from reportgen.formula import ids, sqrt
 class Parts:
     """The accelerations of points as vectors that add up to them; none for a point at rest or in uniform motion."""
 
-    board: Board
+    derivation: Derivation
     of: dict[str, tuple[Vector, ...]] = field(default_factory=dict)
 
 
 def relative(parts: Parts, body: int, point: str, base: str) -> tuple[Vector, Vector]:
     """The normal and the tangential acceleration of a point about another of its body, as vectors."""
-    board = parts.board
-    arm = direction_of(board.layout.points[point] - board.layout.points[base])
-    pivot = board.layout.centres.get(body)
+    derivation = parts.derivation
+    arm = direction_of(derivation.layout.points[point] - derivation.layout.points[base])
+    pivot = derivation.layout.centres.get(body)
     fixed = pivot is not None and pivot.rule == "pivot" and pivot.name == base
-    return _turning(board, body, point if fixed else point + base, arm)
+    return _turning(derivation, body, point if fixed else point + base, arm)
 
 
-def _turning(board: Board, body: int, name: str, arm: complex) -> tuple[Vector, Vector]:
+def _turning(derivation: Derivation, body: int, name: str, arm: complex) -> tuple[Vector, Vector]:
     """aⁿ and aᵗ at the end of an arm of a body, given by its direction; `name` is what stands below both symbols."""
-    across = 1j * arm * (1 if board.motion.epsilon(body) >= 0 else -1)
+    across = 1j * arm * (1 if derivation.motion.epsilon(body) >= 0 else -1)
     return Vector(ids.acceleration(name, "n"), -arm), Vector(ids.acceleration(name, "t"), across)
 
 
@@ -51,14 +51,14 @@ def enter_tangential(parts: Parts, body: int, point: str, base: str, tangential:
 
 def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: str) -> tuple[str, ...]:
     """A part of an acceleration from a rate of the body; the ids of its lines, none where the part is nothing."""
-    board = parts.board
-    if board.knows(id):
+    derivation = parts.derivation
+    if derivation.knows(id):
         return ()
-    if board.q.si(rate) == 0:
-        board.q.give(id, 0.0)
+    if derivation.q.si(rate) == 0:
+        derivation.q.give(id, 0.0)
         return ()
-    arm = board.length(base, point)
-    board.q.define(id, (board.q[rate] if power == 1 else board.q[rate] ** power) * arm)
+    arm = derivation.length(base, point)
+    derivation.q.define(id, (derivation.q[rate] if power == 1 else derivation.q[rate] ** power) * arm)
     return (arm.id, id)
 
 
@@ -78,83 +78,87 @@ def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
 
     On a straight line of the ground nothing is known; about a pivot, or another known point, the normal acceleration.
     """
-    board, layout = parts.board, parts.board.layout
-    actual = board.motion.a(point) if point in board.motion.system.points else 0j
+    derivation, layout = parts.derivation, parts.derivation.layout
+    actual = derivation.motion.a(point) if point in derivation.motion.system.points else 0j
     if point in layout.slots:
         u = layout.slots[point]
         return AccelerationPath((), Vector(ids.acceleration(point), u if (u.conjugate() * actual).real >= 0 else -u))
-    for other, centre in layout.centres.items():
-        if other != body and centre.rule == "pivot" and point in layout.own(other) and board.knows_omega(other):
-            normal, tangential = relative(parts, other, point, centre.name)
-            lines = enter_normal(parts, other, point, centre.name, normal)
-            return AccelerationPath(parts.board.nonzero(normal), tangential, other, centre.name, lines)
-    for other in layout.members:
-        names = layout.own(other)
+    for leader, centre in layout.centres.items():
+        if leader != body and centre.rule == "pivot" and point in layout.own(leader) and derivation.knows_omega(leader):
+            normal, tangential = relative(parts, leader, point, centre.name)
+            lines = enter_normal(parts, leader, point, centre.name, normal)
+            return AccelerationPath(parts.derivation.nonzero(normal), tangential, leader, centre.name, lines)
+    for leader in layout.members:
+        names = layout.own(leader)
         base = next((name for name in names if name in parts.of), "")
-        if other != body and point in names and base and board.knows_omega(other):
-            normal, tangential = relative(parts, other, point, base)
-            lines = enter_normal(parts, other, point, base, normal)
-            return AccelerationPath((*parts.of[base], *parts.board.nonzero(normal)), tangential, other, base, lines)
+        if leader != body and point in names and base and derivation.knows_omega(leader):
+            normal, tangential = relative(parts, leader, point, base)
+            lines = enter_normal(parts, leader, point, base, normal)
+            return AccelerationPath(
+                (*parts.of[base], *parts.derivation.nonzero(normal)), tangential, leader, base, lines
+            )
     return None
 
 
 def enter_end(parts: Parts, point: str, path: AccelerationPath, equation: Projected) -> None:
     """The whole acceleration of a point whose unknown part has been found, and the rate of the body it is about."""
-    board, size = parts.board, parts.board.q[path.unknown.id]
-    parts.of[point] = (*path.known, *board.nonzero(path.unknown))
-    if path.body and not board.knows_epsilon(path.body):
-        equation.then(board.q.define(ids.angular_acceleration(path.body), size / board.length(path.base, point)))
+    derivation, size = parts.derivation, parts.derivation.q[path.unknown.id]
+    parts.of[point] = (*path.known, *derivation.nonzero(path.unknown))
+    if path.body and not derivation.knows_epsilon(path.body):
+        equation.then(
+            derivation.q.define(ids.angular_acceleration(path.body), size / derivation.length(path.base, point))
+        )
 
 
 Finder = Callable[[Parts], bool]
 """Enters one more rate of a body, or the acceleration of one more point; whether there was one."""
 
 
-def enter_accelerations(board: Board, finders: Sequence[Finder]) -> None:
+def enter_accelerations(derivation: Derivation, finders: Sequence[Finder]) -> None:
     """Given rates first; then every rate that follows from them and the velocities, by the first finder that can."""
-    parts = Parts(board)
+    parts = Parts(derivation)
     _given(parts)
     while any(find(parts) for find in finders):
         pass
-    for asked in board.layout.given.find:
-        if asked.what == "a" and asked.of in parts.of and not board.knows(asked.id):
+    for asked in derivation.layout.given.find:
+        if asked.what == "a" and asked.of in parts.of and not derivation.knows(asked.id):
             _whole(parts, asked.of)
 
 
 def _given(parts: Parts) -> None:
-    board = parts.board
-    for rate in board.layout.given.given:
+    derivation = parts.derivation
+    for rate in derivation.layout.given.given:
         match rate:
             case file.EpsilonOf(body=body, value=value):
-                board.given(ids.angular_acceleration(body), value.si)
+                derivation.given(ids.angular_acceleration(body), value.si)
             case file.AccelerationOf(point=point, size=size, direction=angle) if size is not None:
-                a = board.given(ids.acceleration(point), size.si)
+                a = derivation.given(ids.acceleration(point), size.si)
                 direction = unit(angle.si) * (1 if size.si >= 0 else -1)
                 parts.of[point] = (Vector(a.id, direction),) if size.si else ()
             case file.FromRest(point=point, acceleration=acceleration, direction=angle):
                 direction = unit(angle.si) * (1 if acceleration.si >= 0 else -1)
                 parts.of[point] = (Vector(ids.acceleration(point), direction),)
-    for body, centre in board.layout.centres.items():
+    for body, centre in derivation.layout.centres.items():
         if centre.rule == "pivot":
             parts.of[centre.name] = ()
-        if centre.rule == "translation" and not board.knows_epsilon(body) and _held(board, body):
-            board.q.give(ids.angular_acceleration(body), 0.0)
+        if centre.rule == "translation" and not derivation.knows_epsilon(body) and _held(derivation, body):
+            derivation.q.give(ids.angular_acceleration(body), 0.0)
 
 
-def _held(board: Board, body: int) -> bool:
+def _held(derivation: Derivation, body: int) -> bool:
     """Whether a joint keeps a body from turning, not only at the instant."""
-    joints = board.layout.given.joints
+    joints = derivation.layout.given.joints
     return any(
-        one.body == body and (isinstance(one, file.Translation) or one.on == GROUND)
-        for one in joints
-        if isinstance(one, file.Slider | file.Translation)
+        joint.body == body and (isinstance(joint, file.Translation) or joint.on == GROUND)
+        for joint in joints
+        if isinstance(joint, file.Slider | file.Translation)
     )
 
 
 def about_points(parts: Parts) -> bool:
     """One more body whose rate, or one of whose points becomes known about others of its points."""
-    for body in parts.board.layout.members:
-        names = parts.board.layout.own(body)
+    for body in parts.derivation.layout.members:
+        names = parts.derivation.layout.own(body)
         if _free(parts, body, names) or _rolling(parts, body) or _points(parts, body, names):
             return True
         if _by_base(parts, body, names):
@@ -164,7 +168,7 @@ def about_points(parts: Parts) -> bool:
 
 def by_slots(parts: Parts) -> bool:
     """One more rate by way of a line on a moving body along which a point slides."""
-    return any(by_slot(parts, joint) for joint in parts.board.layout.given.slots)
+    return any(by_slot(parts, joint) for joint in parts.derivation.layout.given.slots)
 
 
 # --- about a known point --------------------------------------------------------------------------
@@ -172,27 +176,27 @@ def by_slots(parts: Parts) -> bool:
 
 def _points(parts: Parts, body: int, names: list[str]) -> bool:
     """The accelerations of points of a body whose ω and ε are known, about one whose acceleration is."""
-    board = parts.board
+    derivation = parts.derivation
     # The base point whose acceleration has the fewest parts, as the centre of a wheel or a pivot.
     known = [name for name in _with_pivot(parts, body, names) if name in parts.of]
     base = min(known, key=lambda name: len(parts.of[name]), default=None)
     new = [name for name in names if name not in parts.of]
-    if base is None or not new or not (board.knows_omega(body) and board.knows_epsilon(body)):
+    if base is None or not new or not (derivation.knows_omega(body) and derivation.knows_epsilon(body)):
         return False
     point = new[0]
     normal, tangential = relative(parts, body, point, base)
     lines = enter_normal(parts, body, point, base, normal) + enter_tangential(parts, body, point, base, tangential)
-    own = parts.board.nonzero(normal, tangential)
+    own = parts.derivation.nonzero(normal, tangential)
     parts.of[point] = (*parts.of[base], *own)
-    equation = BoardEquation((), parts.of[point])
+    equation = DerivationEquation((), parts.of[point])
     kind = "acceleration-point" if parts.of[base] else "acceleration-pivot"
-    board.steps.append(Step(kind, lines, body, point, base, equation))
+    derivation.steps.append(Step(kind, lines, body, point, base, equation))
     return True
 
 
 def _with_pivot(parts: Parts, body: int, names: list[str]) -> list[str]:
     """The points of a body, its pivot first."""
-    centre = parts.board.layout.centres.get(body)
+    centre = parts.derivation.layout.centres.get(body)
     return [centre.name, *names] if centre is not None and centre.rule == "pivot" else names
 
 
@@ -201,8 +205,8 @@ def _with_pivot(parts: Parts, body: int, names: list[str]) -> list[str]:
 
 def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
     """ε of a body from one point with a known acceleration and another on a known path: projected on their line."""
-    board = parts.board
-    if board.knows_epsilon(body) or not board.knows_omega(body):
+    derivation = parts.derivation
+    if derivation.knows_epsilon(body) or not derivation.knows_omega(body):
         return False
     bases = [name for name in names if name in parts.of]
     for base in bases:
@@ -214,17 +218,17 @@ def _by_base(parts: Parts, body: int, names: list[str]) -> bool:
 
 def _two_unknown(parts: Parts, body: int, point: str, base: str, path: AccelerationPath) -> bool:
     """a_P = a_B + aⁿ + aᵗ with two unknown sizes: along BP there is no aᵗ, and across it there is no aⁿ."""
-    board, q = parts.board, parts.board.q
+    derivation, q = parts.derivation, parts.derivation.q
     normal, tangential = relative(parts, body, point, base)
-    line = direction_of(board.layout.points[point] - board.layout.points[base])
+    line = direction_of(derivation.layout.points[point] - derivation.layout.points[base])
     if perpendicular(line, path.unknown.direction):
         return False
     lines = path.lines + enter_normal(parts, body, point, base, normal)
-    bases = (*parts.of[base], *board.nonzero(normal))
-    equation = Projected(board, (*path.known, path.unknown), (*bases, tangential), lines)
+    bases = (*parts.of[base], *derivation.nonzero(normal))
+    equation = Projected(derivation, (*path.known, path.unknown), (*bases, tangential), lines)
     equation.find(path.unknown, line, "ξ", point)
     size = equation.find(tangential, tangential.direction, "η", point)
-    equation.then(q.define(ids.angular_acceleration(body), size / board.length(base, point)))
+    equation.then(q.define(ids.angular_acceleration(body), size / derivation.length(base, point)))
     enter_end(parts, point, path, equation)
     equation.step("acceleration-base", body, point, base)
     return True
@@ -235,33 +239,36 @@ def _two_unknown(parts: Parts, body: int, point: str, base: str, path: Accelerat
 
 def _rolling(parts: Parts, body: int) -> bool:
     """ε = aᵗ/r of a disc that rolls on the ground: what the acceleration of its centre is along the way it rolls."""
-    board, q = parts.board, parts.board.q
-    centre, disc = board.layout.centres.get(body), board.layout.given.disc(body)
-    if centre is None or disc is None or centre.rule != "contact" or board.knows_epsilon(body):
+    derivation, q = parts.derivation, parts.derivation.q
+    centre, disc = derivation.layout.centres.get(body), derivation.layout.given.disc(body)
+    if centre is None or disc is None or centre.rule != "contact" or derivation.knows_epsilon(body):
         return False
     if disc.centre not in parts.of:
         return False
-    along = 1j * direction_of(board.layout.points[disc.centre] - centre.at)
+    along = 1j * direction_of(derivation.layout.points[disc.centre] - centre.at)
     terms = [one for one in parts.of[disc.centre] if parallel(one.direction, along)]
     if len(terms) > 1 or any(components(q, [one], along) for one in parts.of[disc.centre] if one not in terms):
         return False
-    radius = board.length(centre.name, disc.centre, centre.at)
+    radius = derivation.length(centre.name, disc.centre, centre.at)
     id = ids.angular_acceleration(body)
     eps = q.define(id, q[terms[0].id] / radius) if terms else q.give(id, 0.0)
-    board.steps.append(Step("acceleration-rolling", (radius.id, eps.id), body, disc.centre, centre.name))
+    derivation.steps.append(Step("acceleration-rolling", (radius.id, eps.id), body, disc.centre, centre.name))
     return True
 
 
 def _free(parts: Parts, body: int, names: list[str]) -> bool:
     """ω and ε of a body from the accelerations of two of its points."""
-    board, q = parts.board, parts.board.q
+    derivation, q = parts.derivation, parts.derivation.q
     known = [name for name in names if name in parts.of]
-    if board.knows_omega(body) or len(known) < 2 or body in board.layout.centres:
+    if derivation.knows_omega(body) or len(known) < 2 or body in derivation.layout.centres:
         return False
     base, point = known[0], known[1]
-    arm, line = board.length(base, point), direction_of(board.layout.points[point] - board.layout.points[base])
+    arm, line = (
+        derivation.length(base, point),
+        direction_of(derivation.layout.points[point] - derivation.layout.points[base]),
+    )
     normal, tangential = relative(parts, body, point, base)
-    equation = Projected(board, parts.of[point], (*parts.of[base], normal, tangential))
+    equation = Projected(derivation, parts.of[point], (*parts.of[base], normal, tangential))
     along = equation.find(normal, line, "ξ", point)
     equation.then(q.define(ids.angular_velocity(body), sqrt(along / arm)))
     across = equation.find(tangential, tangential.direction, "η", point)
@@ -275,12 +282,12 @@ def _free(parts: Parts, body: int, names: list[str]) -> bool:
 
 def _whole(parts: Parts, point: str) -> None:
     """The size of an acceleration from its parts: of one, of two at a right angle, or of its components."""
-    board, q, vectors = parts.board, parts.board.q, parts.board.nonzero(*parts.of[point])
+    derivation, q, vectors = parts.derivation, parts.derivation.q, parts.derivation.nonzero(*parts.of[point])
     a = ids.acceleration(point)
     if not vectors:
         q.give(a, 0.0)
         return
-    whole = Projected(board, (), vectors)
+    whole = Projected(derivation, (), vectors)
     if len(vectors) == 1:
         whole.then(q.define(a, q[vectors[0].id]))
     elif len(vectors) == 2 and perpendicular(vectors[0].direction, vectors[1].direction):
@@ -298,41 +305,41 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
 
     Both sides are projected on the normal to the line, along which the relative acceleration is nothing.
     """
-    board, q, body, point = parts.board, parts.board.q, joint.on, joint.point
+    derivation, q, body, point = parts.derivation, parts.derivation.q, joint.on, joint.point
     base = _base_of_slot(parts, body, point)
     omega, eps, v_r = ids.angular_velocity(body), ids.angular_acceleration(body), ids.sliding_velocity(point)
-    if not base or not (board.knows(omega) and board.knows(v_r)):
+    if not base or not (derivation.knows(omega) and derivation.knows(v_r)):
         return False
-    u, motion = board.layout.geometry.direction(joint), board.motion
-    arm = direction_of(board.layout.points[point] - board.layout.points[base])
-    told = board.knows(eps)
-    path = known_path(parts, point, body) if told and point not in parts.of else None
-    if (point in parts.of) == told or (told and path is None) or not arm:
+    u, motion = derivation.layout.geometry.direction(joint), derivation.motion
+    arm = direction_of(derivation.layout.points[point] - derivation.layout.points[base])
+    eps_known = derivation.knows(eps)
+    path = known_path(parts, point, body) if eps_known and point not in parts.of else None
+    if (point in parts.of) == eps_known or (eps_known and path is None) or not arm:
         return False
     if perpendicular(1j * arm, 1j * u) if path is None else parallel(path.unknown.direction, u):
         return False
     name = point + (base if parts.of[base] else "e")
-    gliding = board.at(point) - board.at(point, body)
+    gliding = derivation.at(point) - derivation.at(point, body)
     along = motion.a(point) - motion.a(point, body) - 2j * motion.omega(body) * gliding
-    normal, tangential = _turning(board, body, name, arm)
+    normal, tangential = _turning(derivation, body, name, arm)
     coriolis = Vector(ids.acceleration(point, "k"), direction_of(2j * motion.omega(body) * gliding))
     sliding = Vector(ids.acceleration(point, "r"), direction_of(complex((u.conjugate() * along).real) * u))
     lines = () if path is None else path.lines
-    length = board.length(base, point)
+    length = derivation.length(base, point)
     if q.si(omega):
         lines += (q.define(normal.id, q[omega] ** 2 * length).id,)
         if q.si(v_r):
             lines += (q.define(coriolis.id, 2 * q[omega] * q[v_r]).id,)
-    if told and q.si(eps):
+    if eps_known and q.si(eps):
         lines += (q.define(tangential.id, q[eps] * length).id,)
-    known = (*parts.of[base], *board.nonzero(normal, coriolis, *((tangential,) if told else ())))
+    known = (*parts.of[base], *derivation.nonzero(normal, coriolis, *((tangential,) if eps_known else ())))
     if path is None:
-        equation = Projected(board, parts.of[point], (*known, tangential, sliding), lines)
+        equation = Projected(derivation, parts.of[point], (*known, tangential, sliding), lines)
         size = equation.find(tangential, 1j * u, "η", point)
         equation.then(q.define(eps, size / length))
         equation.step("acceleration-slot", body, point, base)
     else:
-        equation = Projected(board, (*path.known, path.unknown), (*known, sliding), lines)
+        equation = Projected(derivation, (*path.known, path.unknown), (*known, sliding), lines)
         equation.find(path.unknown, 1j * u, "η", point)
         enter_end(parts, point, path, equation)
         equation.step("acceleration-slot-point", body, point, base)
@@ -341,7 +348,7 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
 
 def _base_of_slot(parts: Parts, body: int, point: str) -> str:
     """A point of a body, its pivot first, whose acceleration is known; not the one that slides."""
-    centre = parts.board.layout.centres.get(body)
+    centre = parts.derivation.layout.centres.get(body)
     if centre is not None and centre.rule == "pivot":
         return centre.name
-    return next((name for name in parts.board.layout.own(body) if name in parts.of and name != point), "")
+    return next((name for name in parts.derivation.layout.own(body) if name in parts.of and name != point), "")

@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 from reportgen.exercise import file
-from reportgen.exercise.board import Board, angle
 from reportgen.exercise.centres import SAME_PLACE
 from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.derivation import Derivation, angle
 from reportgen.exercise.places import unit
 from reportgen.formula import (
     MINUS_ONE,
@@ -65,16 +65,28 @@ class Direction:
 
 
 @dataclass(frozen=True, slots=True)
-class Leg:
-    """A vector of a chain: its length, which a `way` is the coordinate of, along a direction turned by right angles."""
+class CoordinateRate:
+    """The derivative of a coordinate; of a point's speed that is no coordinate, the point."""
+
+    of: Coordinate | str
+    order: int
+
+
+@dataclass(frozen=True, slots=True)
+class LoopVector:
+    """A vector of a loop or of its derivative: a length along a direction turned by right angles.
+
+    A `way` is the coordinate that the length is; in a derivative, the length has the `rates` as further factors.
+    """
 
     length: Expression
     value: float
     direction: Direction
     quarters: int = 0
     way: WayAlong | None = None
+    rates: tuple[CoordinateRate, ...] = ()
 
-    def reversed(self) -> Leg:
+    def reversed(self) -> LoopVector:
         return replace(self, length=minus(self.length), value=-self.value)
 
 
@@ -83,19 +95,19 @@ class Place:
     """Where a point is: coordinates of a fixed point and a chain of legs from there."""
 
     fixed: tuple[Expression, Expression] = (NOTHING, NOTHING)
-    legs: tuple[Leg, ...] = ()
+    legs: tuple[LoopVector, ...] = ()
 
-    def by(self, *legs: Leg) -> Place:
+    def by(self, *legs: LoopVector) -> Place:
         return replace(self, legs=(*self.legs, *(leg for leg in legs if abs(leg.value) > SAME_PLACE or leg.way)))
 
 
 @dataclass(frozen=True, slots=True)
 class Closure:
-    """A point that is reached in two ways."""
+    """A point that is reached in two ways: outward by one, and back by the other the loop closes."""
 
     point: str
-    one: Place
-    other: Place
+    outward: Place
+    back: Place
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +128,7 @@ Relation = dict[Coordinate, tuple[Expression, float]]
 class Linked:
     """The places of all points of a system, its loops and relations, as functions of its coordinates."""
 
-    board: Board
+    derivation: Derivation
     places: dict[str, Place] = field(default_factory=dict)
     closures: list[Closure] = field(default_factory=list)
     relations: list[Relation] = field(default_factory=list)
@@ -131,7 +143,7 @@ class Linked:
     """The ways along lines, read off the figure unless a formula gives them before they are needed."""
 
     def __post_init__(self) -> None:
-        given, layout = self.board.layout.given, self.board.layout
+        given, layout = self.derivation.layout.given, self.derivation.layout
         self.members = {body: layout.own(body) for body in layout.members}
         self._join_turns()
         moving = {name for names in self.members.values() for name in names}
@@ -158,15 +170,15 @@ class Linked:
     def _join_turns(self) -> None:
         """Bodies that slide along a guide without turning against it turn as its body does."""
         self.turning = {GROUND: GROUND, **{body: body for body in self.members}}
-        for joint in self.board.layout.given.joints:
+        for joint in self.derivation.layout.given.joints:
             match joint:
                 case file.Slider(body=body, on=on):
                     self._turn_alike(body, on)
                 case file.Translation(body=body):
                     self._turn_alike(body, GROUND)
 
-    def _turn_alike(self, one: int, other: int) -> None:
-        least, most = sorted((self.turning[one], self.turning[other]))
+    def _turn_alike(self, first_body: int, second_body: int) -> None:
+        least, most = sorted((self.turning[first_body], self.turning[second_body]))
         self.turning |= {body: least for body, leader in self.turning.items() if leader == most}
 
     def direction(self, body: int, of: complex) -> tuple[Direction, int]:
@@ -175,8 +187,8 @@ class Linked:
         if leader == GROUND:
             return Direction(GROUND, now), 1
         if leader not in self.reference:
-            known = self.board.q.find(ids.formula_angle(leader))
-            self.reference[leader] = now if known is None else self.board.q.si(known)
+            known = self.derivation.q.find(ids.formula_angle(leader))
+            self.reference[leader] = now if known is None else self.derivation.q.si(known)
         offset = math.remainder(now - self.reference[leader], 2 * math.pi)
         if abs(abs(offset) - HALF_TURN) < SAME_ANGLE:
             return Direction(leader, 0.0), -1
@@ -192,18 +204,18 @@ class Linked:
 
     def phi(self, body: int) -> Expression:
         """The angle of a body, as it is read off the figure."""
-        q, id = self.board.q, ids.formula_angle(body)
+        q, id = self.derivation.q, ids.formula_angle(body)
         return q.find(id) or q.give(id, self.reference[body], Symbol("φ", self.letter(body)), exact=False)
 
-    def way_id(self, way: WayAlong) -> str:
-        return ids.slide_way(f"{self.lines[way.number].body},{way.number}")
+    def way_id(self, slide: WayAlong) -> str:
+        return ids.slide_way(f"{self.lines[slide.number].body},{slide.number}")
 
     def way(self, of: Expression) -> Expression:
-        """A length with the ways in it put on the board."""
+        """A length with the ways in it put in the derivation."""
         for id in refs(of):
-            if id not in self.board.q:
+            if id not in self.derivation.q:
                 value, symbol = self.read_off[id]
-                self.board.q.give(id, value, symbol, exact=False)
+                self.derivation.q.give(id, value, symbol, exact=False)
         return of
 
     def letter(self, body: int) -> str:
@@ -213,38 +225,38 @@ class Linked:
     def _from(self, start: Expression, offset: float) -> Expression:
         if abs(offset) < SAME_ANGLE and start != NOTHING:
             return start
-        size = angle(self.board.q, abs(offset))
+        size = angle(self.derivation.q, abs(offset))
         if start == NOTHING:
             return size if offset >= 0 or is_zero(size) else minus(size)
         return plus(start, size if offset > 0 else minus(size))
 
-    def between(self, one: Direction, other: Direction) -> Expression:
+    def between(self, start_direction: Direction, end_direction: Direction) -> Expression:
         """The angle from one direction to another."""
-        if one.body == other.body:
-            return self._from(NOTHING, math.remainder(other.offset - one.offset, 2 * math.pi))
-        start, end = self.angle(one), self.angle(other)
+        if start_direction.body == end_direction.body:
+            return self._from(NOTHING, math.remainder(end_direction.offset - start_direction.offset, 2 * math.pi))
+        start, end = self.angle(start_direction), self.angle(end_direction)
         return minus(start) if is_zero(end) else between(end, start)
 
     # --- lengths
 
     def _coordinates(self, point: str) -> tuple[Expression, Expression]:
-        at = self.board.layout.points[point]
+        at = self.derivation.layout.points[point]
         x, y = (self._coordinate(axis, point, part) for axis, part in zip("xy", (at.real, at.imag), strict=True))
         return x, y
 
     def _coordinate(self, axis: str, point: str, value: float) -> Expression:
         if abs(value) < SAME_PLACE:
             return NOTHING
-        q, id = self.board.q, ids.formula_coordinate(axis, point)
+        q, id = self.derivation.q, ids.formula_coordinate(axis, point)
         return q.find(id) or q.give(id, value, exact=is_short(value))
 
-    def arm(self, body: int, base: str, point: str) -> tuple[Leg, ...]:
+    def arm(self, body: int, base: str, point: str) -> tuple[LoopVector, ...]:
         """From one point of a body to another; none where both are one."""
-        reach = self.board.layout.points[point] - self.board.layout.points[base]
+        reach = self.derivation.layout.points[point] - self.derivation.layout.points[base]
         if abs(reach) < SAME_PLACE:
             return ()
         direction, sense = self.direction(body, reach)
-        return (Leg(signed(sense, self.board.length(base, point)), sense * abs(reach), direction),)
+        return (LoopVector(signed(sense, self.derivation.length(base, point)), sense * abs(reach), direction),)
 
     # --- chains
 
@@ -252,7 +264,7 @@ class Linked:
         """Leads on from a body that is reached to all of its points: first the driving ones, then what they drive."""
 
         def is_driven(body: int) -> bool:
-            return self.board.knows_omega(body) or any(
+            return self.derivation.knows_omega(body) or any(
                 name in self.places and self.places[name].legs for name in waiting[body]
             )
 
@@ -260,7 +272,7 @@ class Linked:
         chosen = [body for body in reached if is_driven(body)] if driven else reached
         if not chosen:
             return False
-        body = min(chosen, key=lambda one: not self.board.knows_omega(one))
+        body = min(chosen, key=lambda one: not self.derivation.knows_omega(one))
         names = waiting.pop(body)
         base = min((name for name in names if name in self.places), key=lambda name: len(self.places[name].legs))
         for name in names:
@@ -298,31 +310,31 @@ class Linked:
         return False
 
     def _line(self, joint: file.SlotJoint | file.Slider | file.RollingOnLine) -> StraightWay:
-        along = self.board.layout.geometry.direction(joint)
+        along = self.derivation.layout.geometry.direction(joint)
         match joint:
             case file.SlotJoint(point=point, body=body):
                 return StraightWay(point, body, joint.on, along)
             case file.Slider(body=body):
-                return StraightWay(self.board.layout.given.bodies[body].carried[0], body, joint.on, along)
-        return StraightWay(self.board.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
+                return StraightWay(self.derivation.layout.given.bodies[body].carried[0], body, joint.on, along)
+        return StraightWay(self.derivation.layout.geometry.disc(joint.disc).centre, joint.disc, joint.on, along)
 
     def _slide(self, joint: file.Joint, line: StraightWay) -> None:
         """P = T + s e + h n: along the line and across it from a point of its body, on the ground from the origin."""
-        q, points, number = self.board.q, self.board.layout.points, len(self.lines)
+        q, points, number = self.derivation.q, self.derivation.layout.points, len(self.lines)
         self.lines.append(line)
         on_ground = self.turning.get(line.on, line.on) == GROUND and line.on == GROUND
         base = "" if on_ground else self._base(line)
         there = points[line.point] - (points[base] if base else 0j)
         direction, sense = self.direction(line.on, line.along)
-        way, relative = WayAlong(number), "" if on_ground else "r"
+        slide, relative = WayAlong(number), "" if on_ground else "r"
         gone = sense * dot(line.along, there)
-        id = self.way_id(way)
+        id = self.way_id(slide)
         self.read_off[id] = (gone, Symbol("s", line.point, relative))
-        legs = [Leg(Ref(id), gone, direction, way=way)]
+        legs = [LoopVector(Ref(id), gone, direction, way=slide)]
         if abs(off := sense * cross(line.along, there)) > SAME_PLACE:
             id = ids.loop_distance(f"{line.body},{number}")
             h = q.give(id, abs(off), Symbol("h", line.point, relative), exact=is_short(abs(off)))
-            legs.append(Leg(signed(off, h), off, direction, 1))
+            legs.append(LoopVector(signed(off, h), off, direction, 1))
         if sense < 0:
             self.lines[number] = replace(line, along=-line.along)
         if base and base not in self.places:
@@ -330,11 +342,11 @@ class Linked:
         else:
             self._reach(line.point, (self.places[base] if base else Place()).by(*legs))
         if isinstance(joint, file.RollingOnLine):
-            self._roll(joint, way, self.lines[number])
+            self._roll(joint, slide, self.lines[number])
 
     def _base(self, line: StraightWay) -> str:
         """The point of a line's body that ways along it count from: one that is reached, and on the line at best."""
-        points, names = self.board.layout.points, self.members[line.on]
+        points, names = self.derivation.layout.points, self.members[line.on]
         known = [name for name in names if name in self.places] or names
 
         def rank(name: str) -> tuple[bool, int]:
@@ -343,38 +355,38 @@ class Linked:
 
         return min(known, key=rank)
 
-    def _roll(self, joint: file.RollingOnLine, way: WayAlong, line: StraightWay) -> None:
+    def _roll(self, joint: file.RollingOnLine, slide: WayAlong, line: StraightWay) -> None:
         """ṡ = R (ω of the line − ω of the disc), of a disc to the left of the line."""
-        layout = self.board.layout
+        layout = self.derivation.layout
         touch = layout.geometry.contact_on_line(joint)
         side = math.copysign(1.0, cross(line.along, layout.points[line.point] - touch))
         radius = self._radius(joint.disc, layout.contacts[layout.given.joints.index(joint)])
-        value = side * self.board.q.si(radius)
-        relation: Relation = {way: (ONE, 1.0), Turn(self.turning[joint.disc]): (signed(side, radius), value)}
+        value = side * self.derivation.q.si(radius)
+        relation: Relation = {slide: (ONE, 1.0), Turn(self.turning[joint.disc]): (signed(side, radius), value)}
         if leader := self.turning[joint.on]:
             relation[Turn(leader)] = minus(signed(side, radius)), -value
         self.relations.append(relation)
 
     def _radius(self, disc: int, touch: str) -> Ref:
-        return self.board.length(self.board.layout.geometry.disc(disc).centre, touch)
+        return self.derivation.length(self.derivation.layout.geometry.disc(disc).centre, touch)
 
     # --- points at constant distances
 
     def _ends(self, joint: file.Cord | file.RollingOnCircle | file.Gears | file.Belt) -> tuple[str, str]:
         if isinstance(joint, file.Cord):
-            one, other = joint.points
-            return one, other
-        first, second = self.board.layout.geometry.discs(joint)
+            start, end = joint.points
+            return start, end
+        first, second = self.derivation.layout.geometry.discs(joint)
         return first.centre, second.centre
 
-    def _apart(self, one: str, other: str) -> int:
+    def _apart(self, base: str, tip: str) -> int:
         """A rod between two points, one of which is reached; its number."""
-        if other in self.places and one not in self.places:
-            one, other = other, one
+        if tip in self.places and base not in self.places:
+            base, tip = tip, base
         number = 1 + max((*self.turning, *self.rods))
-        self.rods[number] = one, other
+        self.rods[number] = base, tip
         self.turning[number] = number
-        self._reach(other, self.places[one].by(*self.arm(number, one, other)))
+        self._reach(tip, self.places[base].by(*self.arm(number, base, tip)))
         return number
 
     def _arm_of(self, *ends: str) -> int | None:
@@ -388,7 +400,7 @@ class Linked:
 
     def _relate_discs(self, joint: file.Gears | file.RollingOnCircle | file.Belt) -> None:
         """(ω₁ − ω_c) r₁ ± (ω₂ − ω_c) r₂ = 0 about the line of the centres, + for discs that turn in opposite senses."""
-        layout, index = self.board.layout, self.board.layout.given.joints.index(joint)
+        layout, index = self.derivation.layout, self.derivation.layout.given.joints.index(joint)
         ends = self._ends(joint)
         if not all(end in self.places for end in ends):
             return
@@ -404,7 +416,7 @@ class Linked:
         relation: Relation = {}
         for disc, touch, factor in zip(joint.discs, touching, (ONE, MINUS_ONE if alike else ONE), strict=True):
             radius, sense = self._radius(disc, touch), -1.0 if factor == MINUS_ONE else 1.0
-            size = self.board.q.si(radius)
+            size = self.derivation.q.si(radius)
             for body, sign in ((disc, sense), (arm, -sense)):
                 if leader := self.turning[body]:
                     before, value = relation.get(Turn(leader), (NOTHING, 0.0))
@@ -412,15 +424,15 @@ class Linked:
         self.relations.append({one: told for one, told in relation.items() if abs(told[1]) > SAME_PLACE})
 
 
-def legs_of(closure: Closure) -> Iterator[Leg]:
+def legs_of(closure: Closure) -> Iterator[LoopVector]:
     """The legs of a loop, one way and back, without those that both ways have."""
-    one, other = list(closure.one.legs), list(closure.other.legs)
-    for leg in closure.one.legs:
-        if leg in other:
-            one.remove(leg)
-            other.remove(leg)
-    yield from one
-    yield from (leg.reversed() for leg in other)
+    outward, back = list(closure.outward.legs), list(closure.back.legs)
+    for leg in closure.outward.legs:
+        if leg in back:
+            outward.remove(leg)
+            back.remove(leg)
+    yield from outward
+    yield from (leg.reversed() for leg in back)
 
 
 def given_direction(degrees: float, size: float) -> Direction:

@@ -10,9 +10,9 @@ import cmath
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from reportgen.exercise.board import Board
-from reportgen.exercise.closures import Closure, Coordinate, Direction, Leg, Linked, Turn, WayAlong
+from reportgen.exercise.closures import Closure, CoordinateRate, Linked, LoopVector, Turn, WayAlong
 from reportgen.exercise.conditions import GROUND
+from reportgen.exercise.derivation import Derivation
 from reportgen.formula import (
     MINUS_ONE,
     NOTHING,
@@ -41,43 +41,24 @@ RATES = {VELOCITY: "v", ACCELERATION: "a"}
 TWO = Number(2.0)
 
 
-@dataclass(frozen=True, slots=True)
-class CoordinateRate:
-    """The derivative of a coordinate; of a point's speed that is no coordinate, the point."""
-
-    of: Coordinate | str
-    order: int
-
-
-@dataclass(frozen=True, slots=True)
-class Spoke:
-    """A vector of a derivative: factor × rates along a direction turned by right angles; `size` is the factor's."""
-
-    factor: Expression
-    size: float
-    direction: Direction
-    quarters: int = 0
-    rates: tuple[CoordinateRate, ...] = ()
-
-
-def derivative(leg: Leg, leader: int, order: int) -> Iterator[Spoke]:
+def derivative(leg: LoopVector, leader: int, order: int) -> Iterator[LoopVector]:
     """What a leg adds to the derivative of a chain."""
-    length, turn = Spoke(leg.length, leg.value, leg.direction, leg.quarters), Turn(leader)
-    ahead = replace(length, quarters=leg.quarters + 1)
+    still, turn = replace(leg, way=None), Turn(leader)
+    ahead = replace(still, quarters=leg.quarters + 1)
     if leader != GROUND:
         yield replace(ahead, rates=(CoordinateRate(turn, order),))
         if order == ACCELERATION:
             ω = CoordinateRate(turn, VELOCITY)
-            yield replace(length, factor=minus(leg.length), size=-leg.value, rates=(ω, ω))
+            yield replace(still, length=minus(leg.length), value=-leg.value, rates=(ω, ω))
     if leg.way is not None:
         # The length of a way has its sign in its value; its rate has it in the reversed leg's sign.
         sense = 1.0 if isinstance(leg.length, Ref) else -1.0
-        along = replace(length, factor=ONE if sense > 0 else MINUS_ONE, size=sense)
+        along = replace(still, length=ONE if sense > 0 else MINUS_ONE, value=sense)
         yield replace(along, rates=(CoordinateRate(leg.way, order),))
         if order == ACCELERATION and leader != GROUND:
             ω = CoordinateRate(turn, VELOCITY)
             twice = TWO if sense > 0 else minus(TWO)
-            coriolis = replace(along, factor=twice, size=2 * sense, quarters=leg.quarters + 1)
+            coriolis = replace(along, length=twice, value=2 * sense, quarters=leg.quarters + 1)
             yield replace(coriolis, rates=(CoordinateRate(leg.way, VELOCITY), ω))
 
 
@@ -85,20 +66,20 @@ def derivative(leg: Leg, leader: int, order: int) -> Iterator[Spoke]:
 class RateFormulas:
     """How rates and vectors of a system stand in formulas."""
 
-    board: Board
+    derivation: Derivation
     linked: Linked
 
     # --- rates
 
     def value(self, rate: CoordinateRate) -> float:
         """A rate as the whole system gives it."""
-        motion, points = self.board.motion, self.board.layout.points
+        motion, points = self.derivation.motion, self.derivation.layout.points
         of = motion.v if rate.order == VELOCITY else motion.a
         match rate.of:
             case Turn(body) if body in self.linked.rods:
-                one, other = self.linked.rods[body]
-                reach = points[other] - points[one]
-                return float(cross(reach, of(other) - of(one)) / abs(reach) ** 2)
+                start, tip = self.linked.rods[body]
+                reach = points[tip] - points[start]
+                return float(cross(reach, of(tip) - of(start)) / abs(reach) ** 2)
             case Turn(body):
                 return motion.omega(body) if rate.order == VELOCITY else motion.epsilon(body)
             case WayAlong(number):
@@ -133,35 +114,35 @@ class RateFormulas:
     def expression(self, rate: CoordinateRate) -> Expression:
         """A known rate with its sense; nothing for one that is nothing."""
         value, id = self.value(rate), self.id(rate)
-        if id not in self.board.q or self.board.q.si(id) == 0:
+        if id not in self.derivation.q or self.derivation.q.si(id) == 0:
             return NOTHING
-        return signed(value, self.board.q[id])
+        return signed(value, self.derivation.q[id])
 
     def product(self, rates: Sequence[CoordinateRate], by_symbol: bool = False) -> Expression:
         if len(rates) == 2 and rates[0] == rates[1]:
             return square(self.symbol(rates[0]) if by_symbol else self.expression(rates[0]))
         return times(*(self.symbol(one) if by_symbol else self.expression(one) for one in rates)) if rates else ONE
 
-    def vector(self, spoke: Spoke) -> complex:
-        """A spoke without its rates."""
-        return spoke.size * cmath.exp(1j * self.linked.heading(spoke.direction)) * 1j**spoke.quarters
+    def vector(self, vector: LoopVector) -> complex:
+        """A vector without its rates."""
+        return vector.value * cmath.exp(1j * self.linked.heading(vector.direction)) * 1j**vector.quarters
 
     # --- products of vectors, as they are written
 
-    def cross(self, one: Sequence[Spoke], other: Sequence[Spoke]) -> Expression:
+    def cross(self, a_terms: Sequence[LoopVector], b_terms: Sequence[LoopVector]) -> Expression:
         """Σ a × b."""
-        return plus(*(self._product(a, b, b.quarters - a.quarters) for a in one for b in other))
+        return plus(*(self._product(a, b, b.quarters - a.quarters) for a in a_terms for b in b_terms))
 
-    def dot(self, one: Sequence[Spoke], other: Sequence[Spoke]) -> Expression:
+    def dot(self, a_terms: Sequence[LoopVector], b_terms: Sequence[LoopVector]) -> Expression:
         """Σ a · b; cos is sin with a right angle more."""
-        return plus(*(self._product(a, b, b.quarters - a.quarters + 1) for a in one for b in other))
+        return plus(*(self._product(a, b, b.quarters - a.quarters + 1) for a in a_terms for b in b_terms))
 
-    def _product(self, a: Spoke, b: Spoke, quarters: int) -> Expression:
+    def _product(self, a: LoopVector, b: LoopVector, quarters: int) -> Expression:
         between = self.linked.between(a.direction, b.direction)
         return times(*self._factors(a), *self._factors(b), self._trigonometric(between, quarters))
 
-    def _factors(self, spoke: Spoke) -> tuple[Expression, ...]:
-        return self._ordered(self.product(spoke.rates), self.linked.way(spoke.factor))
+    def _factors(self, vector: LoopVector) -> tuple[Expression, ...]:
+        return self._ordered(self.product(vector.rates), self.linked.way(vector.length))
 
     @staticmethod
     def _ordered(rates: Expression, factor: Expression) -> tuple[Expression, Expression]:
@@ -177,28 +158,27 @@ class RateFormulas:
         value = (sine, cosine)[quarters % 2](angle)
         return value if quarters % 4 < 2 else minus(value)
 
-    def component(self, spokes: Iterable[Spoke], axis: str, by_symbol: bool = False) -> Expression:
+    def component(self, vectors: Iterable[LoopVector], axis: str, by_symbol: bool = False) -> Expression:
         """Σ along x or y."""
         terms = []
-        for one in spokes:
-            turned = self._trigonometric(self.linked.angle(one.direction), one.quarters + (axis == "x"))
-            factors = self._ordered(self.product(one.rates, by_symbol), self.linked.way(one.factor))
+        for vector in vectors:
+            turned = self._trigonometric(self.linked.angle(vector.direction), vector.quarters + (axis == "x"))
+            factors = self._ordered(self.product(vector.rates, by_symbol), self.linked.way(vector.length))
             terms.append(times(*factors, turned))
         return plus(*terms)
 
-    def chains(self, *sides: Sequence[Spoke]) -> tuple[Chain, ...]:
+    def chains(self, *sides: Sequence[LoopVector]) -> tuple[Chain, ...]:
         """Sides of a vector equation along x and y."""
         return tuple(Chain(tuple(self._lettered(self.component(side, axis, True)) for side in sides)) for axis in "xy")
 
     def _lettered(self, formula: Expression) -> Expression:
-        return substitute(formula, lambda ref: self.board.q.families[ref.id].symbol)
+        return substitute(formula, lambda ref: self.derivation.q.families[ref.id].symbol)
 
     def closure(self, closure: Closure) -> tuple[Chain, ...]:
         """A loop along x and y."""
         sides = []
-        for place in (closure.one, closure.other):
-            chain = [Spoke(leg.length, leg.value, leg.direction, leg.quarters) for leg in place.legs]
+        for place in (closure.outward, closure.back):
             sides.append(
-                [plus(fixed, self.component(chain, axis)) for axis, fixed in zip("xy", place.fixed, strict=True)]
+                [plus(fixed, self.component(place.legs, axis)) for axis, fixed in zip("xy", place.fixed, strict=True)]
             )
         return tuple(Chain(tuple(map(self._lettered, pair))) for pair in zip(*sides, strict=True))

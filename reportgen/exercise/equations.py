@@ -14,10 +14,10 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.exercise.board import Step, size_of
 from reportgen.exercise.closed_form import X_AXIS, closed_form
-from reportgen.exercise.closures import Closure, Coordinate, Place, Turn, WayAlong, legs_of
-from reportgen.exercise.derivatives import RATES, VELOCITY, CoordinateRate, RateFormulas, Spoke, derivative
+from reportgen.exercise.closures import Closure, Coordinate, CoordinateRate, LoopVector, Place, Turn, WayAlong, legs_of
+from reportgen.exercise.derivation import Step, size_of
+from reportgen.exercise.derivatives import RATES, VELOCITY, RateFormulas, derivative
 from reportgen.exercise.solving import NEGLIGIBLE
 from reportgen.formula import (
     NOTHING,
@@ -55,59 +55,59 @@ FIGURES = 4
 
 @dataclass(frozen=True)
 class VectorSum:
-    """Σ spokes = 0, from a loop through a point or from a point whose rate is given."""
+    """Σ vectors = 0, from a loop through a point or from a point whose rate is given."""
 
     point: str
-    spokes: tuple[Spoke, ...]
+    vectors: tuple[LoopVector, ...]
     loop: Closure | None = None
     kind: str = "loop"
 
 
 @dataclass
 class EquationsOfMotion(RateFormulas):
-    """The equations of a system while they are solved on its board."""
+    """The equations of a system while they are solved on its derivation."""
 
     order: int = VELOCITY
     known: set[CoordinateRate] = field(default_factory=set)
 
     # --- what is to be solved
 
-    def unknown(self, spokes: Iterable[Spoke]) -> list[CoordinateRate]:
-        rates = (one for spoke in spokes for one in spoke.rates if one.order == self.order)
+    def unknown(self, vectors: Iterable[LoopVector]) -> list[CoordinateRate]:
+        rates = (one for vector in vectors for one in vector.rates if one.order == self.order)
         return [one for one in dict.fromkeys(rates) if one not in self.known]
 
-    def part(self, spokes: Iterable[Spoke], rate: CoordinateRate) -> list[Spoke]:
+    def part(self, vectors: Iterable[LoopVector], rate: CoordinateRate) -> list[LoopVector]:
         """The factors of an unknown rate, which is taken out."""
-        return [replace(one, rates=()) for one in spokes if one.rates == (rate,)]
+        return [replace(one, rates=()) for one in vectors if one.rates == (rate,)]
 
-    def resolved(self, spokes: Sequence[Spoke]) -> list[Spoke]:
+    def resolved(self, vectors: Sequence[LoopVector]) -> list[LoopVector]:
         """Spokes with the unknown rates put in that relations give by others."""
-        found = list(spokes)
+        resolved = list(vectors)
         for rate, by in self._eliminated().items():
-            if rate in self.unknown(found):
-                rest = [one for one in found if one.rates != (rate,)]
-                for spoke in (one for one in found if one.rates == (rate,)):
-                    for other, (factor, value) in by.items():
-                        whole = times(spoke.factor, factor)
-                        rest.append(replace(spoke, factor=whole, size=spoke.size * value, rates=(other,)))
-                found = rest
-        return found
+            if rate in self.unknown(resolved):
+                rest = [one for one in resolved if one.rates != (rate,)]
+                for vector in (one for one in resolved if one.rates == (rate,)):
+                    for given_by, (factor, value) in by.items():
+                        whole = times(vector.length, factor)
+                        rest.append(replace(vector, length=whole, value=vector.value * value, rates=(given_by,)))
+                resolved = rest
+        return resolved
 
     def _eliminated(self) -> dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]]:
         """Of each relation with several unknown rates one of them, by the others: a way, else the last angle."""
-        found: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
+        eliminated: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
         for relation in self.linked.relations:
             rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
             unknown = [one for one in rates if one not in self.known]
             if len(unknown) < 2:
                 continue
-            free = [one for one in unknown if one not in found]
+            free = [one for one in unknown if one not in eliminated]
             chosen = next((one for one in free if isinstance(one.of, WayAlong)), free[-1] if free else None)
             if chosen is None:
                 continue
             factor, value = rates.pop(chosen)
-            found[chosen] = {one: (minus(over(by, factor)), -size / value) for one, (by, size) in rates.items()}
-        return found
+            eliminated[chosen] = {one: (minus(over(by, factor)), -size / value) for one, (by, size) in rates.items()}
+        return eliminated
 
     def solve(self, sums: list[VectorSum]) -> None:
         """All rates that follow, each sum or relation as soon as it has few enough unknown ones."""
@@ -127,103 +127,103 @@ class EquationsOfMotion(RateFormulas):
         return False
 
     def _by_sum(self, waiting: list[VectorSum]) -> bool:
-        for one in waiting:
-            spokes = self.resolved(one.spokes)
-            unknown = self.unknown(spokes)
+        for whole in waiting:
+            vectors = self.resolved(whole.vectors)
+            unknown = self.unknown(vectors)
             if len(unknown) > 2:
                 continue
-            placed, rows = self._place(one, unknown), self.rows(spokes)
-            found: Formulas | None = {}
+            placed, rows = self._place(whole, unknown), self.rows(vectors)
+            formulas: Formulas | None = {}
             if len(unknown) == 1:
-                found = self._single(spokes, unknown[0])
+                formulas = self._single(vectors, unknown[0])
             elif unknown:
-                spokes = self._gathered(one.point, spokes, unknown)
-                found = self._cramer(spokes, *unknown)
-            if found is not None:
-                waiting.remove(one)
-                if found:
-                    system = (*self._loop(one), *rows)
-                    read = self._read(one.spokes, one.loop)
-                    right = tuple(id for part in spokes for id in refs(part.factor) if id in ids.right_side)
-                    lines = (*placed, *dict.fromkeys(right), *self._define(found))
-                    self._step(one.kind, lines, system, read=read, point=one.point)
+                vectors = self._gathered(whole.point, vectors, unknown)
+                formulas = self._cramer(vectors, *unknown)
+            if formulas is not None:
+                waiting.remove(whole)
+                if formulas:
+                    system = (*self._loop(whole), *rows)
+                    read = self._read(whole.vectors, whole.loop)
+                    right = tuple(id for part in vectors for id in refs(part.length) if id in ids.right_side)
+                    lines = (*placed, *dict.fromkeys(right), *self._define(formulas))
+                    self._step(whole.kind, lines, system, read=read, point=whole.point)
                 return True
         return False
 
-    def _gathered(self, point: str, spokes: list[Spoke], unknown: Sequence[CoordinateRate]) -> list[Spoke]:
+    def _gathered(self, point: str, vectors: list[LoopVector], unknown: Sequence[CoordinateRate]) -> list[LoopVector]:
         """Many known vectors by the components b of their opposite, the right sides of the equations."""
-        rest = self._rest(spokes, unknown)
-        if len(rest) * max(len(self.part(spokes, rate)) for rate in unknown) <= MOST_TERMS:
-            return spokes
+        rest = self._rest(vectors, unknown)
+        if len(rest) * max(len(self.part(vectors, rate)) for rate in unknown) <= MOST_TERMS:
+            return vectors
         named = {axis: ids.right_side(RATES[self.order], f"{point}{axis}") for axis in "xy"}
-        if any(id in self.board.q for id in named.values()):
-            return spokes
-        found = [one for one in spokes if one not in rest]
+        if any(id in self.derivation.q for id in named.values()):
+            return vectors
+        gathered = [one for one in vectors if one not in rest]
         for number, (axis, id) in enumerate(named.items()):
             right = minus(self.component(rest, axis))
             if right != NOTHING:
                 kind = vocabulary.row(ids.POINT_RATE[RATES[self.order]](point)).kind
-                b = self.board.q.define(id, right, Symbol("b", f"{point}{axis}"), kind)
-                found.append(Spoke(minus(b), 0.0, X_AXIS, number))
-        return found
+                b = self.derivation.q.define(id, right, Symbol("b", f"{point}{axis}"), kind)
+                gathered.append(LoopVector(minus(b), 0.0, X_AXIS, number))
+        return gathered
 
-    def _place(self, one: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
+    def _place(self, whole: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
         """The coordinates of a loop by the others, where that is a closed form; the rest of them is read off."""
         lines: tuple[str, ...] = ()
         of: list[Coordinate] = [rate.of for rate in unknown if not isinstance(rate.of, str)]
-        if one.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
-            legs = [leg for leg in legs_of(one.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
-            lines = closed_form(self, one.loop, legs, of)
+        if whole.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
+            legs = [leg for leg in legs_of(whole.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
+            lines = closed_form(self, whole.loop, legs, of)
         return lines
 
     def _is_open(self, of: Coordinate) -> bool:
-        """Whether a coordinate is not on the board yet."""
+        """Whether a coordinate is not in the derivation yet."""
         id = ids.formula_angle(of.body) if isinstance(of, Turn) else self.linked.way_id(of)
-        return id not in self.board.q
+        return id not in self.derivation.q
 
-    def _loop(self, one: VectorSum) -> tuple[Chain, ...]:
+    def _loop(self, whole: VectorSum) -> tuple[Chain, ...]:
         """The loop itself, told with its first derivative."""
-        return () if one.loop is None or self.order != VELOCITY else self.closure(one.loop)
+        return () if whole.loop is None or self.order != VELOCITY else self.closure(whole.loop)
 
-    def _single(self, spokes: Sequence[Spoke], rate: CoordinateRate) -> Formulas | None:
+    def _single(self, vectors: Sequence[LoopVector], rate: CoordinateRate) -> Formulas | None:
         """u x + k = 0: along u, or on the axis along which u is longer."""
-        u, k = self.part(spokes, rate), self._rest(spokes, [rate])
+        u, k = self.part(vectors, rate), self._rest(vectors, [rate])
         whole = sum(map(self.vector, u))
         if abs(whole) < NEGLIGIBLE * sum(abs(self.vector(one)) for one in u):
             return None
         if len(u) == 1:
             along = self.dot([self._bare(u[0])], k)
-            return {rate: over(minus(along), u[0].factor)}
+            return {rate: over(minus(along), u[0].length)}
         axis = "x" if abs(whole.real) > abs(whole.imag) else "y"
         return {rate: over(minus(self.component(k, axis)), self.component(u, axis))}
 
-    def _cramer(self, spokes: Sequence[Spoke], one: CoordinateRate, other: CoordinateRate) -> Formulas | None:
+    def _cramer(self, vectors: Sequence[LoopVector], x_rate: CoordinateRate, y_rate: CoordinateRate) -> Formulas | None:
         """u x + w y + k = 0: x = −(k × w)/(u × w), y = −(u × k)/(u × w)."""
-        u, w, k = self.part(spokes, one), self.part(spokes, other), self._rest(spokes, [one, other])
+        u, w, k = self.part(vectors, x_rate), self.part(vectors, y_rate), self._rest(vectors, [x_rate, y_rate])
         first, second = sum(map(self.vector, u)), sum(map(self.vector, w))
         if abs(cross(first, second)) < NEGLIGIBLE * abs(first) * abs(second) or not (first and second):
             return None
         to_u, to_w = ([self._bare(side[0])] if len(side) == 1 else side for side in (u, w))
         return {
-            one: over(minus(self.cross(k, to_w)), self.cross(u, to_w)),
-            other: over(minus(self.cross(to_u, k)), self.cross(to_u, w)),
+            x_rate: over(minus(self.cross(k, to_w)), self.cross(u, to_w)),
+            y_rate: over(minus(self.cross(to_u, k)), self.cross(to_u, w)),
         }
 
     @staticmethod
-    def _bare(spoke: Spoke) -> Spoke:
+    def _bare(vector: LoopVector) -> LoopVector:
         """Its direction alone."""
-        return replace(spoke, factor=ONE, size=1.0)
+        return replace(vector, length=ONE, value=1.0)
 
-    def _rest(self, spokes: Sequence[Spoke], unknown: Sequence[CoordinateRate]) -> list[Spoke]:
-        kept = (one for one in spokes if not (len(one.rates) == 1 and one.rates[0] in unknown))
+    def _rest(self, vectors: Sequence[LoopVector], unknown: Sequence[CoordinateRate]) -> list[LoopVector]:
+        kept = (one for one in vectors if not (len(one.rates) == 1 and one.rates[0] in unknown))
         return [one for one in kept if self.product(one.rates) != NOTHING]
 
     def _together(self, waiting: list[VectorSum]) -> bool:
         """The fewest sums that have as many unknown rates as equations, as one system with numbers."""
         for count in range(2, len(waiting) + 1):
             for some in combinations(waiting, count):
-                resolved = [self.resolved(one.spokes) for one in some]
-                unknown = list(dict.fromkeys(rate for spokes in resolved for rate in self.unknown(spokes)))
+                resolved = [self.resolved(one.vectors) for one in some]
+                unknown = list(dict.fromkeys(rate for vectors in resolved for rate in self.unknown(vectors)))
                 rows = self._numbers(resolved, unknown)
                 left = np.array([[row.get((rate,), 0.0) for rate in unknown] for row in rows])
                 if not unknown or len(unknown) > len(rows) or np.linalg.matrix_rank(left, NEGLIGIBLE) < len(unknown):
@@ -233,25 +233,25 @@ class EquationsOfMotion(RateFormulas):
                 )
                 right = np.array([[-row.get(rates, 0.0) for rates in known] for row in rows])
                 shares = np.linalg.lstsq(left, right, rcond=None)[0]
-                found = {rate: self._by_shares(known, row) for rate, row in zip(unknown, shares, strict=True)}
+                formulas = {rate: self._by_shares(known, row) for rate, row in zip(unknown, shares, strict=True)}
                 loops = tuple(row for one in some for row in self._loop(one))
-                system = (*loops, *(row for spokes in resolved for row in self.rows(spokes)))
+                system = (*loops, *(row for vectors in resolved for row in self.rows(vectors)))
                 results = tuple(self._result(rate) for rate in unknown)
-                for one in some:
-                    waiting.remove(one)
-                read = tuple(dict.fromkeys(id for one in some for id in self._read(one.spokes, one.loop)))
-                self._step("system", self._define(found), system, results, read)
+                for whole_sum in some:
+                    waiting.remove(whole_sum)
+                read = tuple(dict.fromkeys(id for one in some for id in self._read(one.vectors, one.loop)))
+                self._step("system", self._define(formulas), system, results, read)
                 return True
         return False
 
-    def _numbers(self, sums: Sequence[Sequence[Spoke]], unknown: Sequence[CoordinateRate]) -> list[Row]:
+    def _numbers(self, sums: Sequence[Sequence[LoopVector]], unknown: Sequence[CoordinateRate]) -> list[Row]:
         """Of each sum the factors of its products of rates, along x and along y."""
         rows = []
-        for spokes in sums:
+        for vectors in sums:
             whole: dict[tuple[CoordinateRate, ...], complex] = {}
-            for one in spokes:
-                if set(one.rates) & {*unknown} or self.product(one.rates) != NOTHING:
-                    whole[one.rates] = whole.get(one.rates, 0j) + self.vector(one)
+            for vector in vectors:
+                if set(vector.rates) & {*unknown} or self.product(vector.rates) != NOTHING:
+                    whole[vector.rates] = whole.get(vector.rates, 0j) + self.vector(vector)
             rows += [{rates: of.real for rates, of in whole.items()}, {rates: of.imag for rates, of in whole.items()}]
         return rows
 
@@ -264,16 +264,16 @@ class EquationsOfMotion(RateFormulas):
         )
         return call("re", plus(*terms))
 
-    # --- what is put on the board
+    # --- what is put in the derivation
 
-    def _define(self, found: Mapping[CoordinateRate, Expression]) -> tuple[str, ...]:
-        """Enters sizes of rates; the ids of those that were not on the board."""
+    def _define(self, formulas: Mapping[CoordinateRate, Expression]) -> tuple[str, ...]:
+        """Enters sizes of rates; the ids of those that were not in the derivation."""
         lines = []
-        for rate, formula in found.items():
+        for rate, formula in formulas.items():
             id, sense = self.id(rate), 1.0 if self.value(rate) >= 0 else -1.0
-            if id not in self.board.q:
+            if id not in self.derivation.q:
                 whole = formula if isinstance(formula, Ref) or sense > 0 else self._opposite(formula)
-                lines.append(self.board.q.define(id, whole, self.symbol(rate)).id)
+                lines.append(self.derivation.q.define(id, whole, self.symbol(rate)).id)
             self.known.add(rate)
         return tuple(lines)
 
@@ -286,20 +286,20 @@ class EquationsOfMotion(RateFormulas):
                 return call("re", minus(inner))
         return minus(formula)
 
-    def _read(self, spokes: Iterable[Spoke], loop: Closure | None = None) -> tuple[str, ...]:
+    def _read(self, vectors: Iterable[LoopVector], loop: Closure | None = None) -> tuple[str, ...]:
         """The angles and lengths of a sum that are read off the figure."""
-        told: dict[str, None] = {}
-        legs = [] if loop is None else [leg for place in (loop.one, loop.other) for leg in place.legs]
-        for one in (*spokes, *(Spoke(leg.length, leg.value, leg.direction) for leg in legs)):
-            for formula in (self.linked.way(one.factor), self.linked.angle(one.direction)):
-                told |= dict.fromkeys(id for id in refs(formula) if any(id in family for family in READ))
-        return tuple(told)
+        read_off: dict[str, None] = {}
+        legs = [] if loop is None else [leg for place in (loop.outward, loop.back) for leg in place.legs]
+        for vector in (*vectors, *legs):
+            for formula in (self.linked.way(vector.length), self.linked.angle(vector.direction)):
+                read_off |= dict.fromkeys(id for id in refs(formula) if any(id in family for family in READ))
+        return tuple(read_off)
 
-    def rows(self, spokes: Sequence[Spoke]) -> tuple[Chain, ...]:
+    def rows(self, vectors: Sequence[LoopVector]) -> tuple[Chain, ...]:
         """A sum along x and y, the unknown rates to the left."""
-        unknown = {*self.unknown(spokes)}
-        left = [one for one in spokes if {*one.rates} & unknown]
-        right = [replace(one, factor=minus(one.factor)) for one in spokes if one not in left]
+        unknown = {*self.unknown(vectors)}
+        left = [one for one in vectors if {*one.rates} & unknown]
+        right = [replace(one, length=minus(one.length)) for one in vectors if one not in left]
         right = [one for one in right if self.product(one.rates) != NOTHING]
         return self.chains(left, right)
 
@@ -322,37 +322,36 @@ class EquationsOfMotion(RateFormulas):
         if lines:
             start = "equations" if self.order == VELOCITY else "acceleration-equations"
             step = Step(f"{start}-{kind}", lines, body, point, system=system, results=results, read=read)
-            self.board.steps.append(step)
+            self.derivation.steps.append(step)
 
     # --- points
 
     def points(self) -> None:
         """Every point as a function of the coordinates, and its derivatives at the instant."""
-        for body, names in self.board.layout.motion.system.bodies.items():
+        for body, names in self.derivation.layout.motion.system.bodies.items():
             for name in names:
                 place = self.linked.places.get(name)
                 if place is not None and place.legs:
                     self._point(body, name, place)
 
     def _point(self, body: int, name: str, place: Place) -> None:
-        what, q = RATES[self.order], self.board.q
-        spokes = [one for leg in place.legs for one in derivative(leg, leg.direction.body, self.order)]
-        if self.unknown(spokes) or self.board.knows(ids.POINT_RATE[what](name)):
+        what, q = RATES[self.order], self.derivation.q
+        vectors = [one for leg in place.legs for one in derivative(leg, leg.direction.body, self.order)]
+        if self.unknown(vectors) or self.derivation.knows(ids.POINT_RATE[what](name)):
             return
         lines = list[str]()
         if self.order == VELOCITY:
-            chain = [Spoke(leg.length, leg.value, leg.direction, leg.quarters) for leg in place.legs]
             for axis, fixed in zip("xy", place.fixed, strict=True):
-                at = plus(fixed, self.component(chain, axis))
+                at = plus(fixed, self.component(place.legs, axis))
                 id = ids.formula_coordinate(axis, name)
                 if at != NOTHING and id not in q:
-                    lines.append(q.define(id, at, scale=self.board.motion.size).id)
+                    lines.append(q.define(id, at, scale=self.derivation.motion.size).id)
         sides = []
         for axis in "xy":
-            id, rate = ids.COMPONENT[what](name, axis), self.component(spokes, axis)
+            id, rate = ids.COMPONENT[what](name, axis), self.component(vectors, axis)
             if rate != NOTHING and id not in q:
                 sides.append(q.define(id, rate, Symbol(what, f"{name}{axis}")))
         size = ids.POINT_RATE[what](name)
         whole = q.define(size, size_of(q, sides)) if sides else q.give(size, 0.0)
         lines += [*(one.id for one in sides), whole.id]
-        self._step("point", tuple(lines), read=self._read(spokes), body=body, point=name)
+        self._step("point", tuple(lines), read=self._read(vectors), body=body, point=name)

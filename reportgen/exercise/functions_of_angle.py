@@ -16,11 +16,11 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.exercise import file
-from reportgen.exercise.board import Board, Step, size_of
 from reportgen.exercise.centres import SAME_PLACE, Layout
-from reportgen.exercise.closures import Linked, Turn, WayAlong, given_direction, legs_of
+from reportgen.exercise.closures import CoordinateRate, Linked, LoopVector, Turn, WayAlong, given_direction, legs_of
 from reportgen.exercise.conditions import GROUND
-from reportgen.exercise.derivatives import ACCELERATION, RATES, VELOCITY, CoordinateRate, Spoke, derivative
+from reportgen.exercise.derivation import Derivation, Step, size_of
+from reportgen.exercise.derivatives import ACCELERATION, RATES, VELOCITY, derivative
 from reportgen.exercise.equations import EquationsOfMotion, VectorSum
 from reportgen.exercise.places import name_of, parallel, unit
 from reportgen.exercise.solving import NEGLIGIBLE, unknowns_of
@@ -82,30 +82,30 @@ def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]]
         return None
     if centre is not None and centre.rule == "contact" and disc is not None and disc.centre in layout.slots:
         middle = points[disc.centre]
-        way, own = 1j * (middle - centre.at), dict.fromkeys((disc.centre, *names))
-        return 0.0, {name: MotionLaw(middle, way, points[name] - middle, 0j) for name in own}
-    for one, other in combinations([name for name in names if name in layout.slots], 2):
-        e, f, rod = layout.slots[one], layout.slots[other], points[other] - points[one]
+        track, own = 1j * (middle - centre.at), dict.fromkeys((disc.centre, *names))
+        return 0.0, {name: MotionLaw(middle, track, points[name] - middle, 0j) for name in own}
+    for base, tip in combinations([name for name in names if name in layout.slots], 2):
+        e, f, rod = layout.slots[base], layout.slots[tip], points[tip] - points[base]
         if not parallel(e, f) and abs(rod) > SAME_PLACE:
-            at, φ = meet(points[one], e, points[other], f), cmath.phase(rod)
+            at, φ = meet(points[base], e, points[tip], f), cmath.phase(rod)
             # The first point is at s e from where the lines meet, s = −l (e^{iφ} × f)/(e × f).
             share = abs(rod) * e / (2j * cross(e, f))
-            arms = {name: (points[name] - points[one]) * cmath.exp(-1j * φ) for name in names}
+            arms = {name: (points[name] - points[base]) * cmath.exp(-1j * φ) for name in names}
             ahead, back = share * f.conjugate(), -share * f
             return φ, {name: MotionLaw(at, 0j, ahead + arm, back) for name, arm in arms.items()}
     return None
 
 
-def by_equations(board: Board) -> bool:
+def by_equations(derivation: Derivation) -> bool:
     """The rates of one more body from the equations of motion of its points, at last all of them from the loops."""
-    if coordinates(board.layout) != 1:
+    if coordinates(derivation.layout) != 1:
         return False
-    for body in board.layout.members:
-        if not board.knows(ids.formula_angle(body)):
-            found = motion_laws(board.layout, body)
-            if found is not None and not board.closed and _enter(board, body, *found):
+    for body in derivation.layout.members:
+        if not derivation.knows(ids.formula_angle(body)):
+            laws = motion_laws(derivation.layout, body)
+            if laws is not None and not derivation.closed and _enter(derivation, body, *laws):
                 return True
-    return by_loops(board)
+    return by_loops(derivation)
 
 
 def as_number(value: float) -> Expression:
@@ -113,9 +113,9 @@ def as_number(value: float) -> Expression:
     return NOTHING if abs(value) < SAME_PLACE else Number(float(f"{value:.10g}"))
 
 
-def _constant(board: Board, value: float) -> Expression:
-    """A constant by its letter, if it is a length of the board, else as a number."""
-    q = board.q
+def _constant(derivation: Derivation, value: float) -> Expression:
+    """A constant by its letter, if it is a length of the derivation, else as a number."""
+    q = derivation.q
     lengths = (id for id in q.families if id in ids.length)
     same = next((id for id in lengths if abs(q.si(id) - abs(value)) < SAME_PLACE), None)
     return signed(value, q[same]) if same and abs(value) > SAME_PLACE else as_number(value)
@@ -124,11 +124,11 @@ def _constant(board: Board, value: float) -> Expression:
 # --- a body by itself -----------------------------------------------------------------------------
 
 
-def _enter(board: Board, body: int, angle: float, laws: Mapping[str, MotionLaw]) -> bool:
+def _enter(derivation: Derivation, body: int, angle: float, laws: Mapping[str, MotionLaw]) -> bool:
     """Enters places, velocities and, where the data tell one of the body, accelerations; whether a rate is known."""
-    q, motion = board.q, board.motion
-    known = [name for name in laws if board.knows_velocity(name) and q.si(ids.velocity(name))]
-    if not (known or board.knows_omega(body)):
+    q, motion = derivation.q, derivation.motion
+    known = [name for name in laws if derivation.knows_velocity(name) and q.si(ids.velocity(name))]
+    if not (known or derivation.knows_omega(body)):
         return False
     lines: list[str] = []
 
@@ -136,79 +136,85 @@ def _enter(board: Board, body: int, angle: float, laws: Mapping[str, MotionLaw])
         lines.append(id)
         return q.define(id, formula, symbol)
 
-    constant = partial(_constant, board)
+    constant = partial(_constant, derivation)
     φ = q.give(ids.formula_angle(body), angle, Symbol("φ", str(body)), exact=False)
-    for one, other in combinations(laws, 2):
-        board.length(one, other)
+    for base, tip in combinations(laws, 2):
+        derivation.length(base, tip)
     for name, law in laws.items():
         for axis, place in zip("xy", law.components(φ, constant), strict=True):
             if not isinstance(place, Number):
                 line(ids.formula_coordinate(axis, name), place)
     first = {name: law.derivative() for name, law in laws.items()}
     rates = {name: law.components(φ, constant) for name, law in first.items()}
-    if not board.knows_omega(body):
-        whole = _size(board, rates[known[0]])
+    if not derivation.knows_omega(body):
+        whole = _size(derivation, rates[known[0]])
         line(ids.angular_velocity(body), over(q[ids.velocity(known[0])], whole))
     ω = q[ids.angular_velocity(body)]
     turning = ω if motion.omega(body) >= 0 else minus(ω)
     for name, (x, y) in rates.items():
-        _vector(board, line, "v", name, (times(turning, x), times(turning, y)))
+        _vector(derivation, line, "v", name, (times(turning, x), times(turning, y)))
     second = {name: law.derivative().components(φ, constant) for name, law in first.items()}
-    ε = _acceleration(board, line, body, ω, rates, second)
+    ε = _acceleration(derivation, line, body, ω, rates, second)
     if ε is not None:
         for name in laws:
             x, y = (
-                plus(times(ε, one), times(square(ω), two)) for one, two in zip(rates[name], second[name], strict=True)
+                plus(times(ε, x_or_y), times(square(ω), two))
+                for x_or_y, two in zip(rates[name], second[name], strict=True)
             )
-            _vector(board, line, "a", name, (x, y))
-    board.steps.append(Step("equations", (φ.id, *lines), body))
+            _vector(derivation, line, "a", name, (x, y))
+    derivation.steps.append(Step("equations", (φ.id, *lines), body))
     return True
 
 
-def _vector(board: Board, line: Callable[..., Ref], what: str, name: str, parts: Pair) -> None:
+def _vector(derivation: Derivation, line: Callable[..., Ref], what: str, name: str, parts: Pair) -> None:
     """Enters a velocity or acceleration by its components, with its size if that is not known."""
     sides = [
         line(ids.COMPONENT[what](name, axis), part, Symbol(what, f"{name}{axis}"))
         for axis, part in zip("xy", parts, strict=True)
-        if part != NOTHING and not board.knows(ids.COMPONENT[what](name, axis))
+        if part != NOTHING and not derivation.knows(ids.COMPONENT[what](name, axis))
     ]
-    if sides and not board.knows(ids.POINT_RATE[what](name)):
-        line(ids.POINT_RATE[what](name), size_of(board.q, sides))
+    if sides and not derivation.knows(ids.POINT_RATE[what](name)):
+        line(ids.POINT_RATE[what](name), size_of(derivation.q, sides))
 
 
 def _acceleration(
-    board: Board, line: Callable[..., Ref], body: int, ω: Ref, rates: Mapping[str, Pair], second: Mapping[str, Pair]
+    derivation: Derivation,
+    line: Callable[..., Ref],
+    body: int,
+    ω: Ref,
+    rates: Mapping[str, Pair],
+    second: Mapping[str, Pair],
 ) -> Expression | None:
     """ε with its sign, as it is given or by the given acceleration of a point: a = ε P′ + ω² P″; else None."""
-    sense = board.motion.epsilon(body) if board.motion.knows_epsilon(body) else 0.0
+    sense = derivation.motion.epsilon(body) if derivation.motion.knows_epsilon(body) else 0.0
     id = ids.angular_acceleration(body)
-    for rate in board.layout.given.given:
+    for rate in derivation.layout.given.given:
         match rate:
             case file.EpsilonOf(body=of, value=value) if of == body:
-                return signed(sense or 1.0, board.given(id, value.si)) if value.si else NOTHING
+                return signed(sense or 1.0, derivation.given(id, value.si)) if value.si else NOTHING
             case file.AccelerationOf(point=point, size=size, direction=direction) if (
                 size is not None and point in rates
             ):
-                values = [abs(_value(board, part)) for part in rates[point]]
+                values = [abs(_value(derivation, part)) for part in rates[point]]
                 index = int(values[1] > values[0])
                 heading = math.degrees(direction.si) + (180.0 if size.si < 0 else 0.0)
                 degrees = Number(float(f"{heading:.10g}"), unit="°")
-                given = times(board.given(ids.acceleration(point), size.si), (cosine, sine)[index](degrees))
+                given = times(derivation.given(ids.acceleration(point), size.si), (cosine, sine)[index](degrees))
                 top = plus(given, minus(times(square(ω), second[point][index])))
                 return signed(sense or 1.0, line(id, signed(sense or 1.0, over(top, rates[point][index]))))
     return None
 
 
-def _value(board: Board, part: Expression) -> float:
-    found = evaluate(part, {id: one.values for id, one in board.q.families.items()})
-    return float(np.real(np.atleast_1d(found)[0]))
+def _value(derivation: Derivation, part: Expression) -> float:
+    evaluated = evaluate(part, {id: one.values for id, one in derivation.q.families.items()})
+    return float(np.real(np.atleast_1d(evaluated)[0]))
 
 
-def _size(board: Board, parts: Pair) -> Expression:
+def _size(derivation: Derivation, parts: Pair) -> Expression:
     """The size of a vector by its components, as it is written."""
     kept = [part for part in parts if part != NOTHING]
     if len(kept) == 1:
-        return signed(_value(board, kept[0]), kept[0])
+        return signed(_value(derivation, kept[0]), kept[0])
     return sqrt(plus(*(square(part) for part in kept)))
 
 
@@ -220,9 +226,9 @@ def coordinates(layout: Layout) -> int:
     motion = layout.motion
     unknowns = unknowns_of(motion.system)
     sized = {
-        name_of(index, "given", *one.called)
-        for index, one in enumerate(layout.given.given)
-        if not isinstance(one, file.VelocityOf) or one.size is not None
+        name_of(index, "given", *rate.called)
+        for index, rate in enumerate(layout.given.given)
+        if not isinstance(rate, file.VelocityOf) or rate.size is not None
     }
     held = [one for one in motion.system.conditions if one.velocity is not None and one.name not in sized]
     matrix = np.array([unknowns.row(one) for one in held]).reshape(len(held), unknowns.count)
@@ -235,19 +241,19 @@ def coordinates(layout: Layout) -> int:
     return int(np.linalg.matrix_rank(free, NEGLIGIBLE)) if free.size else 0
 
 
-def by_loops(board: Board) -> bool:
+def by_loops(derivation: Derivation) -> bool:
     """All rates of a system with one coordinate from its loops; whether it was not tried before."""
-    if board.closed:
+    if derivation.closed:
         return False
-    board.closed = True
-    linked = Linked(board)
-    equations = EquationsOfMotion(board, linked)
-    given = board.layout.given.given
+    derivation.closed = True
+    linked = Linked(derivation)
+    equations = EquationsOfMotion(derivation, linked)
+    given = derivation.layout.given.given
     _solve(equations, [one for one in given if isinstance(one, file.VelocityOf | file.FromRest)])
     accelerations = [one for one in given if isinstance(one, file.AccelerationOf | file.FromRest)]
     turns = [one for one in given if isinstance(one, file.EpsilonOf)]
-    for one in turns:
-        board.given(ids.angular_acceleration(one.body), one.value.si)
+    for turning in turns:
+        derivation.given(ids.angular_acceleration(turning.body), turning.value.si)
     if turns or accelerations:
         equations.order = ACCELERATION
         _solve(equations, accelerations)
@@ -256,25 +262,25 @@ def by_loops(board: Board) -> bool:
 
 def _solve(equations: EquationsOfMotion, given: Sequence[file.GivenRate]) -> None:
     """The velocities, or the accelerations, of everything from what is given of them."""
-    board, linked, order = equations.board, equations.linked, equations.order
+    derivation, linked, order = equations.derivation, equations.linked, equations.order
     for body in linked.turning:
         rate = CoordinateRate(Turn(linked.turning[body]), order)
-        knows = board.knows_omega if order == VELOCITY else board.knows_epsilon
-        if body in board.layout.members and knows(body):
+        knows = derivation.knows_omega if order == VELOCITY else derivation.knows_epsilon
+        if body in derivation.layout.members and knows(body):
             equations.known.add(rate)
     sums = []
     for closure in linked.closures:
         legs = [*legs_of(closure)]
-        spokes = tuple(one for leg in legs for one in derivative(leg, leg.direction.body, order))
-        sums.append(VectorSum(closure.point, spokes, closure))
+        vectors = tuple(one for leg in legs for one in derivative(leg, leg.direction.body, order))
+        sums.append(VectorSum(closure.point, vectors, closure))
     sums += [one for rate in given if (one := _of_point(equations, rate)) is not None]
-    equations.solve([one for one in sums if one.spokes])
+    equations.solve([one for one in sums if one.vectors])
     equations.points()
 
 
 def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum | None:
     """What a given rate of a point says; None where it is that of its way along a line of the ground."""
-    board, order = equations.board, equations.order
+    derivation, order = equations.derivation, equations.order
     assert isinstance(rate, file.VelocityOf | file.AccelerationOf | file.FromRest)
     if isinstance(rate, file.FromRest):
         size: float | None = rate.acceleration.si
@@ -282,7 +288,7 @@ def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum |
         size = None if rate.size is None else rate.size.si
     id = ids.POINT_RATE[RATES[order]](rate.point)
     if size is not None and order == ACCELERATION:
-        board.given(id, size)
+        derivation.given(id, size)
     for number, line in enumerate(equations.linked.lines):
         along = line.on == GROUND and line.point == rate.point and parallel(line.along, unit(rate.direction.si))
         if along and size is not None:
@@ -295,10 +301,10 @@ def _of_point(equations: EquationsOfMotion, rate: file.GivenRate) -> VectorSum |
     own = CoordinateRate(rate.point, order)
     if size is not None:
         equations.known.add(own)
-    of = equations.board.motion.v if order == VELOCITY else equations.board.motion.a
+    of = equations.derivation.motion.v if order == VELOCITY else equations.derivation.motion.a
     sense = dot(unit(rate.direction.si), of(rate.point))
     direction = given_direction(rate.direction.si, sense if size is None else size)
     if size == 0:
         return VectorSum(rate.point, tuple(moving), kind="given")
-    whole = (*moving, Spoke(minus(ONE), -1.0, direction, rates=(own,)))
+    whole = (*moving, LoopVector(minus(ONE), -1.0, direction, rates=(own,)))
     return VectorSum(rate.point, whole, kind="given")

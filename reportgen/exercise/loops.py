@@ -18,7 +18,7 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.exercise.accelerations import Parts
-from reportgen.exercise.board import Board, Step
+from reportgen.exercise.derivation import Derivation, Step
 from reportgen.exercise.places import direction_of
 from reportgen.exercise.solving import NEGLIGIBLE
 from reportgen.exercise.speeds import derive, is_across
@@ -43,7 +43,7 @@ FIGURES = 4
 """Significant figures of the numbers in a system."""
 
 Known = tuple[str, int]
-"""A quantity of the board and its power: v.A, or ω² as omega.2 with 2."""
+"""A quantity of the derivation and its power: v.A, or ω² as omega.2 with 2."""
 
 
 @dataclass(frozen=True)
@@ -53,11 +53,11 @@ class Reached:
     known: Mapping[Known, complex]
     unknown: Mapping[int, complex]
 
-    def plus(self, other: Reached, factor: float = 1.0) -> Reached:
+    def plus(self, reached: Reached, factor: float = 1.0) -> Reached:
         known, unknown = dict(self.known), dict(self.unknown)
-        for one, vector in other.known.items():
-            known[one] = known.get(one, 0j) + factor * vector
-        for body, vector in other.unknown.items():
+        for quantity, vector in reached.known.items():
+            known[quantity] = known.get(quantity, 0j) + factor * vector
+        for body, vector in reached.unknown.items():
             unknown[body] = unknown.get(body, 0j) + factor * vector
         return Reached(known, unknown)
 
@@ -69,7 +69,7 @@ NOTHING = Reached({}, {})
 class Loops:
     """The points that were reached, and what was found to be nothing."""
 
-    board: Board
+    derivation: Derivation
     what: str
     """The rotation that is unknown: omega or eps."""
     points: dict[str, Reached]
@@ -93,61 +93,64 @@ class Loops:
                         self.points[name] = there
 
     def bodies(self) -> Iterator[tuple[int, list[str]]]:
-        layout = self.board.layout
+        layout = self.derivation.layout
         for body in layout.members:
             # Points of contact move alike at the instant; their accelerations differ.
             names = layout.members[body] if self.what == "omega" else layout.own(body)
             centre = layout.centres.get(body)
             pivot = [centre.name] if centre is not None and centre.rule == "pivot" else []
             guided = centre is not None and centre.by_joint and not pivot
-            if self.board.knows_omega(body) if self.what == "eps" else not guided:
+            if self.derivation.knows_omega(body) if self.what == "eps" else not guided:
                 yield body, [*pivot, *(name for name in names if name not in pivot)]
 
     def across_slots(self) -> Iterator[tuple[Reached, complex]]:
         """What a point on a line of a moving body does across that line, against the body's own point there."""
         members = dict(self.bodies())
-        for joint in self.board.layout.given.slots:
+        for joint in self.derivation.layout.given.slots:
             if joint.point in self.points:
                 base = next((name for name in members.get(joint.on, ()) if name in self.points), None)
                 if base is not None:
                     own = self.points[base].plus(self.turned(joint.on, joint.point, base))
-                    yield self.points[joint.point].plus(own, -1.0), 1j * self.board.layout.geometry.direction(joint)
+                    yield (
+                        self.points[joint.point].plus(own, -1.0),
+                        1j * self.derivation.layout.geometry.direction(joint),
+                    )
 
     def turned(self, body: int, name: str, base: str) -> Reached:
         """What the rotation of a body adds from one of its points to another."""
-        board, rate = self.board, ids.LINK_RATE[self.what](body)
-        arm = board.layout.points[name] - board.layout.points[base]
+        derivation, rate = self.derivation, ids.LINK_RATE[self.what](body)
+        arm = derivation.layout.points[name] - derivation.layout.points[base]
         known: dict[Known, complex] = {}
         if self.what == "eps":
             known[(ids.angular_velocity(body), 2)] = -arm
-        if not board.knows(rate):
+        if not derivation.knows(rate):
             return Reached(known, {body: 1j * arm})
-        known[(rate, 1)] = 1j * arm * math.copysign(1.0, board.motion.turn(self.what, body))
+        known[(rate, 1)] = 1j * arm * math.copysign(1.0, derivation.motion.turn(self.what, body))
         return Reached(known, {})
 
 
-def solve_velocities_together(board: Board) -> bool:
+def solve_velocities_together(derivation: Derivation) -> bool:
     """The angular velocities of all bodies that are reached; whether there were any."""
-    known = [name for name in board.layout.points if board.knows_velocity(name)]
-    start = {name: Reached({(ids.velocity(name), 1): direction_of(board.at(name))}, {}) for name in known}
-    start |= {one.name: NOTHING for one in board.layout.centres.values() if one.rule in ("pivot", "contact")}
-    loops = Loops(board, "omega", start)
+    known = [name for name in derivation.layout.points if derivation.knows_velocity(name)]
+    start = {name: Reached({(ids.velocity(name), 1): direction_of(derivation.at(name))}, {}) for name in known}
+    start |= {one.name: NOTHING for one in derivation.layout.centres.values() if one.rule in ("pivot", "contact")}
+    loops = Loops(derivation, "omega", start)
     loops.lead_on()
-    directions = {name: u for name, u in board.layout.directions.items() if not board.knows_velocity(name)}
+    directions = {name: u for name, u in derivation.layout.directions.items() if not derivation.knows_velocity(name)}
     return _solved(loops, directions, [*loops.across_slots()])
 
 
 def solve_accelerations_together(parts: Parts) -> bool:
     """The angular accelerations of all bodies that are reached; whether there were any."""
-    board = parts.board
+    derivation = parts.derivation
     start = {
         name: Reached({(one.id, 1): one.direction for one in vectors}, {})
         for name, vectors in parts.of.items()
-        if all(board.knows(one.id) for one in vectors)
+        if all(derivation.knows(one.id) for one in vectors)
     }
-    loops = Loops(board, "eps", dict(start))
+    loops = Loops(derivation, "eps", dict(start))
     loops.lead_on()
-    return _solved(loops, {name: u for name, u in board.layout.slots.items() if name not in parts.of})
+    return _solved(loops, {name: u for name, u in derivation.layout.slots.items() if name not in parts.of})
 
 
 def _solved(loops: Loops, directions: Mapping[str, complex], more: Sequence[tuple[Reached, complex]] = ()) -> bool:
@@ -163,8 +166,8 @@ def _solved(loops: Loops, directions: Mapping[str, complex], more: Sequence[tupl
     if len(chosen) < len(bodies):
         return False
     shares = np.linalg.solve(left[chosen], right[chosen])
-    board = loops.board
-    values = np.array([board.q.si(id) ** power for id, power in quantities])
+    derivation = loops.derivation
+    values = np.array([derivation.q.si(id) ** power for id, power in quantities])
     lines = tuple(
         _enter_rotation(loops, body, dict(zip(quantities, row, strict=True)))
         for body, row in zip(bodies, shares, strict=True)
@@ -174,7 +177,7 @@ def _solved(loops: Loops, directions: Mapping[str, complex], more: Sequence[tupl
         Chain((_symbol(loops.what, body), _number(float(row @ values), "rad/s" if loops.what == "omega" else "rad/s²")))
         for body, row in zip(bodies, shares, strict=True)
     )
-    board.steps.append(Step(f"system-{loops.what}", lines, system=rows, results=results))
+    derivation.steps.append(Step(f"system-{loops.what}", lines, system=rows, results=results))
     return True
 
 
@@ -193,8 +196,8 @@ def _independent(left: np.ndarray) -> list[int]:
 
 def _enter_rotation(loops: Loops, body: int, shares: Mapping[Known, float]) -> str:
     """The size of a rotation from what is known, with factors that the places alone tell."""
-    q, what = loops.board.q, loops.what
-    sense = math.copysign(1.0, loops.board.motion.turn(what, body))
+    q, what = loops.derivation.q, loops.what
+    sense = math.copysign(1.0, loops.derivation.motion.turn(what, body))
     terms: list[Expression] = []
     for (of, power), share in shares.items():
         if abs(share) > NEGLIGIBLE:
@@ -237,74 +240,76 @@ Ratio = tuple[tuple[Ref, ...], tuple[Ref, ...]]
 # --- in proportion to one shaft -------------------------------------------------------------------
 
 
-def enter_proportion(board: Board) -> bool:
+def enter_proportion(derivation: Derivation) -> bool:
     """Finds the angular velocity of one more body through a lever; whether there was one."""
-    for body, centre in board.layout.centres.items():
-        if centre.rule != "pivot" or board.knows_omega(body) or not board.motion.omega(body):
+    for body, centre in derivation.layout.centres.items():
+        if centre.rule != "pivot" or derivation.knows_omega(body) or not derivation.motion.omega(body):
             continue
-        trial = Board(Sheet(board.q.positions), board.layout)
-        trial.given(ids.angular_velocity(body), board.motion.omega(body))
+        trial = Derivation(Sheet(derivation.q.positions), derivation.layout)
+        trial.given(ids.angular_velocity(body), derivation.motion.omega(body))
         while derive(trial):
             pass
-        for lever, names in board.layout.members.items():
-            if lever not in board.layout.centres and _through_lever(board, trial, body, lever, names):
+        for lever, names in derivation.layout.members.items():
+            if lever not in derivation.layout.centres and _through_lever(derivation, trial, body, lever, names):
                 return True
     return False
 
 
-def _through_lever(board: Board, trial: Board, body: int, lever: int, names: list[str]) -> bool:
+def _through_lever(derivation: Derivation, trial: Derivation, body: int, lever: int, names: list[str]) -> bool:
     """ω of a body from a lever with a point M known, whose points P and Q move in proportion to ω."""
     driven = [name for name in names if trial.knows_velocity(name)]
-    known = [name for name in names if board.knows_velocity(name) and board.q.si(ids.velocity(name))]
+    known = [name for name in names if derivation.knows_velocity(name) and derivation.q.si(ids.velocity(name))]
     for p, q in combinations(driven, 2):
         for m in known:
-            if m not in (p, q) and is_across(board, p, q, m):
-                _enter_proportion(board, trial, body, lever, (p, q, m))
+            if m not in (p, q) and is_across(derivation, p, q, m):
+                _enter_proportion(derivation, trial, body, lever, (p, q, m))
                 return True
     return False
 
 
-def _enter_proportion(board: Board, trial: Board, body: int, lever: int, names: tuple[str, str, str]) -> None:
+def _enter_proportion(
+    derivation: Derivation, trial: Derivation, body: int, lever: int, names: tuple[str, str, str]
+) -> None:
     """v_M PQ = v_P MQ + v_Q PM, each with its sense, and M between P and Q or beyond them."""
     p, q, m = names
-    line = board.layout.points[q] - board.layout.points[p]
-    share = ((board.layout.points[m] - board.layout.points[p]) / line).real
-    sense = board.at(m)
+    line = derivation.layout.points[q] - derivation.layout.points[p]
+    share = ((derivation.layout.points[m] - derivation.layout.points[p]) / line).real
+    sense = derivation.at(m)
     shaft = ids.angular_velocity(body)
-    factors = [_factor(board, trial, name, shaft) for name in (p, q)]
+    factors = [_factor(derivation, trial, name, shaft) for name in (p, q)]
     parts: list[Expression] = []
     for k, name, far, part in zip(factors, (p, q), (q, p), (1 - share, share), strict=True):
-        along = (sense.conjugate() * board.at(name)).real
-        parts.append(signed(along * part, k * board.length(m, far)))
+        along = (sense.conjugate() * derivation.at(name)).real
+        parts.append(signed(along * part, k * derivation.length(m, far)))
     parts.sort(key=lambda part: not isinstance(part, Product))
-    whole = board.q[ids.velocity(m)] * board.length(p, q)
-    omega = board.q.define(shaft, whole / (parts[0] + parts[1]))
-    board.steps.append(Step("proportion", (*(k.id for k in factors), omega.id), lever, m, p))
+    whole = derivation.q[ids.velocity(m)] * derivation.length(p, q)
+    omega = derivation.q.define(shaft, whole / (parts[0] + parts[1]))
+    derivation.steps.append(Step("proportion", (*(k.id for k in factors), omega.id), lever, m, p))
 
 
-def _factor(board: Board, trial: Board, name: str, shaft: str) -> Ref:
+def _factor(derivation: Derivation, trial: Derivation, name: str, shaft: str) -> Ref:
     """Enters k of a point, v = k ω, as a product of lengths."""
     above, below = _ratio(trial, ids.velocity(name), shaft)
     for length in (*above, *below):
-        if length.id not in board.q:
-            board.q.enter(trial.q.families[length.id])
+        if length.id not in derivation.q:
+            derivation.q.enter(trial.q.families[length.id])
     top = above[0] if len(above) == 1 else Product(above)
     bottom = below[0] if len(below) == 1 else Product(below)
-    return board.q.define(ids.velocity_factor(name), Fraction(top, bottom) if below else top)
+    return derivation.q.define(ids.velocity_factor(name), Fraction(top, bottom) if below else top)
 
 
-def _ratio(trial: Board, id: str, shaft: str) -> Ratio:
+def _ratio(trial: Derivation, id: str, shaft: str) -> Ratio:
     """The lengths that a rate has over the shaft's; every step from body to body multiplies or divides by one."""
     if id == shaft:
         return (), ()
     match trial.q.families[id].definition:
-        case Ref(other):
-            return _ratio(trial, other, shaft)
+        case Ref(leader):
+            return _ratio(trial, leader, shaft)
         case Product((Ref(rate), Ref() as length)):
             above, below = _ratio(trial, rate, shaft)
             return (*above, length), below
         case Fraction(Ref(speed), Ref() as length):
             above, below = _ratio(trial, speed, shaft)
             return above, (*below, length)
-        case other:
-            raise ValueError(f"{id} is no multiple of {shaft}: {other}")
+        case leader:
+            raise ValueError(f"{id} is no multiple of {shaft}: {leader}")

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from reportgen.exercise.accelerations import Parts, about_points, by_slots, enter_accelerations
-from reportgen.exercise.board import Board, Quantities, Step
 from reportgen.exercise.centres import SAME_PLACE, InstantCentre, Layout, lay_out, name_of_centre
+from reportgen.exercise.derivation import Derivation, Quantities, Step
 from reportgen.exercise.file import Asked, Method
 from reportgen.exercise.functions_of_angle import by_equations
 from reportgen.exercise.loops import enter_proportion, solve_accelerations_together, solve_velocities_together
@@ -63,10 +63,10 @@ class Worked:
     def printed(self) -> Ledger:
         """Every number as it is written down; where it is that of a symbol of the file, as the file has it."""
         families = self.ledger.families
-        told = {id: replace(families[id], definition=None, exact=True) for id in self.named}
-        found = carried(replace(self.ledger, families={**families, **told}))
-        values = {id: replace(family, values=found[id].values) for id, family in families.items()}
-        return replace(found, families=values)
+        named = {id: replace(families[id], definition=None, exact=True) for id in self.named}
+        rounded = carried(replace(self.ledger, families={**families, **named}))
+        values = {id: replace(family, values=rounded[id].values) for id, family in families.items()}
+        return replace(rounded, families=values)
 
     @property
     def by_method(self) -> bool:
@@ -86,35 +86,35 @@ def work_out(
     `units` and `names` are the units and the indices of symbols as a language has them.  Velocities are found by the
     `method` if one is named; where they alone are wanted, by no other.
     """
-    board = Board(Quantities(POSITIONS, exercise.motion), lay_out(exercise.given, exercise.motion))
-    enter_given(board)
-    find_velocities(board, method, alone=velocities_alone)
+    derivation = Derivation(Quantities(POSITIONS, exercise.motion), lay_out(exercise.given, exercise.motion))
+    enter_given(derivation)
+    find_velocities(derivation, method, alone=velocities_alone)
     if not velocities_alone:
-        enter_accelerations(board, ACCELERATIONS)
-    missing = [one.id for one in exercise.asked if one.what != "centre" and not _leads_to(board, one)]
+        enter_accelerations(derivation, ACCELERATIONS)
+    missing = [one.id for one in exercise.asked if one.what != "centre" and not _leads_to(derivation, one)]
     for asked in exercise.asked:
         if asked.what == "centre":
-            missing += [] if enter_centre(board, asked.body) else [asked.id]
+            missing += [] if enter_centre(derivation, asked.body) else [asked.id]
     for asked in exercise.asked:
         if asked.what in ids.LINK_RATE:
-            _signed(board, asked)
+            _signed(derivation, asked)
         elif asked.what in ids.POINT_RATE:
-            _directed(board, asked)
-    wanted = [one.id for one in exercise.asked] + _among(board, ids.centre_coordinate, ids.signed, ids.direction)
-    wanted += [id for step in board.steps if step.kind == "centre-rate" for id in step.ids]
+            _directed(derivation, asked)
+    wanted = [one.id for one in exercise.asked] + _among(derivation, ids.centre_coordinate, ids.signed, ids.direction)
+    wanted += [id for step in derivation.steps if step.kind == "centre-rate" for id in step.ids]
     if velocities_alone and not any(one.what in ("v", "omega") for one in exercise.asked):
-        wanted += _among(board, ids.velocity, ids.velocity_component, ids.sliding_velocity, ids.angular_velocity)
-    needed = _with_ancestors(board, wanted)
-    steps = tuple(step for step in board.steps if _leads_on(step, needed))
+        wanted += _among(derivation, ids.velocity, ids.velocity_component, ids.sliding_velocity, ids.angular_velocity)
+    needed = _with_ancestors(derivation, wanted)
+    steps = tuple(step for step in derivation.steps if _leads_on(step, needed))
     # A step that is taken is written out whole.
-    needed |= _with_ancestors(board, [id for step in steps for id in (*step.ids, *step.read)])
-    steps = _told_once(step for step in board.steps if _leads_on(step, needed))
+    needed |= _with_ancestors(derivation, [id for step in steps for id in (*step.ids, *step.read)])
+    steps = _told_once(step for step in derivation.steps if _leads_on(step, needed))
     q = Sheet(POSITIONS)
-    for id, family in board.q.families.items():
+    for id, family in derivation.q.families.items():
         if id in needed:
             q.enter(family)
     ledger = Ledger(q.families, POSITIONS, units=units).in_language(names)
-    return Worked(ledger, board.layout, steps, tuple(missing), method, _named(exercise, ledger))
+    return Worked(ledger, derivation.layout, steps, tuple(missing), method, _named(exercise, ledger))
 
 
 def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
@@ -128,66 +128,66 @@ def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
     )
 
 
-def _leads_to(board: Board, asked: Asked) -> bool:
+def _leads_to(derivation: Derivation, asked: Asked) -> bool:
     """Whether the steps lead to what is asked: to the value that the whole system gives, and to no other."""
-    if asked.id not in board.q:
+    if asked.id not in derivation.q:
         return False
-    value = board.motion.turn(asked.what, asked.body) if asked.of_body else abs(_vector(board, asked))
-    return math.isclose(board.q.si(asked.id), abs(value), rel_tol=SAME_SHARE, abs_tol=SAME_SI)
+    value = derivation.motion.turn(asked.what, asked.body) if asked.of_body else abs(_vector(derivation, asked))
+    return math.isclose(derivation.q.si(asked.id), abs(value), rel_tol=SAME_SHARE, abs_tol=SAME_SI)
 
 
-def _is_worked_out(board: Board, id: str) -> bool:
-    return id in board.q and board.q.families[id].definition is not None
+def _is_worked_out(derivation: Derivation, id: str) -> bool:
+    return id in derivation.q and derivation.q.families[id].definition is not None
 
 
-def _signed(board: Board, asked: Asked) -> None:
+def _signed(derivation: Derivation, asked: Asked) -> None:
     """A rotation with its sign, positive anticlockwise, beside its size that is worked out, if the data tell it."""
-    if _is_worked_out(board, asked.id) and board.motion.knows_sense(asked.what, asked.body):
-        size = board.q[asked.id]
-        turn = size if board.motion.turn(asked.what, asked.body) >= 0 else -size
-        board.q.define(ids.signed(asked.what, asked.of), turn, of=size.id)
+    if _is_worked_out(derivation, asked.id) and derivation.motion.knows_sense(asked.what, asked.body):
+        size = derivation.q[asked.id]
+        turn = size if derivation.motion.turn(asked.what, asked.body) >= 0 else -size
+        derivation.q.define(ids.signed(asked.what, asked.of), turn, of=size.id)
 
 
-def _directed(board: Board, asked: Asked) -> None:
+def _directed(derivation: Derivation, asked: Asked) -> None:
     """Where an asked vector goes, as its angle from +x in [0, 2π), beside its size; a vector of no length has none."""
-    vector, what, point = _vector(board, asked), asked.what, asked.of
-    if vector and _is_worked_out(board, asked.id):
+    vector, what, point = _vector(derivation, asked), asked.what, asked.of
+    if vector and _is_worked_out(derivation, asked.id):
         angle = (math.degrees(cmath.phase(vector)) + BELOW_A_TURN) % 360.0 - BELOW_A_TURN
-        turned = board.q.give(ids.heading(what, point), math.radians(angle), Symbol("α"), "angle", hidden=True)
-        board.q.define(ids.direction(what, point), turned, scale=1.0, of=asked.id)
+        turned = derivation.q.give(ids.heading(what, point), math.radians(angle), Symbol("α"), "angle", hidden=True)
+        derivation.q.define(ids.direction(what, point), turned, scale=1.0, of=asked.id)
 
 
-def _vector(board: Board, asked: Asked) -> complex:
+def _vector(derivation: Derivation, asked: Asked) -> complex:
     """The velocity or the acceleration that is asked."""
-    return board.motion.v(asked.of) if asked.what == "v" else board.motion.a(asked.of)
+    return derivation.motion.v(asked.of) if asked.what == "v" else derivation.motion.a(asked.of)
 
 
-def _among(board: Board, *families: ids.Name) -> list[str]:
-    """The ids on the board that are of these families."""
-    return [id for id in board.q.families if any(id in family for family in families)]
+def _among(derivation: Derivation, *families: ids.Name) -> list[str]:
+    """The ids in the derivation that are of these families."""
+    return [id for id in derivation.q.families if any(id in family for family in families)]
 
 
-def _with_ancestors(board: Board, some: Sequence[str]) -> set[str]:
-    """Those of some ids that are on the board, and everything that they stand on."""
-    families = board.q.families
+def _with_ancestors(derivation: Derivation, some: Sequence[str]) -> set[str]:
+    """Those of some ids that are in the derivation, and everything that they stand on."""
+    families = derivation.q.families
     waiting = [id for id in some if id in families]
-    found: set[str] = set()
+    leading: set[str] = set()
     while waiting:
         id = waiting.pop()
-        if id not in found:
-            found.add(id)
+        if id not in leading:
+            leading.add(id)
             definition = families[id].definition
             waiting += () if definition is None else refs(definition)
-    return found
+    return leading
 
 
 def _told_once(steps: Iterable[Step]) -> tuple[Step, ...]:
     """Steps without what is read off the figure and an earlier one tells."""
-    told, found = set[str](), list[Step]()
+    known, kept = set[str](), list[Step]()
     for step in steps:
-        found.append(replace(step, read=tuple(id for id in step.read if id not in {*told, *step.ids})))
-        told |= {*step.ids, *step.read}
-    return tuple(found)
+        kept.append(replace(step, read=tuple(id for id in step.read if id not in {*known, *step.ids})))
+        known |= {*step.ids, *step.read}
+    return tuple(kept)
 
 
 def _leads_on(step: Step, needed: set[str]) -> bool:
@@ -199,7 +199,7 @@ def _leads_on(step: Step, needed: set[str]) -> bool:
 # --- methods: the steps that are each one's own, and in which order they are tried ----------------
 
 
-Finder = Callable[[Board], bool]
+Finder = Callable[[Derivation], bool]
 """Enters one more velocity, or those of one more body; whether there was one."""
 
 CHOSEN: tuple[Finder, ...] = (derive, by_base_point, enter_proportion, by_train, solve_velocities_together)
@@ -208,10 +208,10 @@ CHOSEN: tuple[Finder, ...] = (derive, by_base_point, enter_proportion, by_train,
 ACCELERATIONS: tuple[Callable[[Parts], bool], ...] = (
     about_points,
     by_rims,
-    lambda parts: by_train(parts.board, "eps"),
+    lambda parts: by_train(parts.derivation, "eps"),
     by_rack,
     by_slots,
-    lambda parts: enter_blocks(parts.board, "eps"),
+    lambda parts: enter_blocks(parts.derivation, "eps"),
     solve_accelerations_together,
 )
 """By the base point, by radii, along the lines of moving bodies; all that is left over together."""
@@ -246,7 +246,7 @@ def belongs(step: Step, method: Method) -> bool:
     return step.kind != "speed-pivot" and step.kind.startswith(_KINDS[method])
 
 
-def find_velocities(board: Board, method: Method | None, alone: bool = False) -> None:
+def find_velocities(derivation: Derivation, method: Method | None, alone: bool = False) -> None:
     """Enters all velocities that the method leads to, and unless it stands alone, those that others then lead to.
 
     What a joint makes turn about a fixed point or move in translation belongs to every method, and so does the motion
@@ -258,35 +258,35 @@ def find_velocities(board: Board, method: Method | None, alone: bool = False) ->
         joints = (by_equations, about_joints) if method == "equations" else (about_joints, *OWN[method])
         own = (*joints, by_moving_frame if method == "instant centre" else by_guided_frame)
         finders = own if alone and method != "moving frame" else (*own, *CHOSEN)
-    while any(find(board) for find in finders):
+    while any(find(derivation) for find in finders):
         pass
 
 
 # --- instant centres that are asked ---------------------------------------------------------------
 
 
-def enter_centre(board: Board, body: int) -> bool:
+def enter_centre(derivation: Derivation, body: int) -> bool:
     """Enters the coordinates of a body's instant centre; whether it is known, which one infinitely far is, too."""
-    if body not in board.layout.centres:
-        _from_rate(board, body)
-    centre = board.layout.centres.get(body)
+    if body not in derivation.layout.centres:
+        _from_rate(derivation, body)
+    centre = derivation.layout.centres.get(body)
     if centre is None:
         return False
     if centre.rule != "translation":
         for axis, value in (("x", centre.at.real), ("y", centre.at.imag)):
-            size = board.motion.size
+            size = derivation.motion.size
             id = ids.centre_coordinate(body, axis)
-            board.q.give(id, value, Symbol(axis, centre.name), exact=False, scale=size)
+            derivation.q.give(id, value, Symbol(axis, centre.name), exact=False, scale=size)
     return True
 
 
-def _from_rate(board: Board, body: int) -> None:
+def _from_rate(derivation: Derivation, body: int) -> None:
     """The centre on the normal to a known velocity, at the distance v/ω; infinitely far in translation."""
-    layout, q = board.layout, board.q
-    known = [name for name in layout.members[body] if board.knows_velocity(name)]
-    if not board.knows_omega(body) or not known:
+    layout, q = derivation.layout, derivation.q
+    known = [name for name in layout.members[body] if derivation.knows_velocity(name)]
+    if not derivation.knows_omega(body) or not known:
         return
-    at = board.motion.centre(body)
+    at = derivation.motion.centre(body)
     if at is None:
         layout.centres[body] = InstantCentre(body, "translation")
         return
@@ -295,4 +295,4 @@ def _from_rate(board: Board, body: int) -> None:
     layout.centres[body] = InstantCentre(body, "rate", name, at, (away,) if away else ())
     if away:
         length = q.define(ids.length(name, away), q[ids.velocity(away)] / q[ids.angular_velocity(body)])
-        board.steps.append(Step("centre-rate", (length.id,), body, away, name))
+        derivation.steps.append(Step("centre-rate", (length.id,), body, away, name))

@@ -10,150 +10,156 @@ from collections.abc import Iterable, Mapping
 from itertools import combinations, permutations
 
 from reportgen.exercise import file
-from reportgen.exercise.board import Board, Projected, Step, Vector, along, angle, size_of, towards
 from reportgen.exercise.centres import SAME_PLACE, InstantCentre
+from reportgen.exercise.derivation import Derivation, Projected, Step, Vector, along, angle, size_of, towards
 from reportgen.exercise.places import direction_of, parallel, perpendicular
 from reportgen.formula import Negative, Symbol, cos, ids, sin, sqrt, total
 
 
-def enter_given(board: Board) -> None:
+def enter_given(derivation: Derivation) -> None:
     """The rates that the file gives."""
-    for rate in board.layout.given.given:
+    for rate in derivation.layout.given.given:
         match rate:
             case file.OmegaOf(body=body, value=value):
-                board.given(ids.angular_velocity(body), value.si)
+                derivation.given(ids.angular_velocity(body), value.si)
             case file.VelocityOf(point=point, size=size) if size is not None:
-                board.given(ids.velocity(point), size.si)
+                derivation.given(ids.velocity(point), size.si)
             case file.FromRest(point=point, acceleration=acceleration, time=time):
-                a = board.given(ids.acceleration(point), acceleration.si)
-                t = board.given("t", time.si)
-                v = board.q.define(ids.velocity(point), a * t)
-                board.steps.append(Step("from-rest", (v.id,), point=point))
+                a = derivation.given(ids.acceleration(point), acceleration.si)
+                t = derivation.given("t", time.si)
+                v = derivation.q.define(ids.velocity(point), a * t)
+                derivation.steps.append(Step("from-rest", (v.id,), point=point))
 
 
-def derive(board: Board) -> bool:
+def derive(derivation: Derivation) -> bool:
     """One more body whose rate, or whose points' velocities become known; whether there was one."""
-    known = _about(board, board.layout.centres.values()) or _by_belt(board)
-    return known or by_parallels(board) or by_moving_frame(board)
+    known = _about(derivation, derivation.layout.centres.values()) or _by_belt(derivation)
+    return known or by_parallels(derivation) or by_moving_frame(derivation)
 
 
-def about_joints(board: Board) -> bool:
+def about_joints(derivation: Derivation) -> bool:
     """The same of a body that a joint makes turn about a fixed point or move in translation, by no method."""
-    return _about(board, (one for one in board.layout.centres.values() if one.by_joint)) or _by_belt(board)
+    return _about(derivation, (one for one in derivation.layout.centres.values() if one.by_joint)) or _by_belt(
+        derivation
+    )
 
 
-def by_centre(board: Board) -> bool:
+def by_centre(derivation: Derivation) -> bool:
     """The same of a body in plane motion, about its instant centre."""
-    return _about(board, (one for one in board.layout.centres.values() if not one.by_joint)) or by_parallels(board)
+    return _about(derivation, (one for one in derivation.layout.centres.values() if not one.by_joint)) or by_parallels(
+        derivation
+    )
 
 
-def by_parallels(board: Board) -> bool:
+def by_parallels(derivation: Derivation) -> bool:
     """ω of one more body from two parallel velocities."""
-    return any(_parallel(board, body, names) for body, names in board.layout.members.items())
+    return any(_parallel(derivation, body, names) for body, names in derivation.layout.members.items())
 
 
-def by_moving_frame(board: Board) -> bool:
+def by_moving_frame(derivation: Derivation) -> bool:
     """One more point along a line of a moving body."""
-    return _along_slots(board, board.layout.directions)
+    return _along_slots(derivation, derivation.layout.directions)
 
 
-def by_guided_frame(board: Board) -> bool:
+def by_guided_frame(derivation: Derivation) -> bool:
     """The same where joints or the data tell how the point moves, without instant centres."""
-    return _along_slots(board, board.layout.guided)
+    return _along_slots(derivation, derivation.layout.guided)
 
 
-def _along_slots(board: Board, directions: Mapping[str, complex]) -> bool:
-    slots = board.layout.given.slots
-    return any(_slot(board, joint, directions) for joint in slots) or enter_blocks(board, "omega")
+def _along_slots(derivation: Derivation, directions: Mapping[str, complex]) -> bool:
+    slots = derivation.layout.given.slots
+    return any(_slot(derivation, joint, directions) for joint in slots) or enter_blocks(derivation, "omega")
 
 
-def enter_blocks(board: Board, what: str) -> bool:
+def enter_blocks(derivation: Derivation, what: str) -> bool:
     """One more body that turns as the one does along whose guide it slides; `what` is omega or eps."""
     rate = ids.LINK_RATE[what]
-    for joint in board.layout.given.joints:
+    for joint in derivation.layout.given.joints:
         if isinstance(joint, file.Slider) and joint.on:
             for known, new in permutations((joint.body, joint.on)):
-                if board.knows(rate(known)) and not board.knows(rate(new)):
-                    same = board.q.define(rate(new), board.q[rate(known)])
-                    board.steps.append(Step(f"block-{what}", (same.id,), new, frame=known))
+                if derivation.knows(rate(known)) and not derivation.knows(rate(new)):
+                    same = derivation.q.define(rate(new), derivation.q[rate(known)])
+                    derivation.steps.append(Step(f"block-{what}", (same.id,), new, frame=known))
                     return True
     return False
 
 
-def _by_belt(board: Board) -> bool:
+def _by_belt(derivation: Derivation) -> bool:
     """The rim of one more disc that turns about a fixed centre moves as fast as the belt."""
-    for index, ends in board.layout.belts.items():
-        joint = board.layout.given.joints[index]
-        if not (isinstance(joint, file.Belt) and board.layout.turn_on_ground(joint.discs)):
+    for index, ends in derivation.layout.belts.items():
+        joint = derivation.layout.given.joints[index]
+        if not (isinstance(joint, file.Belt) and derivation.layout.turn_on_ground(joint.discs)):
             continue
         for (base, _), (point, body) in permutations(zip(ends, joint.discs, strict=True)):
-            if board.knows_velocity(base) and not board.knows_velocity(point):
-                v = board.q.define(ids.velocity(point), board.q[ids.velocity(base)])
-                board.steps.append(Step("belt", (v.id,), body, point, base))
+            if derivation.knows_velocity(base) and not derivation.knows_velocity(point):
+                v = derivation.q.define(ids.velocity(point), derivation.q[ids.velocity(base)])
+                derivation.steps.append(Step("belt", (v.id,), body, point, base))
                 return True
     return False
 
 
-def _about(board: Board, centres: Iterable[InstantCentre]) -> bool:
+def _about(derivation: Derivation, centres: Iterable[InstantCentre]) -> bool:
     for centre in centres:
         if centre.rule == "translation":
-            if _translation(board, centre.body, centre):
+            if _translation(derivation, centre.body, centre):
                 return True
-        elif _rate(board, centre.body, centre) or _points(board, centre.body, centre):
+        elif _rate(derivation, centre.body, centre) or _points(derivation, centre.body, centre):
             return True
     return False
 
 
-def _translation(board: Board, body: int, centre: InstantCentre) -> bool:
+def _translation(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
     """All points have one velocity."""
-    q, names = board.q, board.layout.members[body]
-    known = next((name for name in names if board.knows_velocity(name)), "")
-    new = [name for name in names if known and not board.knows_velocity(name)]
-    if not known or (not new and board.knows_omega(body)):
+    q, names = derivation.q, derivation.layout.members[body]
+    known = next((name for name in names if derivation.knows_velocity(name)), "")
+    new = [name for name in names if known and not derivation.knows_velocity(name)]
+    if not known or (not new and derivation.knows_omega(body)):
         return False
-    if not board.knows_omega(body):
+    if not derivation.knows_omega(body):
         q.give(ids.angular_velocity(body), 0.0)
     lines = tuple(q.define(ids.velocity(name), q[ids.velocity(known)]).id for name in new)
     if lines or centre.points:
-        board.steps.append(Step("translation", lines, body, ", ".join(new), known))
+        derivation.steps.append(Step("translation", lines, body, ", ".join(new), known))
     return True
 
 
-def _rate(board: Board, body: int, centre: InstantCentre) -> bool:
+def _rate(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
     """ω = v/l from one velocity, about the centre."""
-    if board.knows_omega(body):
+    if derivation.knows_omega(body):
         return False
-    names = board.layout.members[body]
-    known = [name for name in names if board.knows_velocity(name) and not board.layout.is_centre(centre, name)]
+    names = derivation.layout.members[body]
+    known = [
+        name for name in names if derivation.knows_velocity(name) and not derivation.layout.is_centre(centre, name)
+    ]
     if not known:
         return False
-    arm = board.length(centre.name, known[0], centre.at)
-    omega = board.q.define(ids.angular_velocity(body), board.q[ids.velocity(known[0])] / arm)
-    board.steps.append(Step(f"rate-{centre.rule}", (arm.id, omega.id), body, known[0], centre.name))
+    arm = derivation.length(centre.name, known[0], centre.at)
+    omega = derivation.q.define(ids.angular_velocity(body), derivation.q[ids.velocity(known[0])] / arm)
+    derivation.steps.append(Step(f"rate-{centre.rule}", (arm.id, omega.id), body, known[0], centre.name))
     return True
 
 
-def _points(board: Board, body: int, centre: InstantCentre) -> bool:
+def _points(derivation: Derivation, body: int, centre: InstantCentre) -> bool:
     """v = ω l of every point, about the centre; what is at the centre is at rest."""
-    q, layout = board.q, board.layout
-    new = [name for name in layout.members[body] if not board.knows_velocity(name)]
-    if not new or not board.knows_omega(body):
+    q, layout = derivation.q, derivation.layout
+    new = [name for name in layout.members[body] if not derivation.knows_velocity(name)]
+    if not new or not derivation.knows_omega(body):
         return False
     for name in new:
         if layout.is_centre(centre, name):
             q.give(ids.velocity(name), 0.0)
             if centre.rule == "normals":
-                board.steps.append(Step("at-rest", (), body, name, centre.name))
+                derivation.steps.append(Step("at-rest", (), body, name, centre.name))
         else:
-            arm = board.length(centre.name, name, centre.at)
+            arm = derivation.length(centre.name, name, centre.at)
             v = q.define(ids.velocity(name), q[ids.angular_velocity(body)] * arm)
-            board.steps.append(Step(f"speed-{centre.rule}", (arm.id, v.id), body, name, centre.name))
+            derivation.steps.append(Step(f"speed-{centre.rule}", (arm.id, v.id), body, name, centre.name))
     return True
 
 
-def is_across(board: Board, *names: str) -> bool:
+def is_across(derivation: Derivation, *names: str) -> bool:
     """Whether points lie on one line and their velocities are all perpendicular to it."""
-    points, directions = board.layout.points, board.layout.directions
+    points, directions = derivation.layout.points, derivation.layout.directions
     line = direction_of(points[names[1]] - points[names[0]])
     if not line or any(name not in directions for name in names):
         return False
@@ -161,22 +167,22 @@ def is_across(board: Board, *names: str) -> bool:
     return in_line and all(perpendicular(directions[name], line) for name in names)
 
 
-def _parallel(board: Board, body: int, names: list[str]) -> bool:
+def _parallel(derivation: Derivation, body: int, names: list[str]) -> bool:
     """ω from two velocities that are perpendicular to the line of their points."""
-    q = board.q
-    if body in board.layout.centres:
+    q = derivation.q
+    if body in derivation.layout.centres:
         return False
-    known = [name for name in names if board.knows_velocity(name)]
-    for one, other in combinations(known, 2):
-        if not is_across(board, one, other):
+    known = [name for name in names if derivation.knows_velocity(name)]
+    for base, tip in combinations(known, 2):
+        if not is_across(derivation, base, tip):
             continue
-        if not board.knows_omega(body):
-            here, there = board.at(one), board.at(other)
-            faster, slower = (one, other) if abs(here) >= abs(there) else (other, one)
+        if not derivation.knows_omega(body):
+            here, there = derivation.at(base), derivation.at(tip)
+            faster, slower = (base, tip) if abs(here) >= abs(there) else (tip, base)
             v, w = q[ids.velocity(faster)], q[ids.velocity(slower)]
             same = (here.conjugate() * there).real >= 0
-            omega = q.define(ids.angular_velocity(body), (v - w if same else v + w) / board.length(one, other))
-            board.steps.append(Step("rate-parallel", (omega.id,), body, one, other))
+            omega = q.define(ids.angular_velocity(body), (v - w if same else v + w) / derivation.length(base, tip))
+            derivation.steps.append(Step("rate-parallel", (omega.id,), body, base, tip))
             return True
     return False
 
@@ -184,31 +190,35 @@ def _parallel(board: Board, body: int, names: list[str]) -> bool:
 # --- a point along the line of a moving body --------------------------------------------------------
 
 
-def _slot(board: Board, joint: file.SlotJoint, directions: Mapping[str, complex]) -> bool:
+def _slot(derivation: Derivation, joint: file.SlotJoint, directions: Mapping[str, complex]) -> bool:
     """v_P = v_X + v_PX + v_r for a point P on a line of a body with a known point X, with two unknown sizes.
 
     `directions` are those of velocities that may be used.
     """
-    body, point, q, layout = joint.on, joint.point, board.q, board.layout
-    if board.knows(ids.sliding_velocity(point)):
+    body, point, q, layout = joint.on, joint.point, derivation.q, derivation.layout
+    if derivation.knows(ids.sliding_velocity(point)):
         return False
-    base = _base(board, body)
-    if base is None or not (board.knows_velocity(point) or board.knows_omega(body)):
+    base = _base(derivation, body)
+    if base is None or not (derivation.knows_velocity(point) or derivation.knows_omega(body)):
         return False
     u = layout.geometry.direction(joint)
     arm_way = layout.points[point] - layout.points[base]
-    if abs(arm_way) < SAME_PLACE or (not board.knows_omega(body) and perpendicular(u, arm_way / abs(arm_way))):
+    if abs(arm_way) < SAME_PLACE or (not derivation.knows_omega(body) and perpendicular(u, arm_way / abs(arm_way))):
         # As the body turns, its own point moves along the line alone, which tells nothing of how fast.
         return False
-    known_rate, new = board.knows_omega(body), not board.knows_velocity(point)
+    known_rate, new = derivation.knows_omega(body), not derivation.knows_velocity(point)
     if new and (point not in directions or parallel(directions[point], u)):
         return False
-    own = board.at(point, body)
-    turning = Vector(ids.velocity(point + base), direction_of(own - board.at(base, body)))
-    sliding = Vector(ids.sliding_velocity(point), direction_of(board.at(point) - own))
-    bases, whole, arm = board.nonzero(board.velocity(base)), board.velocity(point), board.length(base, point)
+    own = derivation.at(point, body)
+    turning = Vector(ids.velocity(point + base), direction_of(own - derivation.at(base, body)))
+    sliding = Vector(ids.sliding_velocity(point), direction_of(derivation.at(point) - own))
+    bases, whole, arm = (
+        derivation.nonzero(derivation.velocity(base)),
+        derivation.velocity(point),
+        derivation.length(base, point),
+    )
     lines = (q.define(turning.id, q[ids.angular_velocity(body)] * arm).id,) if known_rate else ()
-    equation = Projected(board, (whole,), (*bases, turning, sliding), lines)
+    equation = Projected(derivation, (whole,), (*bases, turning, sliding), lines)
     if new:
         equation.find(whole, 1j * u, "η", point)
     elif not known_rate:
@@ -223,84 +233,84 @@ def _slot(board: Board, joint: file.SlotJoint, directions: Mapping[str, complex]
     return True
 
 
-def _base(board: Board, body: int) -> str | None:
+def _base(derivation: Derivation, body: int) -> str | None:
     """A point of a body whose velocity is known: its pivot, or one that another body carries."""
-    centre = board.layout.centres.get(body)
+    centre = derivation.layout.centres.get(body)
     if centre is not None and centre.rule in ("pivot", "contact"):
-        if not board.knows_velocity(centre.name):
-            board.q.give(ids.velocity(centre.name), 0.0)
+        if not derivation.knows_velocity(centre.name):
+            derivation.q.give(ids.velocity(centre.name), 0.0)
         return centre.name
-    return next((name for name in board.layout.members[body] if board.knows_velocity(name)), None)
+    return next((name for name in derivation.layout.members[body] if derivation.knows_velocity(name)), None)
 
 
 # --- by a base point ------------------------------------------------------------------------------
 
 
-def by_base_point(board: Board) -> bool:
+def by_base_point(derivation: Derivation) -> bool:
     """One more velocity v_M = v_A + v_MA of a body that turns at a known rate, or the rates of two such bodies."""
-    bodies = {body: names for body, names in board.layout.members.items() if body not in board.layout.centres}
+    bodies = {body: names for body, names in derivation.layout.members.items() if body not in derivation.layout.centres}
     for body, names in bodies.items():
-        known = [name for name in names if board.knows_velocity(name)]
+        known = [name for name in names if derivation.knows_velocity(name)]
         # A base point that is worked out by components itself comes last.
-        base = min(known, key=lambda name: _by_components(board, name), default="")
+        base = min(known, key=lambda name: _by_components(derivation, name), default="")
         new = next((name for name in names if name not in known), "")
-        if base and new and board.knows_omega(body) and _point(board, body, new, base):
+        if base and new and derivation.knows_omega(body) and _point(derivation, body, new, base):
             return True
     for body, names in bodies.items():
-        for other, others in bodies.items():
-            shared = [name for name in names if name in others and not board.knows_velocity(name)]
-            if body < other and shared and _between(board, body, other, shared[0]):
+        for partner, others in bodies.items():
+            shared = [name for name in names if name in others and not derivation.knows_velocity(name)]
+            if body < partner and shared and _between(derivation, body, partner, shared[0]):
                 return True
     return False
 
 
-def _by_components(board: Board, point: str) -> bool:
-    return any(board.knows(ids.velocity_component(point, axis)) for axis in "xy")
+def _by_components(derivation: Derivation, point: str) -> bool:
+    return any(derivation.knows(ids.velocity_component(point, axis)) for axis in "xy")
 
 
-def from_base_point(board: Board) -> bool:
+def from_base_point(derivation: Derivation) -> bool:
     """One more body in plane motion whose ω follows from a base point, or one more point of one whose ω is known."""
-    layout = board.layout
+    layout = derivation.layout
     for body, names in layout.members.items():
         centre = layout.centres.get(body)
         if centre is not None and centre.by_joint:
             continue
-        if centre is not None and centre.rule == "contact" and not board.knows_velocity(centre.name):
-            board.q.give(ids.velocity(centre.name), 0.0)
-        known = [name for name in names if board.knows_velocity(name)]
-        new = [name for name in names if not board.knows_velocity(name)]
-        if board.knows_omega(body):
-            moving = [name for name in known if board.q.si(ids.velocity(name))]
-            if known and new and _point(board, body, new[0], (moving or known)[0]):
+        if centre is not None and centre.rule == "contact" and not derivation.knows_velocity(centre.name):
+            derivation.q.give(ids.velocity(centre.name), 0.0)
+        known = [name for name in names if derivation.knows_velocity(name)]
+        new = [name for name in names if not derivation.knows_velocity(name)]
+        if derivation.knows_omega(body):
+            moving = [name for name in known if derivation.q.si(ids.velocity(name))]
+            if known and new and _point(derivation, body, new[0], (moving or known)[0]):
                 return True
             continue
-        for base in sorted(known, key=lambda name: board.q.si(ids.velocity(name)) == 0):
+        for base in sorted(known, key=lambda name: derivation.q.si(ids.velocity(name)) == 0):
             guided = [name for name in new if name in layout.guided]
-            if any(_rate_from_base(board, body, point, base) for point in (*known, *guided) if point != base):
+            if any(_rate_from_base(derivation, body, point, base) for point in (*known, *guided) if point != base):
                 return True
     return False
 
 
-def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
+def _rate_from_base(derivation: Derivation, body: int, point: str, base: str) -> bool:
     """ω from v_B = v_A + v_BA, with v_B known, or its line: projected on AB, then on the perpendicular to it."""
-    q, layout = board.q, board.layout
+    q, layout = derivation.q, derivation.layout
     arm = layout.points[point] - layout.points[base]
-    line, new = direction_of(arm), not board.knows_velocity(point)
-    turn = board.motion.omega(body)
-    direction = direction_of(board.at(point)) or layout.guided.get(point, 0j)
+    line, new = direction_of(arm), not derivation.knows_velocity(point)
+    turn = derivation.motion.omega(body)
+    direction = direction_of(derivation.at(point)) or layout.guided.get(point, 0j)
     if not line or (new and perpendicular(direction, line)):
         return False
     whole = Vector(ids.velocity(point), direction)
     relative = Vector(ids.velocity(point + base), 1j * line * (1 if turn >= 0 else -1))
-    bases = board.nonzero(board.velocity(base))
+    bases = derivation.nonzero(derivation.velocity(base))
     if not new and not bases and not q.si(whole.id):
         return False
-    equation = Projected(board, (whole,), (*bases, relative))
+    equation = Projected(derivation, (whole,), (*bases, relative))
     if new:
         equation.find(whole, line, "ξ", point)
     if turn:
         size = equation.find(relative, relative.direction, "η", point)
-        equation.then(q.define(ids.angular_velocity(body), size / board.length(base, point)))
+        equation.then(q.define(ids.angular_velocity(body), size / derivation.length(base, point)))
     else:
         q.give(ids.angular_velocity(body), 0.0)
     kind = "base-rate" if turn else "base-translation"
@@ -308,42 +318,42 @@ def _rate_from_base(board: Board, body: int, point: str, base: str) -> bool:
     return True
 
 
-def _relative(board: Board, body: int, point: str, base: str) -> Vector:
-    arm = board.layout.points[point] - board.layout.points[base]
-    return Vector(ids.velocity(point + base), direction_of(1j * board.motion.omega(body) * arm))
+def _relative(derivation: Derivation, body: int, point: str, base: str) -> Vector:
+    arm = derivation.layout.points[point] - derivation.layout.points[base]
+    return Vector(ids.velocity(point + base), direction_of(1j * derivation.motion.omega(body) * arm))
 
 
-def _point(board: Board, body: int, point: str, base: str) -> bool:
+def _point(derivation: Derivation, body: int, point: str, base: str) -> bool:
     """v_B = v_A + v_BA with v_A and ω known, by its components along x and y."""
-    q, relative = board.q, _relative(board, body, point, base)
+    q, relative = derivation.q, _relative(derivation, body, point, base)
     lines: tuple[str, ...] = ()
-    if not board.knows(relative.id):
-        lines = (q.define(relative.id, q[ids.angular_velocity(body)] * board.length(base, point)).id,)
-    parts = board.nonzero(board.velocity(base), relative)
+    if not derivation.knows(relative.id):
+        lines = (q.define(relative.id, q[ids.angular_velocity(body)] * derivation.length(base, point)).id,)
+    parts = derivation.nonzero(derivation.velocity(base), relative)
     if not parts:
         q.give(ids.velocity(point), 0.0)
         return True
-    equation = Projected(board, (board.velocity(point),), parts, lines)
+    equation = Projected(derivation, (derivation.velocity(point),), parts, lines)
     equation.find_sum("v", point)
     equation.step("base-point", body, point, base)
     return True
 
 
-def _between(board: Board, body: int, other: int, point: str) -> bool:
+def _between(derivation: Derivation, body: int, partner: int, point: str) -> bool:
     """v_A + v_CA = v_B + v_CB: two unknown sizes, the first by projection on the line CB."""
-    q, members = board.q, board.layout.members
-    bases = [next((n for n in members[one] if board.knows_velocity(n)), "") for one in (body, other)]
-    if "" in bases or board.knows_omega(body) or board.knows_omega(other):
+    q, members = derivation.q, derivation.layout.members
+    bases = [next((n for n in members[one] if derivation.knows_velocity(n)), "") for one in (body, partner)]
+    if "" in bases or derivation.knows_omega(body) or derivation.knows_omega(partner):
         return False
-    first, second = (_relative(board, one, point, base) for one, base in zip((body, other), bases, strict=True))
-    line = direction_of(board.layout.points[point] - board.layout.points[bases[1]])
+    first, second = (_relative(derivation, one, point, base) for one, base in zip((body, partner), bases, strict=True))
+    line = direction_of(derivation.layout.points[point] - derivation.layout.points[bases[1]])
     if not (first.direction and second.direction) or abs((line.conjugate() * first.direction).real) < 1e-9:
         return False
-    one, two = (board.nonzero(board.velocity(base)) for base in bases)
-    equation = Projected(board, (*one, first), (*two, second))
+    v_a, two = (derivation.nonzero(derivation.velocity(base)) for base in bases)
+    equation = Projected(derivation, (*v_a, first), (*two, second))
     sizes = equation.find(first, line, "ξ", point), equation.find(second, second.direction, "η", point)
-    for turning, size, base in zip((body, other), sizes, bases, strict=True):
-        equation.then(q.define(ids.angular_velocity(turning), size / board.length(base, point)))
+    for turning, size, base in zip((body, partner), sizes, bases, strict=True):
+        equation.then(q.define(ids.angular_velocity(turning), size / derivation.length(base, point)))
     equation.step("two-bases", body, point, bases[0])
     return True
 
@@ -351,54 +361,54 @@ def _between(board: Board, body: int, other: int, point: str) -> bool:
 # --- by projection --------------------------------------------------------------------------------
 
 
-def by_projection(board: Board) -> bool:
+def by_projection(derivation: Derivation) -> bool:
     """One more velocity of a body in plane motion by the theorem of projections."""
-    layout = board.layout
+    layout = derivation.layout
     for body, names in layout.members.items():
         if body in layout.centres and layout.centres[body].by_joint:
             continue
-        known = [name for name in names if board.knows_velocity(name)]
+        known = [name for name in names if derivation.knows_velocity(name)]
         for point in names:
             if point not in known and (
-                any(_on_one_line(board, body, point, base) for base in known)
-                or any(_on_two_lines(board, body, point, *bases) for bases in combinations(known, 2))
+                any(_on_one_line(derivation, body, point, base) for base in known)
+                or any(_on_two_lines(derivation, body, point, *bases) for bases in combinations(known, 2))
             ):
                 return True
     return False
 
 
-def _on_one_line(board: Board, body: int, point: str, base: str) -> bool:
+def _on_one_line(derivation: Derivation, body: int, point: str, base: str) -> bool:
     """v_B cos β = v_A cos α for a point B that moves along a known line, not across AB."""
-    points, directions = board.layout.points, board.layout.guided
+    points, directions = derivation.layout.points, derivation.layout.guided
     line = direction_of(points[point] - points[base])
     if point not in directions or not line or perpendicular(directions[point], line):
         return False
-    whole = Vector(ids.velocity(point), direction_of(board.at(point)) or directions[point])
+    whole = Vector(ids.velocity(point), direction_of(derivation.at(point)) or directions[point])
     relative = Vector(ids.velocity(point + base), 1j * line)
-    equation = Projected(board, (whole,), (board.velocity(base), relative))
+    equation = Projected(derivation, (whole,), (derivation.velocity(base), relative))
     equation.find(whole, line, "ξ", point)
     equation.step("projection", body, point, base)
     return True
 
 
-def _on_two_lines(board: Board, body: int, point: str, one: str, other: str) -> bool:
+def _on_two_lines(derivation: Derivation, body: int, point: str, base_a: str, base_b: str) -> bool:
     """v_M from its projections p on AM and BM, which are those of v_A and v_B; not where A, B, M are in line.
 
     The lines enclose γ, and v_M² sin²γ = p_A² + p_B² − 2 p_A p_B cos γ.
     """
-    q, points = board.q, board.layout.points
-    u, w = (direction_of(points[point] - points[base]) for base in (one, other))
+    q, points = derivation.q, derivation.layout.points
+    u, w = (direction_of(points[point] - points[base]) for base in (base_a, base_b))
     if not u or not w or parallel(u, w):
         return False
     w = towards(w, u)
     sizes = [
         q.define(ids.velocity_projection(point, base + point), part)
-        for base, axis in ((one, u), (other, w))
-        if (part := along(q, board.velocity(base), axis)) is not None
+        for base, axis in ((base_a, u), (base_b, w))
+        if (part := along(q, derivation.velocity(base), axis)) is not None
     ]
     if not sizes:
         q.give(ids.velocity(point), 0.0)
-        board.steps.append(Step("projection-nothing", (), body, point, one, other=other))
+        derivation.steps.append(Step("projection-nothing", (), body, point, base_a, other=base_b))
         return True
     whole = size_of(q, sizes)
     if not perpendicular(u, w):
@@ -408,5 +418,7 @@ def _on_two_lines(board: Board, body: int, point: str, one: str, other: str) -> 
             whole = sqrt(total([p**2, r**2, Negative(2 * p * r * cos(γ))]))
         whole = whole / sin(γ)
     v = q.define(ids.velocity(point), whole)
-    board.steps.append(Step("projections", (*(size.id for size in sizes), v.id), body, point, one, other=other))
+    derivation.steps.append(
+        Step("projections", (*(size.id for size in sizes), v.id), body, point, base_a, other=base_b)
+    )
     return True

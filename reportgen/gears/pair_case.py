@@ -5,33 +5,31 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
-from typing import Any
+from functools import cached_property, partial
 
 import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Area
-from reportgen.drawing.film import (
+from reportgen.drawing.animation import (
+    Animation,
     BarScale,
-    Carried,
     Errors,
-    Film,
     MomentValue,
+    MovingBody,
     MovingItem,
     MovingName,
-    Stage,
+    Pane,
     Still,
     Track,
     extent,
 )
+from reportgen.drawing.charts import Area
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
-from reportgen.formula import Symbol, ids, vocabulary
-from reportgen.formula.sheet import Family
+from reportgen.formula import Symbol
+from reportgen.gears import gears_ids
 from reportgen.gears import pair_views as views
 from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
@@ -48,10 +46,8 @@ from reportgen.gears.pair_drawings import (
     turned,
 )
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import Block, Document
-from reportgen.report.key import Key, Span
+from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
-from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn, on_sheet
 
 
@@ -59,74 +55,38 @@ from reportgen.sheets.plates import drawn, on_sheet
 class PairCase(SolvedPair):
     """A gear pair, as a `Case`."""
 
-    @property
-    def families(self) -> Mapping[str, Family]:
-        return self.ledger.families
-
-    @property
-    def positions_of_a_turn(self) -> int:
-        return self.count
-
-    @property
-    def balance(self) -> None:
-        """It has no forces."""
-
-    @property
-    def speed(self) -> None:
-        """It has no speed."""
+    PAGE = views.PairPage
 
     def fault(self) -> str:
         return "gear-limits" if any(self.chosen.broken()) else ""
-
-    def document(self) -> Document:
-        return self.bounded(views.PairPage.report)
-
-    def summary(self) -> Sequence[Block]:
-        return self.bounded(views.PairPage.summary)
 
     @property
     def shafts(self) -> Sequence[Shaft]:
         """It has no speed: wheels of an outer mesh turn against each other."""
         return tuple(Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True))
 
-    def key(self) -> Key:
-        from reportgen.marking.key import make_key
-
-        labels = tuple(map(str, range(1, self.count + 1)))
-        return make_key(self, self.ledger, self.printed, Span(labels, self.count, self.worked), self._sense)
-
-    def _sense(self, id: str) -> str:
-        family = self.ledger[id]
-        return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
-
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.marking.paper import design_task
-
-        return self.bounded(partial(design_task, of=views.PairPage, key=key, by_section=by_section))
-
-    def results(self) -> dict[str, Any]:
+    @cached_property
+    def entries(self) -> ResultEntries:
         """The pair and its wheels, then contact and sliding along the active path, from its beginning on."""
-        from reportgen.marking.results import results
-
         ledger = self.ledger
-        own = sorted({parts["quantity"] for id in ledger.families if (parts := ids.gear.read(id))})
-        single = [one for one in own if len(ledger[ids.gear(one, 1)].values) == 1]
-        wheels = [{one: float(ledger[ids.gear(one, wheel)].values[0]) for one in single} for wheel in WHEELS]
+        own = sorted({parts["quantity"] for id in ledger.families if (parts := gears_ids.of_wheel.read(id))})
+        single = [one for one in own if len(ledger[gears_ids.of_wheel(one, 1)].values) == 1]
+        wheels = [{one: ledger[gears_ids.of_wheel(one, wheel)].values[0] for one in single} for wheel in WHEELS]
         pair = {
-            id.removeprefix("gears."): float(family.values[0])
+            id.removeprefix("gears."): family.values[0]
             for id, family in ledger.families.items()
-            if not ids.gear.read(id) and len(family.values) == 1
+            if not gears_ids.of_wheel.read(id) and len(family.values) == 1
         }
         along = ("rho.1", "rho.2", "lambda.1", "lambda.2")
         positions = [
-            {"number": k + 1, "contact": {one: float(ledger[f"gears.{one}"].values[k]) for one in along}}
+            {"number": k + 1, "contact": {one: ledger[f"gears.{one}"].values[k] for one in along}}
             for k in range(self.count)
         ]
         broken = [{"check": name, "wheel": wheel} for name, wheel, _, _ in self.chosen.broken()]
-        return results(self, positions, pair=pair, wheels=wheels, broken=broken)
+        return ResultEntries(positions, {"pair": pair, "wheels": wheels, "broken": broken})
 
-    def films(self) -> tuple[Film, ...]:
-        return (_film(self),)
+    def animations(self) -> tuple[Animation, ...]:
+        return (_animation(self),)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """There are no sets of them to choose from."""
@@ -134,11 +94,6 @@ class PairCase(SolvedPair):
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         return [_true_size(self, number) for number in (0, 1)]
-
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        return [*on_sheets(self, self.plates(), size, block), *self.true_sizes()]
 
 
 # --- the page on which it turns ---------------------------------------------------------------------
@@ -152,7 +107,7 @@ SHARP = 0.02
 """How far their polylines may be off there (mm)."""
 
 
-def _film(case: PairCase) -> Film:
+def _animation(case: PairCase) -> Animation:
     """Both wheels through a turn of wheel 1, from contact at the pitch point, and their mesh from near."""
     pair = case.gears
     φ = np.linspace(0, 2 * math.pi, SAMPLES + 1)
@@ -162,21 +117,19 @@ def _film(case: PairCase) -> Film:
     low, high = extent(whole)
     near = NEAR_ROOM / (PITCHES * math.pi * pair.m)
     half = NEAR_ROOM / 2 * (1 + 0.8j)
-    stages = [Stage("pair", case.title, tuple(whole), low=low, high=high, scales=(BarScale(1 / at, "segment"),))]
+    panes = [Pane("pair", case.title, tuple(whole), low=low, high=high, scales=(BarScale(1 / at, "segment"),))]
     if near > at:
         close, _ = _moving(pair, φ, near)
         scale = BarScale(1 / near, "segment")
-        stages.append(
-            Stage("mesh", str(case.words["pair"]["near"]), tuple(close), low=-half, high=half, scales=(scale,))
-        )
+        panes.append(Pane("mesh", str(case.words["pair"]["near"]), tuple(close), low=-half, high=half, scales=(scale,)))
     ratio = pair.teeth[0] / pair.teeth[1]
-    return Film(
+    return Animation(
         knots=np.degrees(φ),
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
         shown=0,
-        stages=tuple(stages),
+        panes=tuple(panes),
         charts=(),
         values=(
             MomentValue(Symbol("φ", "2"), "°", Track(np.degrees(ratio * φ)), 2),
@@ -198,7 +151,7 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
         body = Polyline(tuple(wheel.outline(SHARP / at) * at), FLANK, closed=True, fill=style.TINT)
         place = Track(np.array([o]))
         items += [
-            Carried((body, mark), place, Track(turned(pair, number, at_pitch) + turns)),
+            MovingBody((body, mark), place, Track(turned(pair, number, at_pitch) + turns)),
             Still((Circle(o, float(pair.d_w[number]) / 2 * at, style.THIN), *style.pivot(o))),
             MovingName(Symbol("O", str(number + 1)), place, (Track(np.array([o - 5j])),), 1.6),
         ]
@@ -213,7 +166,7 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
         touching += along <= end - start
         places = np.array([on_line(pair, start + one) * at for one in along])
         shown = Track(np.where(along <= end - start, places, complex(np.nan, np.nan)))
-        items.append(Carried((Circle(0j, 0.8, None, style.RED),), shown))
+        items.append(MovingBody((Circle(0j, 0.8, None, style.RED),), shown))
     return items, touching
 
 

@@ -13,13 +13,24 @@ import numpy as np
 
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arrow, Circle, Item, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.film import BarScale, Carried, Errors, Film, MomentValue, MovingItem, Stage, Track, extent
+from reportgen.drawing.animation import (
+    Animation,
+    BarScale,
+    Errors,
+    MomentValue,
+    MovingBody,
+    MovingItem,
+    Pane,
+    Track,
+    extent,
+)
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
-from reportgen.formula import Symbol, ids
+from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
+from reportgen.gears import train_ids
 from reportgen.gears.train import ALPHA, turned
 from reportgen.gears.train_solution import OTHER, SolvedTrain, pole_distance
 from reportgen.sheets.plates import on_sheet
@@ -170,15 +181,15 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
     to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
     """
     ledger = case.ledger
-    symbols = {of: ledger.symbol(ids.train_scale(of)) for of in ("l", "v", "omega")}
-    usual = {of: case.printed.number(ids.train_scale(of)) for of in symbols}
+    symbols = {of: ledger.symbol(train_ids.scale(of)) for of in ("l", "v", "omega")}
+    usual = {of: case.printed.number(train_ids.scale(of)) for of in symbols}
     larger = {of: usual[of].value / size.scale(usual[of].value) for of in ("l", "v")}
 
     def mm(id: str, of: str) -> float:
         return float(ledger[id].values[0]) * MM * larger[of] / size.enlarged
 
-    p1, p3, pH = (mm(ids.train_line(line), "l") for line in ("OA", "OP", "OB"))
-    Aa, Bb = (mm(ids.train_line(line), "v") for line in ("A", "B"))
+    p1, p3, pH = (mm(train_ids.line(line), "l") for line in ("OA", "OP", "OB"))
+    Aa, Bb = (mm(train_ids.line(line), "v") for line in ("A", "B"))
     slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
     h = float(ledger["train.pole"].values[0]) * MM
     if size.steps:
@@ -242,17 +253,17 @@ def toothed(teeth: int, radius: float, inner: bool = False) -> Polyline:
     return Polyline(tuple(points), Pen(0.2), closed=True)
 
 
-def film(case: SolvedTrain) -> Film:
+def animation(case: SolvedTrain) -> Animation:
     """One turn of the carrier, however many the wheels make of it."""
     knots = np.linspace(0, math.tau, SAMPLES + 1)
     a = radii(case)["H"] * _at(case)
-    return Film(
+    return Animation(
         knots=np.degrees(knots),
         turns=1,
         span=0.0,
         positions=(("1", 0.0),),
         shown=0,
-        stages=(_stage(case, knots),),
+        panes=(_pane(case, knots),),
         charts=(),
         values=tuple(_values(case)),
         errors=Errors(a * (1 - math.cos(math.pi / SAMPLES)), a, 0.0),
@@ -264,10 +275,10 @@ def _at(case: SolvedTrain) -> float:
     return FILMED / 2 / outermost(radii(case))
 
 
-def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
+def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
     train, r, at = case.train, radii(case), _at(case)
     z, (inner1, inner3) = train.teeth, case.scheme.inner
-    ω1, ω2, ωH = (float(case.ledger[ids.train_omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
+    ω1, ω2, ωH = (float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
     θ = math.copysign(1, ωH) * knots
     one, satellite = ω1 / ωH, ω2 / ωH
     still, placed = turned(train, case.given.k)
@@ -282,8 +293,8 @@ def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
         return toothed(teeth, radius), Line(0.25 * radius + 0j, 0.8 * radius + 0j, red)
 
     items: list[MovingItem] = [
-        Carried(marked("3", z.three, inner3), centre, Track(np.array([still]))),
-        Carried(marked("1", z.one, inner1), centre, Track(one * θ)),
+        MovingBody(marked("3", z.three, inner3), centre, Track(np.array([still]))),
+        MovingBody(marked("1", z.one, inner1), centre, Track(one * θ)),
     ]
     arm: list[Item] = [style.joint(0j)]
     for number, ψ in enumerate(placed):
@@ -291,16 +302,16 @@ def _stage(case: SolvedTrain, knots: np.ndarray) -> Stage:
         axis = r["H"] * at * cmath.rect(1, number * math.tau / case.given.k)
         place = Track(axis * np.exp(1j * θ))
         for wheel, teeth in [("2", z.two), (OTHER, z.other)][: 1 if case.scheme.single else 2]:
-            items.append(Carried(marked(wheel, teeth, False), place, Track(ψ + satellite * θ)))
+            items.append(MovingBody(marked(wheel, teeth, False), place, Track(ψ + satellite * θ)))
         arm += [Line(0j, axis, Pen(0.6, style.RED)), style.joint(axis)]
-    items.append(Carried(tuple(arm), centre, Track(θ)))
+    items.append(MovingBody(tuple(arm), centre, Track(θ)))
     low, high = extent(items)
-    return Stage("train", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),))
+    return Pane("train", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),))
 
 
 def _values(case: SolvedTrain) -> Iterator[MomentValue]:
     for id in case.ledger.families:
-        if id in ids.train_omega:
+        if id in train_ids.omega:
             number = case.printed.number(id)
             shown = case.ledger[id].at(1) / KINDS["angular velocity"].scale
             yield MomentValue(case.ledger.symbol(id), number.unit, Track(np.array([shown])), number.decimals or 2)

@@ -83,13 +83,13 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
-    for name, other in scheme.pitfalls.changed.get(id, ()):
+    for name, other in scheme.misconceptions.changed.get(id, ()):
         yield name, _with(other, {})
     if family.definition is not None:
         yield from _in_a_definition(scheme, family, family.definition, scales)
-    for name, reading in scheme.pitfalls.readings.get(id, ()):
+    for name, reading in scheme.misconceptions.readings.get(id, ()):
         yield name, _replaced_by(reading)
-    if (rod := scheme.pitfalls.whole.get(id)) is not None:
+    if (rod := scheme.misconceptions.whole.get(id)) is not None:
         yield "wrong-end", lambda value, values: values[rod] - value
     if is_direction(id):
         yield "direction-reversed", lambda value, _: value + np.pi
@@ -259,7 +259,11 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     first = {place: cell for place, cell in cells.items() if cell.first}
     found = (
         *_misplaced(scheme, first, cells),
-        *(("too-few-figures", place) for place, cell in first.items() if _has_too_few_figures(cell)),
+        *(
+            ("too-few-figures", place)
+            for place, cell in first.items()
+            if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place, cell)
+        ),
         # A scale was taken from the task while the plan was drawn at another.
         *(
             ("other-scale", place)
@@ -285,6 +289,15 @@ def _has_too_few_figures(cell: Marked) -> bool:
         given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > cell.band
         for value in (cell.own, cell.expected)
     )
+
+
+def _comes_of_a_misconception(working: Working, place: Place, cell: Marked) -> bool:
+    """Whether a mistake known of the quantity gives the value in all its figures: a_w = a of 200 mm is not rounded."""
+    (id, position), scheme = place, working.scheme
+    known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]
+    index = scheme.rows[id].at(position)
+    values = foreseen(working, [id], known)[id][:, index] / working.unit(id)[index]
+    return cell.given is not None and bool(np.isclose(values, cell.given, rtol=1e-9).any())
 
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:

@@ -10,12 +10,12 @@ from reportgen.report.case import Case, bounded
 
 def panels(case: Case) -> tuple[Panel, ...]:
     """What moves on the page of a case: a panel for the machine, one for each part that follows it."""
-    films = case.films()
-    if not films:
+    animations = case.animations()
+    if not animations:
         return ()
     from reportgen.page.panel import panel
 
-    return tuple(panel(film, case.assignment.language, case.words["page"]) for film in films)
+    return tuple(panel(animation, case.assignment.language, case.words["page"]) for animation in animations)
 
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:

@@ -15,21 +15,22 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import Language, write
-from reportgen.drawing import Content, Label, Line, Pen
-from reportgen.drawing.film import (
+from reportgen.drawing import Content, Label
+from reportgen.drawing.animation import (
     LAYERS,
-    Carried,
+    Animation,
     Chart,
-    Film,
+    MovingBody,
     MovingItem,
     MovingName,
     MovingVector,
-    Stage,
+    Pane,
     Still,
     Track,
+    scale_bars,
 )
 from reportgen.drawing.geometry import POINT, frame
-from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, VISIBLE, decimal
+from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
@@ -37,10 +38,6 @@ from reportgen.page.html import Panel, data, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
-BARS, STRIP, UP = 2, 7.0, 1.5
-"""How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
-TICK = 0.8
-"""Half the strokes at the ends of a scale bar (mm)."""
 LINE = 0.42
 """Half the height of a line of letters, in font sizes."""
 HIT = 4.0
@@ -49,9 +46,9 @@ HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "
 """Heads of the table of a point's motion, behind that of the driver's way."""
 
 
-def panel(film: Film, language: Language, words: Mapping[str, Any]) -> Panel:
+def panel(animation: Animation, language: Language, words: Mapping[str, Any]) -> Panel:
     """The panel of a machine or a part; `words` are those of pages (`page` in `words.yaml`)."""
-    return _Writer(film, language, words).panel()
+    return _Writer(animation, language, words).panel()
 
 
 class Tracks:
@@ -81,7 +78,7 @@ class Tracks:
 
 @dataclass(frozen=True, slots=True)
 class _Drawn:
-    """A stage as the frame prints it; lengths are mm, in texts as they stand in attributes."""
+    """A pane as the frame prints it; lengths are mm, in texts as they stand in attributes."""
 
     key: str
     title: str
@@ -107,48 +104,48 @@ class _Charted:
 
 
 class _Writer:
-    def __init__(self, film: Film, language: Language, words: Mapping[str, Any]) -> None:
-        self.film, self.language, self.words = film, language, words
-        self.own = f"{film.name}-" if film.name else ""
+    def __init__(self, animation: Animation, language: Language, words: Mapping[str, Any]) -> None:
+        self.animation, self.language, self.words = animation, language, words
+        self.own = f"{animation.name}-" if animation.name else ""
         self.pens, self.tracks = Pens(f"{self.own}m"), Tracks()
         self.painter, self.formulas = Painter(language, self.pens), MathmlFormulas(language)
         self.items: list[dict[str, Any]] = []
         """What each numbered element follows."""
-        self.grown = 1.0
+        self.enlargement = 1.0
         """How much larger letters, arrowheads and pens of arrows are than in figures."""
 
     def panel(self) -> Panel:
-        film, formula = self.film, self.formulas.content
-        machine, *plans = film.stages
+        animation, formula = self.animation, self.formulas.content
+        machine, *plans = animation.panes
         body = template("moving.html.j2").render(
             words=self.words,
-            film=film,
+            animation=animation,
             own=self.own,
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
-            machine=self.stage(machine),
-            plans=list(map(self.stage, plans)),
+            machine=self.pane(machine),
+            plans=list(map(self.pane, plans)),
             rates=[
                 ("v", formula(Symbol("v")), KINDS["velocity"].unit),
                 ("a", formula(Symbol("a")), KINDS["acceleration"].unit),
             ],
-            numbers=[(formula(value.symbol), value.unit) for value in film.values],
-            charts=list(map(self.chart, film.charts)),
+            numbers=[(formula(value.symbol), value.unit) for value in animation.values],
+            charts=list(map(self.chart, animation.charts)),
             accuracy=self.accuracy(),
         )
-        title = film.title or self.words["moving"]
+        title = animation.title or self.words["moving"]
         return Panel(self.own, title, body, self.pens.rules(), data(self.data()))
 
     def data(self) -> Mapping[str, Any]:
         """What the script reads; numbers are those of tracks."""
-        film, words, number = self.film, self.words, self.tracks.number
+        animation, words, number = self.animation, self.words, self.tracks.number
         return {
-            "knots": [float(f"{knot:.8g}") for knot in film.knots],
-            "turns": film.turns,
-            "span": film.span,
+            "knots": [float(f"{knot:.8g}") for knot in animation.knots],
+            "turns": animation.turns,
+            "span": animation.span,
             "language": self.language,
-            "positions": [[label, float(f"{angle:.9g}")] for label, angle in film.positions],
-            "shown": film.shown,
+            "positions": [[label, float(f"{angle:.9g}")] for label, angle in animation.positions],
+            "shown": animation.shown,
             "items": self.items,
             "spots": [
                 {
@@ -158,16 +155,16 @@ class _Writer:
                     "v": number(spot.velocity),
                     "a": number(spot.acceleration),
                 }
-                for spot in film.stages[0].spots
+                for spot in animation.panes[0].spots
             ],
             "finer": {
-                stage.key: {"at": number(stage.finer), "times": [stage.scales[0].per / one.per for one in stage.scales]}
-                for stage in film.stages
-                if stage.finer
+                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / one.per for one in pane.scales]}
+                for pane in animation.panes
+                if pane.finer
             },
-            "charts": list(map(self.axes, film.charts)),
-            "values": [[number(value.values), value.decimals] for value in film.values],
-            "heads": [f"{words['way']} (mm)" if film.span else f"{words['angle']} (°)", *HEADS],
+            "charts": list(map(self.axes, animation.charts)),
+            "values": [[number(value.values), value.decimals] for value in animation.values],
+            "heads": [f"{words['way']} (mm)" if animation.span else f"{words['angle']} (°)", *HEADS],
             "words": {key: words[key] for key in ("play", "pause", "keep", "release", "copied")},
             "lengths": self.tracks.lengths,
             "tracks": self.tracks.packed(),
@@ -175,9 +172,9 @@ class _Writer:
 
     def accuracy(self) -> str:
         """What drawing straight lines between samples costs, in words."""
-        errors = self.film.errors
+        errors = self.animation.errors
         shown = {
-            "count": len(self.film.knots) - 1,
+            "count": len(self.animation.knots) - 1,
             "place": rounded_up(errors.place, self.language),
             "crank": rounded_up(100 * errors.place / errors.crank, self.language),
             "share": rounded_up(100 * errors.share, self.language),
@@ -186,52 +183,39 @@ class _Writer:
 
     # --- drawings
 
-    def stage(self, stage: Stage) -> _Drawn:
+    def pane(self, pane: Pane) -> _Drawn:
         """A drawing in the box of all that it ever shows, about the origin of its places, y downwards; bars below."""
-        self.grown = stage.grown
-        strips = 1 if stage.finer else math.ceil(len(stage.scales) / BARS)
-        size = stage.high - stage.low + 1j * strips * STRIP * self.grown
+        self.enlargement = pane.enlargement
+        size = pane.high - scale_bars(pane)[0]
         width, height = decimal(size.real), decimal(size.imag)
         return _Drawn(
-            key=stage.key,
-            title=stage.title,
+            key=pane.key,
+            title=pane.title,
             width=width,
             height=height,
-            box=f"{decimal(stage.low.real)} {decimal(-stage.high.imag)} {width} {height}",
-            room=" ".join(map(decimal, (stage.low.real, -stage.high.imag, stage.high.real, -stage.low.imag))),
-            body="".join(map(self.item, stage.items)) + "".join(self.bars(stage)),
-            spots=tuple(spot.name for spot in stage.spots),
-            reach=decimal(HIT * self.grown),
+            box=f"{decimal(pane.low.real)} {decimal(-pane.high.imag)} {width} {height}",
+            room=" ".join(map(decimal, (pane.low.real, -pane.high.imag, pane.high.real, -pane.low.imag))),
+            body="".join(map(self.item, pane.items)) + "".join(self.bars(pane)),
+            spots=tuple(spot.name for spot in pane.spots),
+            reach=decimal(HIT * self.enlargement),
         )
 
-    def bars(self, stage: Stage) -> Iterator[str]:
+    def bars(self, pane: Pane) -> Iterator[str]:
         """A bar for each scale, its value above it; of scales in use in turns all in one place."""
-        grown, room = self.grown, (stage.high - stage.low).real / BARS
-        tick, stroke = 1j * TICK * grown, Pen(round(VISIBLE.width * grown, 3))
-        for number, scale in enumerate(stage.scales):
-            strip, column = divmod(0 if stage.finer else number, BARS)
-            value, length = scale.bar(room)
-            start = stage.low + (column * room + grown) - 1j * ((strip + 1) * STRIP - UP) * grown
-            end = start + length
-            lines = (
-                Line(start, end, stroke),
-                Line(start - tick, start + tick, stroke),
-                Line(end - tick, end + tick, stroke),
-            )
-            shown = Label(start + 1.5 * tick, value, "bottom-left", SMALL * grown)
+        for number, (scale, bar) in enumerate(scale_bars(pane)[1]):
             attributes = f' data-bar="{number}"'
-            if stage.finer:
+            if pane.finer:
                 attributes += f' data-scale="{number}"' + " hidden" * bool(number)
             if scale.layers:
                 attributes += f' data-of-layer="{" ".join(scale.layers)}" hidden'
-            yield f"<g{attributes}>{self.painter.items((*lines, shown))}</g>"
+            yield f"<g{attributes}>{self.painter.items(bar)}</g>"
 
     def item(self, item: MovingItem) -> str:
         """The element of an item; if it moves it gets a number, and what it follows goes into the data."""
         match item:
             case Still(items):
                 return self.element(self.painter.items(items), item.layer)
-            case Carried(items, at, angle):
+            case MovingBody(items, at, angle):
                 follows = {"at": self.tracks.number(at)}
                 if angle is not None:
                     follows["turn"] = self.tracks.number(angle)
@@ -245,7 +229,7 @@ class _Writer:
                     {
                         "label": self.tracks.number(at),
                         "off": list(map(self.tracks.number, neighbours)),
-                        "gap": round(gap * self.grown, 3),
+                        "gap": round(gap * self.enlargement, 3),
                         "size": self.half_size(content, LABEL),
                     },
                 )
@@ -263,12 +247,11 @@ class _Writer:
     def vector(self, item: MovingVector) -> str:
         follows: dict[str, Any] = {"from": self.tracks.number(item.start), "to": self.tracks.number(item.end)}
         stroke = item.stroke
-        dash = tuple(round(part * self.grown, 3) for part in stroke.dash)
-        parts = (
-            f'<path class="{self.pens.name(replace(stroke, width=round(stroke.width * self.grown, 3), dash=dash))}"/>'
-        )
+        dash = tuple(round(part * self.enlargement, 3) for part in stroke.dash)
+        pen = self.pens.name(replace(stroke, width=round(stroke.width * self.enlargement, 3), dash=dash))
+        parts = f'<path class="{pen}"/>'
         if item.head:
-            follows |= {"head": round(item.head * self.grown, 3), "slender": HEAD_SLENDERNESS}
+            follows |= {"head": round(item.head * self.enlargement, 3), "slender": HEAD_SLENDERNESS}
             parts += f'<path class="{self.pens.name(None, stroke.colour)}"/>'
         if item.beyond:
             follows["beyond"] = item.beyond
@@ -280,12 +263,12 @@ class _Writer:
         return self.element(parts, item.layer, follows)
 
     def label(self, content: Content, size: float) -> str:
-        return self.painter.label(Label(0j, content, size=size * self.grown))
+        return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
     def half_size(self, content: Content, size: float) -> list[float]:
         """Half the width and height of a label (mm), which is that of a line at least."""
-        _, half = frame(Label(0j, content, size=size * self.grown))
-        return [round(half.real, 2), round(max(half.imag, LINE * size * self.grown * POINT), 2)]
+        _, half = frame(Label(0j, content, size=size * self.enlargement))
+        return [round(half.real, 2), round(max(half.imag, LINE * size * self.enlargement * POINT), 2)]
 
     # --- curves
 

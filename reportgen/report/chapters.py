@@ -18,7 +18,8 @@ from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary,
 from reportgen.formula.plain import python
 from reportgen.formula.vocabulary import Chapter, on_plan
 from reportgen.machine import DRIVER
-from reportgen.machine.loads import FULL_TURN, Applied
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied
 from reportgen.report import (
     Block,
     Cell,
@@ -262,7 +263,7 @@ def symbol_kinds(report: Report) -> Mapping[str, list[str]]:
     """
     meanings: Mapping[str, str] = report.words["meanings"]
     kinds: dict[str, list[str]] = {name: [] for name in meanings.values()}
-    used = report.occurring
+    used = report.used_symbols
     for id, family in report.ledger.families.items():
         if not (family.hidden or family.is_plane) and (used is None or family.symbol in used):
             for name in islice(vocabulary.words_of(meanings, id, family.kind, family.symbol), 1):

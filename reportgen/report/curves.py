@@ -16,12 +16,12 @@ from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
-from reportgen.machine.loads import FULL_TURN
+from reportgen.machine.laws import FULL_TURN
 from reportgen.plans.sides import scheme
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
 from reportgen.report.figures import FigureScenes
-from reportgen.report.prose import lower_digits
+from reportgen.report.prose import subscripted
 from reportgen.report.report import Report
 
 THINNED = 4
@@ -178,16 +178,16 @@ def polar(report: Report) -> FigureScenes:
         pin = next(group.P for group in report.groups if edge.name == ids.reaction_force(ids.joint(group.i, DRIVER)))
         radius = fine.motion.points[pin].p - fine.motion.points[report.driver.centre].p
         load = fine.forces.reactions[edge.name].force * np.conj(radius / np.abs(radius)) * 1j
-        loads.setdefault(pin, {})[lower_digits(edge.name)] = load
+        loads.setdefault(pin, {})[subscripted(edge.name)] = load
     diagrams: list[Callable[..., Scene]] = []
     for name, parts in loads.items():
         shown = dict(parts)
         if len(parts) > 1:
             shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
-        along = names["along_crank"].format(arm=lower_digits(f"{report.driver.centre}{name}"))
+        along = names["along_crank"].format(arm=subscripted(f"{report.driver.centre}{name}"))
         for forces, load in shown.items():
             series = charts.PlottedCurve("", load.real, load.imag, _marks(report), numbers)
-            title = f"{names['pin']} {lower_digits(name)}: {forces}"
+            title = f"{names['pin']} {subscripted(name)}: {forces}"
             diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title, area=report.area))
     if len(diagrams) == 1 or report.area is not None:
         return FigureScenes(tuple(draw() for draw in diagrams))

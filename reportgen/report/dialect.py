@@ -154,10 +154,13 @@ class _Rewriting(NodeTransformer):
 
     def visit_Compare(self, node: nodes.Compare) -> nodes.Node:
         self.generic_visit(node)
-        for side in (node, *node.ops):
-            if not isinstance(side.expr, nodes.Const):
-                side.expr = self._by("value", side.expr)
+        node.expr = self._value(node.expr)
+        for operand in node.ops:
+            operand.expr = self._value(operand.expr)
         return node
+
+    def _value(self, node: nodes.Expr) -> nodes.Expr:
+        return node if isinstance(node, nodes.Const) else self._by("value", node)
 
     def visit_Getitem(self, node: nodes.Getitem) -> nodes.Node:
         self.generic_visit(node)

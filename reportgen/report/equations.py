@@ -33,7 +33,7 @@ from reportgen.plans.loads import Edge, Polygon
 from reportgen.plans.sides import Side
 from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.groups import Contact, GroupView
-from reportgen.report.prose import lower_digits
+from reportgen.report.prose import subscripted
 from reportgen.report.report import Report
 
 # --- numbers and symbols
@@ -116,7 +116,7 @@ def R(report: Report, digits: str, part: str = "") -> Symbol:
 
 def lowered(report: Report, text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
-    return lower_digits(text)
+    return subscripted(text)
 
 
 def group_kind(report: Report, group: GroupView) -> str:
@@ -355,7 +355,7 @@ def _unknown(report: Report, base: str, sub: str, sup: str, side: Side | None) -
 def _direction(report: Report, side: Side) -> str:
     """The direction of what is sought on a side."""
     if side.turns:
-        return f"⊥ {lower_digits(side.rod)}"
+        return f"⊥ {subscripted(side.rod)}"
     return str(report.words["vector"]["along_slot" if side.carrier is None else "along_guide"])
 
 
@@ -365,14 +365,14 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     sought = _unknown(report, "a", side.pair, "τ" if side.turns else "r", side)
     if side.turns:
         size = ledger.symbol(side.velocity) ** 2 / ledger.symbol(ids.length(side.rod))
-        way = f"{lower_digits(side.point)} → {lower_digits(side.base)}"
-        direction = f"∥ {lower_digits(side.rod)}"
+        way = f"{subscripted(side.point)} → {subscripted(side.base)}"
+        direction = f"∥ {subscripted(side.rod)}"
         return _term(report, "a", side.pair, "n", direction=direction, sense=way, size=size), sought
     if not side.turning:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
     across = words["across_slot" if side.carrier is None else "across_guide"]
-    turned = words["turned"].format(link=lower_digits(str(side.turning)))
+    turned = words["turned"].format(link=subscripted(str(side.turning)))
     sense = Chain((ledger.symbol(side.velocity),), turned)
     return _term(report, "a", side.pair, "k", direction=across, sense=sense, size=twice), sought
 
@@ -386,11 +386,11 @@ def _base(report: Report, side: Side, what: str) -> Term:
         return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
     length, omega = ledger.symbol(ids.length(arm)), ledger.symbol("omega.1")
     if what == "v":
-        direction, sense = f"⊥ {lower_digits(arm)}", words["with_crank"]
+        direction, sense = f"⊥ {subscripted(arm)}", words["with_crank"]
         return _term(report, "v", side.shown, "", direction=direction, sense=sense, size=omega * length)
     size = omega**2 * length
-    way = lower_digits(f"{side.base} → {report.driver.centre}")
-    return _term(report, "a", side.shown, "", direction=f"∥ {lower_digits(arm)}", sense=way, size=size)
+    way = subscripted(f"{side.base} → {report.driver.centre}")
+    return _term(report, "a", side.shown, "", direction=f"∥ {subscripted(arm)}", sense=way, size=size)
 
 
 def _on_crank(report: Report, name: str) -> bool:
@@ -449,7 +449,7 @@ def _force(report: Report, group: GroupView, edge: Edge) -> Term:
     shown = report.force_vector(edge.name)
     if edge.part and way.turns:
         normal = edge.part == "n"
-        along = f"{'∥' if normal else '⊥'} {lower_digits(way.rod)}"
+        along = f"{'∥' if normal else '⊥'} {subscripted(way.rod)}"
         return Term(shown, (along, None if normal else words["computed"]))
     if edge.unknown:
         return Term(shown, (words["across_guide"] if way.guided else None, None))

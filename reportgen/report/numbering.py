@@ -17,7 +17,7 @@ from reportgen.base.errors import DocumentError
 from reportgen.report import plain
 
 if TYPE_CHECKING:
-    from reportgen.report.case import Opened
+    from reportgen.report.case import LoadedAssignment
 
 _COUNTED_LEVELS = 3
 
@@ -26,7 +26,9 @@ Blocks = tuple[tree.Block, ...]
 Change = Callable[[tree.Inlines], tree.Inlines]
 
 
-def finished(case: Opened, blocks: Iterable[tree.Block], close: bool = False, title: str = "") -> tree.Document:
+def finished(
+    case: LoadedAssignment, blocks: Iterable[tree.Block], close: bool = False, title: str = ""
+) -> tree.Document:
     """The numbered document of a case with its header and footer, under the title of a report unless another is given.
 
     Raises `DocumentError`.

@@ -42,13 +42,13 @@ from reportgen.report import (
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
 from reportgen.report import phrases as steps
-from reportgen.report.case import Calculation
+from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
-from reportgen.report.occurring import occurring
 from reportgen.report.report import Report
+from reportgen.report.used_symbols import used_symbols
 
 # --- names without parentheses ----------------------------------------------------------------------
 
@@ -209,6 +209,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     name that nobody draws.
     """
     key, draw = FIGURES[name]
+    at = ""
     if arguments and isinstance(arguments[0], str):
         key, caption, *shown = arguments
     else:
@@ -216,6 +217,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
         group = next((one for one in shown if isinstance(one, GroupView)), None)
         position = next((one for one in shown if isinstance(one, Position)), None)
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
+        at = "" if position is None else str(position)
         links = {"i": group.i, "j": group.j} if group else None
         caption = report.words["captions"][words or name].format(k=position, g=links)
     drawn = draw(report, *shown)
@@ -226,10 +228,10 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
-        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned),)
+        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned, at=at),)
     first, *others = drawn.scenes
     further = (Plate(scene, drawn.paper, continues=True) for scene in others)
-    return Plate(first, drawn.paper, inlines, key), *further
+    return Plate(first, drawn.paper, inlines, key, at=at), *further
 
 
 def smaller(report: Report, name: str) -> Inlines:
@@ -445,7 +447,7 @@ LISTING = "symbols"
 """The section of what all others use."""
 
 
-def compose(case: Calculation) -> Document:
+def compose(case: MachineAnalysis) -> Document:
     """The finished, numbered report of a machine; raises `TemplateError` for a fault in its words."""
     report = Report(case)
     words, named = report.words, names(report)
@@ -455,7 +457,7 @@ def compose(case: Calculation) -> Document:
         if section == "contents":
             continue
         if section == LISTING:
-            whole = replace(report, occurring=occurring(chain.from_iterable(written.values())))
+            whole = replace(report, used_symbols=used_symbols(chain.from_iterable(written.values())))
             named["table"] = partial(table, whole)
         written[section] = report.prose.render(section, named)
     if "contents" in report.sections:

@@ -217,8 +217,8 @@ class PlanSeries:
         word = self.report.words["table"]["position"]
         for k in self.positions:
             shown = replace(self.drawing(self.report, k).lettered, scale=None, lines=()).scaled(share)
-            title = f"{word} {self.report.machine.position(k)}"
-            yield plan(shown, title=title, enlarged=False, margin=CLOSE_MARGIN)
+            at = str(self.report.machine.position(k))
+            yield replace(plan(shown, title=f"{word} {at}", enlarged=False, margin=CLOSE_MARGIN), at=at)
 
 
 class _Sketch:

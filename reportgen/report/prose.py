@@ -464,6 +464,6 @@ def _origin(error: Exception, search: tuple[Path, ...], name: str) -> Place:
     return str(home(name, own)[0]), 1
 
 
-def lower_digits(text: str) -> str:
+def subscripted(text: str) -> str:
     """Digits of point names as lowered digits: O1A → O₁A."""
     return text.translate(str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"))

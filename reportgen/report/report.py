@@ -21,13 +21,14 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
-from reportgen.machine.loads import FULL_TURN, Applied, Piston, Torque
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
-from reportgen.report.case import Calculation
+from reportgen.report.case import MachineAnalysis
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
-from reportgen.report.prose import Prose, lower_digits
+from reportgen.report.prose import Prose, subscripted
 
 PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
@@ -78,10 +79,10 @@ class Report:
     on a drawing sheet.  Curves are drawn from `samples` of the cycle if they are given.
     """
 
-    case: Calculation
+    case: MachineAnalysis
     enlarged: float = 1.0
     samples: Analysis | None = None
-    occurring: frozenset[Symbol] | None = None
+    used_symbols: frozenset[Symbol] | None = None
     """The symbols that its text uses, once it is written."""
 
     # --- what it is made of
@@ -280,7 +281,7 @@ class Report:
             return names
         words = self.words["linkage"]["given"]
         declared = {
-            id: words[what] + (lower_digits(of) if what == "length" else of) for id, what, of in self.own["quantities"]
+            id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
         return {**declared, "unevenness": words["unevenness"]}
 
@@ -319,7 +320,7 @@ class Report:
     @property
     def loads(self) -> tuple[Applied | Torque, ...]:
         """The forces and torques applied to the machine."""
-        return (*self.machine.applied, *self.machine.torques)
+        return self.machine.loads
 
     @property
     def speed_in_rpm(self) -> bool:

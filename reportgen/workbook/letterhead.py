@@ -150,20 +150,22 @@ def _last_section(package: Package) -> Iterator[tuple[str, Attributes]]:
 
 def _margins(attributes: Attributes, package: Package) -> dict[str, float]:
     """The margins by the names that pages have for them (mm); they leave room on the page of a report."""
-    found = {}
+    margins = {}
     for name, own in MARGINS.items():
         if name in attributes:
             if not _NUMBER.fullmatch(attributes[name]):
                 raise package.refused("letterhead-value", text=f"{name}={attributes[name]}")
-            found[own] = abs(float(attributes[name])) / _TWIPS
+            margins[own] = abs(float(attributes[name])) / _TWIPS
     for sides, size in PAGE.items():
         # What a file does not say is as in reports; half a page is enough for any single one.
-        if sum(found.get(side, 0.0) for side in sides) > size - LEAST_ROOM:
-            told = ", ".join(f"{found[side]:.6g}" for side in sides if side in found)
-            raise package.refused("letterhead-margins", text=told)
-    if max((found.get(side, 0.0) for side in ("above", "below")), default=0.0) > LEAST_ROOM:
-        raise package.refused("letterhead-margins", text=", ".join(f"{found[side]:.6g}" for side in ("above", "below")))
-    return found
+        if sum(margins.get(side, 0.0) for side in sides) > size - LEAST_ROOM:
+            lengths = ", ".join(f"{margins[side]:.6g}" for side in sides if side in margins)
+            raise package.refused("letterhead-margins", text=lengths)
+    if max((margins.get(side, 0.0) for side in ("above", "below")), default=0.0) > LEAST_ROOM:
+        raise package.refused(
+            "letterhead-margins", text=", ".join(f"{margins[side]:.6g}" for side in ("above", "below"))
+        )
+    return margins
 
 
 def _part(package: Package, name: str, called: str) -> str:

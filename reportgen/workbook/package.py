@@ -154,15 +154,15 @@ class Package:
 
     def elements(self, name: str) -> list[tuple[str, Attributes]]:
         """All elements of a part, in order, with their attributes, names without namespaces."""
-        found: list[tuple[str, Attributes]] = []
+        elements: list[tuple[str, Attributes]] = []
 
         def start(tag: str, attributes: Attributes) -> None:
-            found.append((_local(tag), {_local(key): value for key, value in attributes.items()}))
-            if len(found) > MOST_ELEMENTS:
+            elements.append((_local(tag), {_local(key): value for key, value in attributes.items()}))
+            if len(elements) > MOST_ELEMENTS:
                 raise self.bomb()
 
         self.walk(name, start)
-        return found
+        return elements
 
     def content(self, name: str) -> bytes:
         """The bytes of a part; raises `RefusedError` for damage or more bytes than the directory announced."""

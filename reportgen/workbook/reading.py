@@ -92,8 +92,8 @@ def _judged(package: Package) -> tuple[bytes, list[int], bool]:
     listed = [attributes.get("id", "") for tag, attributes in package.elements(workbook) if tag == "sheet"]
     if len(listed) > MOST_SHEETS:
         raise too_large(package.mark)
-    found = {places[id] for id in listed if places.get(id, "") in package}
-    if len(found) < len(listed):
+    present = {places[id] for id in listed if places.get(id, "") in package}
+    if len(present) < len(listed):
         raise package.refused("sheet-damaged")
     sheets = [places[id] for id in listed if relations[id].kind == "worksheet"]
     if not sheets:
@@ -154,14 +154,14 @@ def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tup
     from openpyxl.cell.read_only import ReadOnlyCell
 
     cells: dict[int, dict[int, SheetCell]] = {}
-    found = 0
+    rows_read = 0
     for number, pair in enumerate(_whole(read, mark), start=1):
         if number > MOST_GROUPS:
             raise RefusedError("sheet-damaged", mark(number, 1))
         for typed, stored in zip(*pair, strict=True):
             if not isinstance(typed, ReadOnlyCell):
                 continue
-            found += 1
+            rows_read += 1
             row, column = typed.row, typed.column
             cell = _cell(typed, stored, mark(row, column))
             if cell.blank:
@@ -171,7 +171,7 @@ def _rows(read: Iterator[tuple[Row, Row]], count: int, mark: Marks) -> tuple[tup
             if isinstance(cell.value, str) and len(cell.value) > LONGEST_CELL:
                 raise too_long(cell.mark)
             cells.setdefault(row, {})[column] = cell
-    if found != count:
+    if rows_read != count:
         # openpyxl leaves out rows and cells that are not in order.
         raise RefusedError("sheet-damaged", mark(1, 1))
     lengths = {row: max(columns) for row, columns in cells.items()}

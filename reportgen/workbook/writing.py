@@ -129,8 +129,8 @@ def _fill(page: Worksheet, sheet: BookSheet) -> None:
     for number, width in enumerate(sheet.widths, start=1):
         page.column_dimensions[get_column_letter(number)].width = width
     for row, entries in enumerate(sheet.rows, start=1):
-        for column, one in enumerate(entries, start=1):
-            entry = one if isinstance(one, Entry) else Entry(one)
+        for column, content in enumerate(entries, start=1):
+            entry = content if isinstance(content, Entry) else Entry(content)
             if entry == Entry():
                 continue
             cell: Any = page.cell(row, column)

@@ -74,9 +74,19 @@ def test_a_comma_where_yaml_parts_is_the_fault(tmp_path: Path) -> None:
     assert (problem.code, problem.mark.column, problem.hint) == ("decimal-comma", 79, "write 1.6 N or 1600 N")
     (problem,) = checked(tmp_path, "1,400,000 N")
     assert (problem.code, problem.hint) == ("decimal-comma", "write 1400000 N")
+    (problem,) = checked(tmp_path, "1.600,5 N")
+    assert (problem.code, problem.hint) == ("decimal-comma", "write 1600.5 N")
+    (problem,) = checked(tmp_path, "\N{MINUS SIGN}1,600 N")
+    assert (problem.code, problem.hint) == ("decimal-comma", "write -1.6 N or -1600 N")
     # A key that is one is none of the number's digits.
     assert [one.code for one in checked(tmp_path, "16 N, 5: 3")] == ["unknown-key"]
     assert [one.code for one in checked(tmp_path, "16 N, 5 N")] == ["unknown-key"]
+
+
+def test_no_hint_leads_into_the_doubt(tmp_path: Path) -> None:
+    """A unit that is missing is named with both readings of 1.600, and beside 1.375 alone."""
+    assert [one.hint for one in checked(tmp_path, "1.600")] == ["write 1.6 N or 1600 N"]
+    assert [one.hint for one in checked(tmp_path, "1.375")] == ["write for example “1.375 N”"]
 
 
 def test_the_point_of_a_list_is_the_decimal_one_where_another_number_says_so(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ from reportgen.cases import open_case
 from reportgen.drawing import Arc, Circle, Label
 from reportgen.drawing.style import arc_with_head
 from reportgen.formula import Chain, Number, Symbol
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
@@ -101,13 +102,13 @@ def test_the_arrow_of_the_rotation_has_a_tip(name: str) -> None:
 def test_the_follower_touches_the_turning_cam(name: str) -> None:
     """On the page the point of contact, turned into the cam's frame, lies on the profile that turns."""
     case = open_case(FOLDER / f"{name}.yaml", "en")
-    (film,) = case.films()
-    assert film.errors.place < 0.05
+    (animation,) = case.animations()
+    assert animation.errors.place < 0.05
     cam = cam_of(name)
-    traced = cam.traced(np.radians(film.knots))
+    profile = cam.profile_at(np.radians(animation.knots))
     outline = cam.outline(20_000)
-    assert farthest(traced.working[::20], outline) < 1e-8
-    for chart in film.charts:
+    assert farthest(profile.working[::20], outline) < 1e-8
+    for chart in animation.charts:
         low, high = chart.plotted.y
         for curve in chart.curves:
             assert low - 1e-6 <= curve.values.values.min()
@@ -149,7 +150,7 @@ def test_the_least_cam_is_that_of_a_search() -> None:
 @pytest.mark.parametrize("name", ["roller-01", "shaper-feed", "flat-01"])
 def test_sheets_print_their_own_scales(name: str) -> None:
     """On the drawing sheet the base circle times the scale below it is r₀, in each plate that shows it."""
-    (sheet, profile) = open_case(FOLDER / f"{name}.yaml", "en").sheets()
+    (sheet, profile) = drawing_sheets(open_case(FOLDER / f"{name}.yaml", "en"))
     met = 0
     for part in sheet.parts:
         scales = [

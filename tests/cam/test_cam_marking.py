@@ -15,6 +15,7 @@ from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
+from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Policy, marking_scheme
 from tests.marking import demo, students
@@ -58,7 +59,7 @@ def graded(drawn: Path) -> Graded:
 
 
 def test_variants_differ(drawn: Path) -> None:
-    answers = {open_case(path).key().row("cam.least.r0").values[0] for path in (drawn / "variants").glob("S*.yaml")}
+    answers = {key_of(open_case(path)).row("cam.least.r0").values[0] for path in (drawn / "variants").glob("S*.yaml")}
     assert len(answers) > STUDENTS / 2
 
 
@@ -134,7 +135,7 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
 def test_the_wrong_sign_is_far_off() -> None:
     """The feed cam's ψ′ with the other sign: the pressure angle is more than 38° off where the arm is fastest."""
     case = open_case(FOLDER / "shaper-feed.yaml", "en")
-    wrong = dict(case.pitfalls.changed)["cam.k"][0][1]
+    wrong = dict(case.misconceptions.changed)["cam.k"][0][1]
     values = case.ledger.evaluate({"cam.k": lambda _, before: np.atleast_1d(evaluate(wrong, before))})
     right = case.ledger["cam.alpha"].values
     off = np.degrees(np.abs(values["cam.alpha"] - right))
@@ -144,8 +145,10 @@ def test_the_wrong_sign_is_far_off() -> None:
 def test_mistakes_have_words_in_both_languages() -> None:
     for language in get_args(Language):
         case = open_case(FOLDER / "roller-01.yaml", language)
-        pitfalls = case.pitfalls
-        names = {name for many in (*pitfalls.changed.values(), *pitfalls.readings.values()) for name, _ in many}
+        misconceptions = case.misconceptions
+        names = {
+            name for many in (*misconceptions.changed.values(), *misconceptions.readings.values()) for name, _ in many
+        }
         for name in names:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]

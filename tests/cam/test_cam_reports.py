@@ -14,6 +14,7 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
+from reportgen.marking.key import key_of
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "cam").glob("*.yaml"))
@@ -70,11 +71,11 @@ def test_every_value_recomputes_from_printed_ones(name: str) -> None:
         for k in positions:
             chain = written.chain(id, k)
             assert recomputes(chain) in (True, None), (id, k)
-    traced, ledger = case.solution.traced, case.ledger.evaluate()  # type: ignore[attr-defined]
-    pairs = {"cam.s": traced.s, "cam.psi": traced.s, "cam.alpha": traced.alpha, "cam.rho": traced.rho}
+    profile, ledger = case.solution.profile, case.ledger.evaluate()  # type: ignore[attr-defined]
+    pairs = {"cam.s": profile.s, "cam.psi": profile.s, "cam.alpha": profile.alpha, "cam.rho": profile.rho}
     if not case.solution.cam.flat:  # type: ignore[attr-defined]
-        pairs |= {"cam.pitch.x": traced.pitch.real, "cam.pitch.y": traced.pitch.imag}
-    pairs |= {"cam.profile.x": traced.working.real, "cam.profile.y": traced.working.imag}
+        pairs |= {"cam.pitch.x": profile.pitch.real, "cam.pitch.y": profile.pitch.imag}
+    pairs |= {"cam.profile.x": profile.working.real, "cam.profile.y": profile.working.imag}
     for id, values in pairs.items():
         if id in ledger:
             assert np.abs(ledger[id] - values).max() <= 1e-12 * np.abs(values).max(), id
@@ -99,5 +100,5 @@ def test_the_words_of_both_languages_name_the_same() -> None:
     """No row of a key is without words, in either language."""
     for file in FILES:
         for language in ("vi", "en"):
-            rows = open_case(file, language).key().rows  # type: ignore[arg-type]
+            rows = key_of(open_case(file, language)).rows  # type: ignore[arg-type]
             assert [row.id for row in rows if not row.what] == [], (file.stem, language)

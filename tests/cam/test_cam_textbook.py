@@ -35,7 +35,7 @@ def motion(stroke: float, phases: tuple[float, ...], rise: str, back: str) -> Fo
 
 def worst(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
     """Angle of the cam and ±α there, in degrees."""
-    numbers = [n for n, one in enumerate(cam.motion.stretches) if one.phase == phase]
+    numbers = [n for n, one in enumerate(cam.motion.intervals) if one.phase == phase]
     φ, α = max((cam.worst(n, lambda one: sign * one.alpha) for n in numbers), key=lambda one: one[1])
     return math.degrees(φ), math.degrees(α)
 
@@ -69,8 +69,8 @@ def test_C1_eccentric_circle() -> None:
     cam = Cam(motion(2, (180, 0, 180), "cosine", "cosine"), True, False, 2.0, roller=0.375)
     assert worst(cam, "rise", 1) == pytest.approx((math.degrees(math.acos(1 / 3)), 19.471), abs=5e-4)
     φ = np.linspace(0, 2 * math.pi, 73)
-    assert np.abs(cam.traced(φ).pitch) == pytest.approx(3 - np.cos(φ))
-    at = cam.traced(np.array([math.acos(1 / 3)]))
+    assert np.abs(cam.profile_at(φ).pitch) == pytest.approx(3 - np.cos(φ))
+    at = cam.profile_at(np.array([math.acos(1 / 3)]))
     assert at.rho[0] == pytest.approx(2 * math.sqrt(2))
     assert at.rho[0] - cam.roller == pytest.approx(2.453, abs=5e-4)
 
@@ -82,9 +82,9 @@ def test_C2_offset_roller() -> None:
     assert worst(cam, "rise", 1) == pytest.approx((49.6, 22.79), abs=0.05)
     assert worst(cam, "rise", 1)[1] == pytest.approx(22.79, abs=5e-3)
     assert worst(cam, "return", -1) == pytest.approx((255.0, 46.92), abs=5e-3)
-    traced = cam.sampled()
-    assert traced.rho[traced.rho > 0].min() == pytest.approx(45 * MM)
-    assert (traced.rho[traced.rho > 0].min() - cam.roller) == pytest.approx(39 * MM)
+    profile = cam.sampled()
+    assert profile.rho[profile.rho > 0].min() == pytest.approx(45 * MM)
+    assert (profile.rho[profile.rho > 0].min() - cam.roller) == pytest.approx(39 * MM)
 
 
 def test_C3_small_offset() -> None:
@@ -108,13 +108,13 @@ def test_C4_shaper_feed(opposite: int, rise: float, back: float) -> None:
     moved = motion(math.radians(15), (72.58, 0, 72.58), "sine", "sine")
     cam = Cam(moved, False, False, 80 * MM, a=180 * MM, arm=132 * MM, opposite=opposite)
     assert math.degrees(cam.psi0) == pytest.approx(23.963, abs=5e-4)
-    traced = cam.sampled(3600)
-    up = np.degrees(traced.alpha[traced.φ < moved.phases[0]])
-    down = np.degrees(traced.alpha[(traced.φ > moved.phases[0]) & (traced.φ < moved.starts["near"])])
+    profile = cam.sampled(3600)
+    up = np.degrees(profile.alpha[profile.φ < moved.phases[0]])
+    down = np.degrees(profile.alpha[(profile.φ > moved.phases[0]) & (profile.φ < moved.starts["near"])])
     greatest = [float(one[np.abs(one).argmax()]) for one in (up, down)]
     assert greatest == pytest.approx([rise, back], abs=5e-3)
-    assert np.abs(traced.pitch).max() / MM == pytest.approx(113.47, abs=5e-3)
-    assert traced.rho[traced.rho > 0].min() / MM == pytest.approx(49.15, abs=5e-3)
+    assert np.abs(profile.pitch).max() / MM == pytest.approx(113.47, abs=5e-3)
+    assert profile.rho[profile.rho > 0].min() / MM == pytest.approx(49.15, abs=5e-3)
 
 
 def test_C5_limit_lines() -> None:

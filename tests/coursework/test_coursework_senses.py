@@ -14,8 +14,8 @@ from reportgen.coursework.booklet import groups, told
 from reportgen.coursework.case import Coursework
 from reportgen.coursework.senses import PartShafts, turning
 from reportgen.report import Block, Inlines, Section, Table, plain, text_of
-from reportgen.report.occurring import explained, is_explained, occurring
 from reportgen.report.shafts import Shaft
+from reportgen.report.used_symbols import explained, is_explained, used_symbols
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 FOLDER = ASSIGNMENTS / "coursework"
@@ -156,10 +156,10 @@ def test_symbols_that_are_explained_where_they_stand_are_not_listed_again() -> N
     case, document = whole(), whole().document()
     (table,) = [one for one in document.blocks if isinstance(one, Table) and one.key == "tab.symbols.parts"]
     assert len(table.rows) < 45
-    listed = {symbol for row in table.rows for symbol in occurring([_alone(row)])}
+    listed = {symbol for row in table.rows for symbol in used_symbols([_alone(row)])}
     for member in case.members:
         letters, blocks = case.letters[member.name], member.document.blocks
-        known, used = explained(blocks), occurring(blocks)
+        known, used = explained(blocks), used_symbols(blocks)
         for family in member.case.printed.families.values():
             if family.symbol in used and not family.hidden and not is_explained(family.symbol, known):
                 shown = letters.get(family.symbol, family.symbol)
@@ -174,7 +174,7 @@ def _alone(row: tuple[object, ...]) -> Table:
 
 
 def _has_words(case: object, id: str) -> bool:
-    from reportgen.marking.key import phrase
+    from reportgen.report.wording import phrase
 
     return bool(phrase(id, case.printed, case.words))  # type: ignore[attr-defined]
 

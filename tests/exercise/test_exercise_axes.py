@@ -9,8 +9,8 @@ import pytest
 
 from reportgen import api
 from reportgen.drawing import Arrow
-from reportgen.exercise.board import Axis, Step, Vector
 from reportgen.exercise.case import ExerciseCase
+from reportgen.exercise.derivation import Axis, Step, Vector
 from reportgen.exercise.figures import FIGURES
 from reportgen.exercise.solution import Worked
 from reportgen.exercise.views import COORDINATES, Axes, Solution

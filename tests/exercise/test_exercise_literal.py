@@ -75,9 +75,9 @@ def case(name: str) -> ExerciseCase:
 
 
 def literal(name: str, id: str) -> Expression:
-    board = case(name).literal
-    assert board is not None
-    found = board[id]
+    derivation = case(name).literal
+    assert derivation is not None
+    found = derivation[id]
     assert found is not None
     return found
 
@@ -97,9 +97,9 @@ def test_published_expressions(name: str, id: str) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_expressions_are_what_the_numbers_come_to(name: str, tmp_path: Path) -> None:
-    """Every quantity on the board that is known by symbols, at random values of theirs."""
-    board, chance = case(name).literal, random.Random(name)
-    assert board is not None
+    """Every quantity in the derivation that is known by symbols, at random values of theirs."""
+    derivation, chance = case(name).literal, random.Random(name)
+    assert derivation is not None
     ids = [id for id in case(name).ledger.families if not id.startswith(("turn.", "centre.", "alpha."))]
     text = (FOLDER / f"{name}.yaml").read_text(encoding="utf-8")
     for index in range(TIMES):
@@ -110,7 +110,7 @@ def test_expressions_are_what_the_numbers_come_to(name: str, tmp_path: Path) -> 
         ledger = ExerciseCase(catalogue.load(path)).ledger
         compared = 0
         for id in ids:
-            found = board[id]
+            found = derivation[id]
             if found is not None and id in ledger:
                 number = float(ledger[id].values[0])
                 assert isclose(float(evaluate(found, values)), number, rel_tol=1e-9, abs_tol=1e-9), id
@@ -126,6 +126,6 @@ def _unit(name: str, symbol: str) -> str:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_every_answer_is_an_expression(name: str) -> None:
-    board = case(name).literal
-    assert board is not None
-    assert [one.id for one in case(name).exercise.asked if one.what != "centre" and board[one.id] is None] == []
+    derivation = case(name).literal
+    assert derivation is not None
+    assert [one.id for one in case(name).exercise.asked if one.what != "centre" and derivation[one.id] is None] == []

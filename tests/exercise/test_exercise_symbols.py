@@ -62,15 +62,15 @@ def worked_out(folder: Path, a: int, b: int) -> ExerciseCase:
 @example(0, 90)
 def test_expressions_come_to_the_numbers(tmp_path: Path, a: int, b: int) -> None:
     case = worked_out(tmp_path, a, b)
-    motion, board = case.exercise.motion, case.literal
-    assert board is not None
+    motion, derivation = case.exercise.motion, case.literal
+    assert derivation is not None
     for asked in case.exercise.asked:
-        found = board[asked.id]
+        found = derivation[asked.id]
         if found is not None:
             number = abs(motion.v(asked.of)) if asked.what == "v" else abs(motion.omega(asked.body))
-            assert float(evaluate(found, board.at)) == pytest.approx(number, rel=1e-8, abs=1e-9)
+            assert float(evaluate(found, derivation.at)) == pytest.approx(number, rel=1e-8, abs=1e-9)
     if (a, b) == (0, 90):
-        assert all(board[asked.id] is not None for asked in case.exercise.asked)
+        assert all(derivation[asked.id] is not None for asked in case.exercise.asked)
 
 
 @proof

@@ -162,7 +162,7 @@ def test_bodies_move_on_as_their_rates_say(path: Path) -> None:
 
 @pytest.mark.parametrize("name", sorted(path.stem for path in FILES))
 def test_the_written_steps_come_to_the_same(name: str) -> None:
-    """Every velocity, acceleration and rotation on the board has the size that the linear system gives it."""
+    """Every velocity, acceleration and rotation on the derivation has the size that the linear system gives it."""
     ledger = case(name).worked.ledger
     values = ledger.evaluate()
     compared = 0

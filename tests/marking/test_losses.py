@@ -75,7 +75,7 @@ def test_a_normal_part_left_out_is_one_mistake_with_a_name() -> None:
 def test_a_working_load_forgotten_is_one_mistake_with_a_name(machine: str) -> None:
     """The load is printed on the task, so no cell of the sheet shows it."""
     scheme = students.scheme(machine, (2,))
-    load = next(one for one in scheme.pitfalls.loads if not one.startswith(("G", "Pqt")))
+    load = next(one for one in scheme.misconceptions.loads if not one.startswith(("G", "Pqt")))
     world = students.worked_out(scheme, Mistake("", load, {load: lambda value, _: value * 0}))
     marking = mark(scheme, students.written(scheme, world))
     assert 1 <= lost(marking) <= MOST

@@ -13,10 +13,10 @@ import pytest
 
 from reportgen.base.units import Language
 from reportgen.cases import MachineCase
-from reportgen.drawing.film import Film, Stage, Track
+from reportgen.drawing.animation import Animation, Pane, Track
 from reportgen.machine.analysis import Analysis, analyse
 from reportgen.page import page
-from reportgen.page.sampling import film
+from reportgen.page.sampling import animation
 from reportgen.report.report import Report
 from tests.lanes import matrix
 from tests.report import built
@@ -44,8 +44,8 @@ class Made:
         return Report(self.case)
 
     @cached_property
-    def film(self) -> Film:
-        return film(self.case)
+    def animation(self) -> Animation:
+        return animation(self.case)
 
     @property
     def scale(self) -> float:
@@ -55,18 +55,18 @@ class Made:
     @property
     def crank(self) -> float:
         """The drawn crank, or way of a sliding driver (mm)."""
-        return self.film.errors.crank
+        return self.animation.errors.crank
 
-    def stage(self, key: str) -> Stage:
-        return next(stage for stage in self.film.stages if stage.key == key)
+    def pane(self, key: str) -> Pane:
+        return next(pane for pane in self.animation.panes if pane.key == key)
 
     def per(self, key: str, degrees: float) -> float:
         """What a millimetre of a plan stands for at a cycle angle, in SI units."""
-        stage, cycle = self.stage(key), np.append(self.film.knots[:-1], self.film.knots[:-1] + 360.0)
-        if stage.finer is None:
-            return stage.scales[0].per
+        pane, cycle = self.pane(key), np.append(self.animation.knots[:-1], self.animation.knots[:-1] + 360.0)
+        if pane.finer is None:
+            return pane.scales[0].per
         at = int(np.abs(cycle - degrees).argmin())
-        return stage.scales[int(stage.finer.values[at % stage.finer.values.size])].per
+        return pane.scales[int(pane.finer.values[at % pane.finer.values.size])].per
 
     def solved(self, degrees: Any) -> Analysis:
         """The solver's own answer at cycle angles."""
@@ -77,7 +77,9 @@ class Made:
         values = track.values
         if values.size == 1:
             return np.full(degrees.shape, values[0])
-        return np.interp(degrees, self.film.knots, values.real) + 1j * np.interp(degrees, self.film.knots, values.imag)
+        return np.interp(degrees, self.animation.knots, values.real) + 1j * np.interp(
+            degrees, self.animation.knots, values.imag
+        )
 
 
 @cache

@@ -59,7 +59,7 @@ def test_reduced_motion_starts_paused(browser: Browser) -> None:
     file = made.made(built.SAMPLE, "vi").file
     browser.show(file, still=True)
     assert not browser.run("return moving.playing()")
-    shown = made.made(built.SAMPLE, "vi").film
+    shown = made.made(built.SAMPLE, "vi").animation
     assert browser.run("return moving.angle()") == pytest.approx(shown.positions[shown.shown][1])
     browser.run("document.getElementById('play').click()")
     assert browser.run("return moving.playing()")
@@ -110,12 +110,12 @@ def test_values_of_a_point_over_the_turn(browser: Browser) -> None:
         "document.getElementById('save').click();"
     )
     rows = browser.driver.execute_async_script("setTimeout(() => arguments[0](saved[0]), 300)").split("\r\n")
-    spot = page.film.stages[0].spots[1]
-    assert len(rows) == len(page.film.knots) + 2
-    solved = page.solved(page.film.knots[:-1]).motion.points[spot.name]
+    spot = page.animation.panes[0].spots[1]
+    assert len(rows) == len(page.animation.knots) + 2
+    solved = page.solved(page.animation.knots[:-1]).motion.points[spot.name]
     for index in (0, 17, 200):
         angle, x, y, vx, vy, v, *_ = map(float, rows[index + 1].split(","))
-        assert angle == pytest.approx(page.film.knots[index])
+        assert angle == pytest.approx(page.animation.knots[index])
         assert complex(x, y) == pytest.approx(complex(solved.p[index]), rel=1e-5)
         assert complex(vx, vy) == pytest.approx(complex(solved.v[index]), rel=1e-5, abs=1e-5)
         assert v == pytest.approx(abs(complex(vx, vy)), rel=1e-5)

@@ -30,20 +30,20 @@ BAR = """
 const bar = document.querySelector(`[data-stage='${arguments[0]}'] [data-bar]:not([hidden])`);
 return [bar.querySelector("path").getBBox().width, /[\\d.,]+/.exec(bar.textContent)[0]];
 """
-"""The length (mm) of the bar of a stage and the number beside it."""
+"""The length (mm) of the bar of a pane and the number beside it."""
 
 
 def angles(page: Made) -> np.ndarray:
     """Angles of the cycle that are no samples, the same in every run."""
     chance = random.Random(page.file.stem)
-    return np.array([chance.uniform(0.0, 360.0 * page.film.turns) for _ in range(ANGLES)])
+    return np.array([chance.uniform(0.0, 360.0 * page.animation.turns) for _ in range(ANGLES)])
 
 
-def vectors(stage: dict[str, list[list[float]]]) -> dict[str, list[tuple[complex, complex]]]:
+def vectors(pane: dict[str, list[list[float]]]) -> dict[str, list[tuple[complex, complex]]]:
     """(start, end) of each vector by its name, y upwards."""
     return {
         name: [(complex(x1, -y1), complex(x2, -y2)) for x1, y1, x2, y2 in ends]
-        for name, ends in stage["vectors"].items()
+        for name, ends in pane["vectors"].items()
     }
 
 
@@ -57,7 +57,7 @@ def test_it_opens_in_silence_asks_for_nothing_and_plays(page: Made, browser: Bro
     browser.run("document.getElementById('play').click()")
     assert not browser.run("return moving.playing()")
     # Each numbered position has its button, the way on from one to the next a key.
-    angle = page.film.positions[0][1]
+    angle = page.animation.positions[0][1]
     browser.run("document.querySelector('[data-position=\"0\"]').click()")
     assert browser.run("return moving.angle()") == pytest.approx(angle, abs=1e-6)
     assert browser.messages() == []
@@ -111,13 +111,13 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
     constructions = {what: motion_construction(report, what) for what in ("v", "a")}
     constructions |= {f"R{polygon.name}": force_construction(report, polygon) for polygon in page.case.polygons}
     numbers = sorted({*page.case.assignment.worked_positions, 1, machine.positions})
-    found = browser.drawn([page.film.positions[k - 1][1] for k in numbers])
+    found = browser.drawn([page.animation.positions[k - 1][1] for k in numbers])
     for k, shown in zip(numbers, found, strict=True):
         turn = (k - 1) % machine.count + 1
         expected = {key: unrounded(page, one, k if key[0] == "R" else turn) for key, one in constructions.items()}
         for key, plan in expected.items():
             own = float(page.case.ledger[f"mu.{key}"].at(k if key.startswith("R") else None)) / MM
-            larger = own / page.per(key, page.film.positions[k - 1][1])
+            larger = own / page.per(key, page.animation.positions[k - 1][1])
             drawn = vectors(shown[key])
             seen = [v for v in plan.vectors if v.length > MEASURED / larger]
             for vector in seen:
@@ -131,7 +131,7 @@ def test_at_numbered_positions_plans_are_the_report_s_figures(page: Made, browse
 def test_a_bar_says_what_the_arrows_beside_it_stand_for(page: Made, browser: Browser) -> None:
     """The one bar that is shown, by its drawn length and its value as read, against the solver."""
     browser.keep(page.file)
-    for angle in (page.film.positions[1][1], page.film.positions[-1][1]):
+    for angle in (page.animation.positions[1][1], page.animation.positions[-1][1]):
         solved, (shown,) = page.solved([angle]), browser.drawn([angle])
         sizes = {what: {n: abs(getattr(p, what)[0]) for n, p in solved.motion.points.items()} for what in "va"}
         for polygon in page.case.polygons:
@@ -150,10 +150,10 @@ def test_no_label_covers_another(page: Made, browser: Browser) -> None:
     """At 36 moments of a page as it opens, on a wide and on a narrow screen; no point of the machine is unnamed."""
     for width in (1440, 390):
         browser.show(page.file, width=width, still=True)
-        for moment, stages in enumerate(browser.labels([10.0 * page.film.turns * n for n in range(36)])):
+        for moment, panes in enumerate(browser.labels([10.0 * page.animation.turns * n for n in range(36)])):
             # Its names and one bar.
-            assert len(stages["machine"]) == len(page.case.analysis.motion.points) + 1, moment
-            for key, boxes in stages.items():
+            assert len(panes["machine"]) == len(page.case.analysis.motion.points) + 1, moment
+            for key, boxes in panes.items():
                 for (left, top, right, bottom, one), (*low, x, y, other) in combinations(boxes, 2):
                     apart = max(left - x, low[0] - right, top - y, low[1] - bottom)
                     assert apart > -COVERED, (key, moment, one, other)
@@ -166,22 +166,22 @@ def test_between_samples_the_error_is_below_the_one_stated(page: Made) -> None:
     at.sort()
     motion = page.solved(at).motion
     worst = 0.0
-    for spot in page.film.stages[0].spots:
+    for spot in page.animation.panes[0].spots:
         true = motion.points[spot.name]
         worst = max(worst, float(np.abs(page.between(spot.on_stage, at) - true.p * page.scale).max()))
         for shown, rate in ((spot.velocity, true.v), (spot.acceleration, true.a)):
             off = np.abs(page.between(shown, at) - rate).max()
-            assert off <= 1.05 * page.film.errors.share * np.abs(rate).max() + 1e-12, spot.name
-    assert worst <= page.film.errors.place
+            assert off <= 1.05 * page.animation.errors.share * np.abs(rate).max() + 1e-12, spot.name
+    assert worst <= page.animation.errors.place
     # It is no idle bound: somewhere a curve is so much bent.
-    assert worst > page.film.errors.place / 4
-    assert page.film.errors.place < 1e-3 * page.crank
+    assert worst > page.animation.errors.place / 4
+    assert page.animation.errors.place < 1e-3 * page.crank
 
 
 def test_a_point_tells_its_motion(page: Made, browser: Browser) -> None:
     browser.keep(page.file)
-    spots = page.film.stages[0].spots
-    angle = page.film.positions[1][1]
+    spots = page.animation.panes[0].spots
+    angle = page.animation.positions[1][1]
     browser.run("moving.pause(); moving.seek(arguments[0])", angle)
     motion = page.solved([angle]).motion
     chosen = "const s = document.getElementById('point'); s.value = arguments[0]; s.dispatchEvent(new Event('change'));"

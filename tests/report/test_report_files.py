@@ -41,30 +41,43 @@ def headings(report: Report) -> list[tuple[str, int]]:
         for block in report.document.blocks
         if isinstance(block, Section) and block.level <= 3
     ]
-    printed = [pages.text(glyph for glyph in found if glyph.bold) for found in report.bodies]
-    skipped = contents_pages(report)
+    printed = [pages.text(glyph for glyph in found if glyph.bold) for found in without_contents(report)]
     found: list[tuple[str, int]] = []
     at = 0
     for title in sections:
-        at = next(page for page in range(at, len(printed)) if page not in skipped and title in printed[page])
+        at = next(page for page in range(at, len(printed)) if title in printed[page])
         found.append((title, at + 1))
     return found
 
 
-def contents_pages(report: Report) -> range:
-    """Indices of the page with the title of the contents and of those after it that end with an entry."""
+def contents(report: Report) -> dict[int, list[Glyph]]:
+    """The glyphs of the contents by the index of their page: from the title down to the last line that ends an entry.
+
+    Short contents share their page with what follows them.
+    """
     (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
-    printed = [pages.text(found) for found in report.bodies]
-    start = next(page for page, text in enumerate(printed) if text.startswith(squash(title)))
-    last = start
-    while re.search(r"\.{5}\d+$", printed[last + 1]):
-        last += 1
-    return range(start, last + 1)
+    start = next(index for index, found in enumerate(report.bodies) if pages.text(found).startswith(squash(title)))
+    found: dict[int, list[Glyph]] = {}
+    for index, body in enumerate(report.bodies[start:], start):
+        lines: dict[int, list[Glyph]] = {}
+        for glyph in body:
+            lines.setdefault(round(glyph.origin[1]), []).append(glyph)
+        ends = [base for base, line in lines.items() if re.search(r"\.{5}\d+$", pages.text(line))]
+        if not ends:
+            break
+        found[index] = [glyph for glyph in body if glyph.origin[1] < max(ends) + 1]
+    return found
+
+
+def without_contents(report: Report) -> list[list[Glyph]]:
+    """The glyphs of each page's body that are none of the contents."""
+    own = {id(glyph) for found in contents(report).values() for glyph in found}
+    return [[glyph for glyph in found if id(glyph) not in own] for found in report.bodies]
 
 
 def test_contents_tell_the_page_on_which_each_heading_stands(report: Report) -> None:
     (title,) = (block.title for block in report.document.blocks if isinstance(block, Contents))
-    printed = "".join(pages.text(report.bodies[number]) for number in contents_pages(report))
+    printed = "".join(map(pages.text, contents(report).values()))
     entries = (re.escape(heading) + r"\.*" + str(page) for heading, page in headings(report))
     assert re.fullmatch(re.escape(squash(title)) + "".join(entries), printed)
 

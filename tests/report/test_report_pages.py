@@ -16,7 +16,7 @@ from tests.report import built, pages
 from tests.report.built import Report, Written
 from tests.report.pages import Page
 from tests.report.test_report_figures import captions
-from tests.report.test_report_files import contents_pages
+from tests.report.test_report_files import contents
 from tests.report.thin_pages import thin
 
 pytest.importorskip("pymupdf")
@@ -70,7 +70,7 @@ def test_a_force_plan_is_called_where_it_is_named(written: Written) -> None:
 
 def test_few_pages_are_thin(report: Report) -> None:
     plates = {page.number - 1 for page in report.pages if page.is_plate}
-    own = {0, *contents_pages(report), len(report.pages) - 1, *plates}
+    own = {0, *contents(report), len(report.pages) - 1, *plates}
     found = [index for index in thin(report.pages) if index not in own]
     assert len(found) <= max(SHARE * len(report.pages), FEW), [index + 1 for index in found]
 

@@ -10,7 +10,7 @@ const panelOf = (root, panels) => {
   // What a panel has by an id begins with its own name, as the panel itself; that of the machine has none.
   const own = root.id.slice(0, -"moving".length), byId = (name) => root.querySelector(`#${own}${name}`);
   const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
-  let film, values, starts, drawing, now;
+  let animation, values, starts, drawing, now;
 
   // --- samples
 
@@ -21,8 +21,8 @@ const panelOf = (root, panels) => {
 
   // The sample before an angle (degrees), of the turn and of the cycle, and how far on to the next it is.
   const place = (angle) => {
-    const knots = film.knots, last = knots.length - 1;
-    const turn = Math.min(Math.floor(angle / 360), film.turns - 1), local = angle - 360 * turn;
+    const knots = animation.knots, last = knots.length - 1;
+    const turn = Math.min(Math.floor(angle / 360), animation.turns - 1), local = angle - 360 * turn;
     let low = 0, high = last;
     while (high - low > 1) {
       const middle = (low + high) >> 1;
@@ -33,7 +33,7 @@ const panelOf = (root, panels) => {
   };
 
   const value = (track) => {
-    const length = film.lengths[track], start = starts[track];
+    const length = animation.lengths[track], start = starts[track];
     if (length === 1) return values[start];
     const index = start + (length === now.ofTurn ? now.turn : now.cycle), one = values[index];
     return now.share === 0 ? one : one + now.share * (values[index + 1] - one);
@@ -41,14 +41,14 @@ const panelOf = (root, panels) => {
 
   // A drawing that is small at the moment is shown at a finer scale, that of the sample nearest by.
   const rescale = (part) => {
-    const finer = film.finer[part.element.dataset.stage];
+    const finer = animation.finer[part.element.dataset.stage];
     if (!finer) return;
     const index = sample(finer.at, now.cycle + (now.share > 0.5 ? 1 : 0));
     part.zoom = finer.times[index];
     part.bars.forEach((one, number) => one.toggleAttribute("hidden", number !== index));
   };
 
-  const sample = (track, index) => values[starts[track] + (film.lengths[track] === 1 ? 0 : index)];
+  const sample = (track, index) => values[starts[track] + (animation.lengths[track] === 1 ? 0 : index)];
 
   // --- drawing
 
@@ -167,7 +167,7 @@ const panelOf = (root, panels) => {
   };
 
   const follower = (element, stage) => {
-    const item = film.items[element.dataset.i];
+    const item = animation.items[element.dataset.i];
     if (item.from !== undefined) return vector(element, item, stage);
     return item.label === undefined ? carried(element, item, stage) : name(element, item, stage);
   };
@@ -177,7 +177,7 @@ const panelOf = (root, panels) => {
     let text = number.toFixed(decimals);
     if (Number(text) === 0) text = text.replace("-", "");
     text = text.replace("-", "−");
-    return film.language === "vi" ? text.replace(".", ",") : text;
+    return animation.language === "vi" ? text.replace(".", ",") : text;
   };
 
   // Another text in the same node: nothing is put in or taken out.
@@ -188,20 +188,20 @@ const panelOf = (root, panels) => {
   const decimalsFor = (greatest) => Math.min(Math.max(4 - Math.floor(Math.log10(greatest || 1)), 0), 5);
 
   const chart = (element) => {
-    const about = film.charts[element.dataset.chart], [left, bottom, right, top] = about.box;
+    const about = animation.charts[element.dataset.chart], [left, bottom, right, top] = about.box;
     const cursor = element.querySelector(".cursor"), dots = element.querySelectorAll(".dot");
     const outputs = element.querySelectorAll("output"), width = about.x[1] - about.x[0];
-    const oneTurn = !film.span && width < 360 * film.turns - 1;
+    const oneTurn = !animation.span && width < 360 * animation.turns - 1;
     const decimals = decimalsFor(Math.max(...about.y.map(Math.abs)));
     const svg = element.querySelector(".over");
     svg.addEventListener("pointerdown", (event) => {
       const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
       const x = about.x[0] + (at.x - left) / (right - left) * width;
       pause();
-      seek(film.span ? x / film.span * 360 : x + (oneTurn ? 360 * Math.floor(state.angle / 360) : 0));
+      seek(animation.span ? x / animation.span * 360 : x + (oneTurn ? 360 * Math.floor(state.angle / 360) : 0));
     });
     return (readable) => {
-      const along = film.span ? state.angle / 360 * film.span : oneTurn ? state.angle % 360 : state.angle;
+      const along = animation.span ? state.angle / 360 * animation.span : oneTurn ? state.angle % 360 : state.angle;
       const x = short(left + (along - about.x[0]) / width * (right - left));
       cursor.setAttribute("d", `M${x} ${bottom}V${top}`);
       about.curves.forEach((track, index) => {
@@ -241,7 +241,7 @@ const panelOf = (root, panels) => {
     // Figures that change faster than this cannot be read.
     if (readable && visible(drawing.numbers)) {
       drawing.outputs.forEach((output, index) => {
-        const [track, decimals] = film.values[index];
+        const [track, decimals] = animation.values[index];
         say(output, written(value(track), decimals));
       });
     }
@@ -250,13 +250,13 @@ const panelOf = (root, panels) => {
       state.told = time;
       tell();
     }
-    const told = film.span ? `${written(state.angle / 360 * film.span, 1)} mm` : `${written(state.angle, 1)}°`;
+    const told = animation.span ? `${written(state.angle / 360 * animation.span, 1)} mm` : `${written(state.angle, 1)}°`;
     if (!state.playing || drawing.count % 3 === 0) drawing.slider.value = state.angle;
     if (readable) {
       say(drawing.told, told);
       drawing.slider.setAttribute("aria-valuetext", told);
     }
-    const near = film.positions.findIndex(([, at]) => Math.abs(at - state.angle) < 1e-4);
+    const near = animation.positions.findIndex(([, at]) => Math.abs(at - state.angle) < 1e-4);
     if (near !== drawing.near) {
       drawing.near = near;
       drawing.buttons.forEach((button, index) => {
@@ -266,8 +266,8 @@ const panelOf = (root, panels) => {
   };
 
   const seek = (angle) => {
-    const whole = 360 * film.turns;
-    state.angle = film.span ? Math.min(Math.max(angle, 0), whole) : ((angle % whole) + whole) % whole;
+    const whole = 360 * animation.turns;
+    state.angle = animation.span ? Math.min(Math.max(angle, 0), whole) : ((angle % whole) + whole) % whole;
     draw();
   };
 
@@ -276,7 +276,7 @@ const panelOf = (root, panels) => {
     const passed = Math.min(time - state.last, 100) / 1000;
     state.pace += (time - state.last - state.pace) / 8;
     state.last = time;
-    const whole = 360 * film.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
+    const whole = 360 * animation.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
     state.angle = next >= whole ? next % whole : next;
     // A panel that is not on the screen goes on unseen.
     if (visible(root)) draw();
@@ -284,7 +284,7 @@ const panelOf = (root, panels) => {
   };
 
   const mark = () => {
-    drawing.play.textContent = state.playing ? film.words.pause : film.words.play;
+    drawing.play.textContent = state.playing ? animation.words.pause : animation.words.play;
   };
   const play = () => {
     if (state.playing) return;
@@ -297,7 +297,7 @@ const panelOf = (root, panels) => {
 
   // The next numbered position on either side.
   const step = (sense) => {
-    const at = film.positions.map(([, angle]) => angle);
+    const at = animation.positions.map(([, angle]) => angle);
     const on = sense > 0 ? at.find((angle) => angle > state.angle + 1e-3) : at.findLast((angle) => angle < state.angle - 1e-3);
     pause();
     seek(on === undefined ? at[sense > 0 ? 0 : at.length - 1] : on);
@@ -306,7 +306,7 @@ const panelOf = (root, panels) => {
   const keys = {
     ArrowRight: () => seek(Math.round(state.angle) + 1), ArrowUp: () => seek(Math.round(state.angle) + 1),
     ArrowLeft: () => seek(Math.round(state.angle) - 1), ArrowDown: () => seek(Math.round(state.angle) - 1),
-    PageUp: () => step(1), PageDown: () => step(-1), Home: () => seek(0), End: () => seek(360 * film.turns - 1e-6),
+    PageUp: () => step(1), PageDown: () => step(-1), Home: () => seek(0), End: () => seek(360 * animation.turns - 1e-6),
   };
   const key = (event) => {
     if (!keys[event.key] || event.altKey || event.ctrlKey || event.metaKey) return;
@@ -319,7 +319,7 @@ const panelOf = (root, panels) => {
 
   const told = () => {
     const index = drawing.pointed ?? (drawing.point.value === "" ? null : Number(drawing.point.value));
-    return index === null ? null : film.spots[index];
+    return index === null ? null : animation.spots[index];
   };
   const tell = () => {
     const spot = told();
@@ -331,10 +331,10 @@ const panelOf = (root, panels) => {
     }
   };
   const table = (spot, between) => {
-    const rows = [film.heads.join(between)];
-    film.knots.forEach((knot, index) => {
+    const rows = [animation.heads.join(between)];
+    animation.knots.forEach((knot, index) => {
       const [x, y, vx, vy, ax, ay] = ["p", "v", "a"].flatMap((what) => [sample(spot[what], index), sample(spot[what] + 1, index)]);
-      const driver = film.span ? knot / 360 * film.span : knot;
+      const driver = animation.span ? knot / 360 * animation.span : knot;
       const row = [driver, x, y, vx, vy, Math.hypot(vx, vy), ax, ay, Math.hypot(ax, ay)];
       rows.push(row.map((number) => isFinite(number) ? String(Number(number.toPrecision(7))) : "").join(between));
     });
@@ -352,7 +352,7 @@ const panelOf = (root, panels) => {
       document.execCommand("copy");
       area.remove();
     }
-    drawing.copied.textContent = film.words.copied;
+    drawing.copied.textContent = animation.words.copied;
     setTimeout(() => { drawing.copied.textContent = ""; }, 2000);
   };
   const save = () => {
@@ -366,16 +366,16 @@ const panelOf = (root, panels) => {
   // Kept in view while one reads; one panel at a time is.
   const hold = (on) => {
     root.classList.toggle("held", on);
-    drawing.keep.textContent = on ? film.words.release : film.words.keep;
+    drawing.keep.textContent = on ? animation.words.release : animation.words.keep;
   };
 
   // --- setting up, and anew when the page is renewed
 
   const mount = (data) => {
-    film = data;
-    values = unpack(film.tracks);
+    animation = data;
+    values = unpack(animation.tracks);
     starts = [];
-    film.lengths.reduce((start, length) => { starts.push(start); return start + length; }, 0);
+    animation.lengths.reduce((start, length) => { starts.push(start); return start + length; }, 0);
     const find = (query) => root.querySelector(query), all = (query) => [...root.querySelectorAll(query)];
     drawing = {
       layers: {}, near: -1, count: 0, slider: byId("angle"), told: byId("told"), play: byId("play"), numbers: find(".numbers"),
@@ -389,7 +389,7 @@ const panelOf = (root, panels) => {
       part.followers = [...element.querySelectorAll("[data-i]")].map((one) => (
         { element: one, update: follower(one, part), layer: one.dataset.ofLayer }));
       element.querySelectorAll(".spot").forEach((one) => {
-        const spot = film.spots[one.dataset.spot];
+        const spot = animation.spots[one.dataset.spot];
         part.followers.push({ element: one, update: carried(one, { at: spot.at }, part) });
         const point = (index) => () => { drawing.pointed = index; tell(); };
         one.addEventListener("pointerenter", point(Number(one.dataset.spot)));
@@ -425,7 +425,7 @@ const panelOf = (root, panels) => {
     byId("save").addEventListener("click", save);
     drawing.buttons.forEach((button, index) => button.addEventListener("click", () => {
       pause();
-      seek(film.positions[index][1]);
+      seek(animation.positions[index][1]);
     }));
     drawing.keep.addEventListener("click", () => {
       const on = !root.classList.contains("held");
@@ -454,7 +454,7 @@ const panelOf = (root, panels) => {
     byId("speed").value = rate;
     now = undefined;
     mount(JSON.parse(samples));
-    const index = film.spots.findIndex((spot) => spot.name === chosen);
+    const index = animation.spots.findIndex((spot) => spot.name === chosen);
     drawing.point.value = index < 0 ? "" : String(index);
     if (focused) document.getElementById(focused)?.focus();
     seek(state.angle);
@@ -463,7 +463,7 @@ const panelOf = (root, panels) => {
   let shown = { samples: document.getElementById(`${own}samples`).textContent };
   mount(JSON.parse(shown.samples));
   const start = () => {
-    seek(film.positions[film.shown][1]);
+    seek(animation.positions[animation.shown][1]);
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
   };
   return { root, own, start, hold, seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };

@@ -1,4 +1,4 @@
-"""What stands on the board: quantities with their numbers, vectors, steps, and equations solved by projection."""
+"""What stands in the derivation: quantities with their numbers, vectors, steps, and equations solved by projection."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Vector:
 
 
 @dataclass(frozen=True, slots=True)
-class BoardEquation:
+class DerivationEquation:
     """Σ left = Σ right, vectors; `unknown` are the ids of the two whose sizes are not known yet."""
 
     left: tuple[Vector, ...]
@@ -70,7 +70,7 @@ class Step:
     body: int = 0
     point: str = ""
     base: str = ""
-    equation: BoardEquation | None = None
+    equation: DerivationEquation | None = None
     axes: tuple[Axis, ...] = ()
     """What the equation is projected on, in the order of the lines."""
     frame: int = 0
@@ -89,7 +89,7 @@ class Step:
         return self.kind.startswith(("acceleration", "system-eps", "train-eps", "block-eps"))
 
 
-# --- the board ------------------------------------------------------------------------------------
+# --- the derivation ------------------------------------------------------------------------------------
 
 
 class Quantities(Sheet):
@@ -114,8 +114,8 @@ class Quantities(Sheet):
 
 
 @dataclass
-class Board:
-    """What stands on the board so far: the sheet with its numbers, and the steps that led to them."""
+class Derivation:
+    """What stands in the derivation so far: the sheet with its numbers, and the steps that led to them."""
 
     q: Sheet
     layout: Layout
@@ -127,13 +127,13 @@ class Board:
     def motion(self) -> InstantMotion:
         return self.layout.motion
 
-    def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
+    def length(self, start_name: str, end_name: str, one_at: complex | None = None) -> Ref:
         """The distance of two points, by the name l.OA."""
-        id = ids.length(one, other)
-        if found := self.q.find(id) or self.q.find(ids.length(other, one)):
-            return found
-        start = self.layout.points[one] if one_at is None else one_at
-        value = abs(self.layout.points[other] - start)
+        id = ids.length(start_name, end_name)
+        if known := self.q.find(id) or self.q.find(ids.length(end_name, start_name)):
+            return known
+        start = self.layout.points[start_name] if one_at is None else one_at
+        value = abs(self.layout.points[end_name] - start)
         return self.q.give(id, value, exact=is_short(value))
 
     def given(self, id: str, value: float) -> Ref:
@@ -153,11 +153,11 @@ class Board:
         return ids.velocity(point) in self.q
 
     def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
-        """Those of the vectors that are on the board and are not nothing."""
+        """Those of the vectors that are in the derivation and are not nothing."""
         return tuple(one for one in vectors if self.knows(one.id) and self.q.si(one.id))
 
     def velocity(self, point: str) -> Vector:
-        """The velocity of a point that is on the board."""
+        """The velocity of a point that is in the derivation."""
         return Vector(ids.velocity(point), direction_of(self.at(point)))
 
     def at(self, point: str, body: int | None = None) -> complex:
@@ -191,8 +191,8 @@ def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
 
 def components(q: Sheet, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
     """The components along an axis of those vectors that have one."""
-    found = (along(q, vector, axis) for vector in vectors)
-    return [one for one in found if one is not None]
+    projected = (along(q, vector, axis) for vector in vectors)
+    return [one for one in projected if one is not None]
 
 
 def solved_for(
@@ -245,14 +245,14 @@ def angle(q: Sheet, value: float) -> Expression:
 class Projected:
     """Σ left = Σ right, with the lines that are worked out of it and the axes that it is projected on.
 
-    What the board does not know at the beginning is unknown in it.
+    What the derivation does not know at the beginning is unknown in it.
     """
 
     def __init__(
-        self, board: Board, left: tuple[Vector, ...], right: tuple[Vector, ...], lines: tuple[str, ...] = ()
+        self, derivation: Derivation, left: tuple[Vector, ...], right: tuple[Vector, ...], lines: tuple[str, ...] = ()
     ) -> None:
-        unknown = tuple(one.id for one in (*left, *right) if not board.knows(one.id))
-        self.board, self.equation = board, BoardEquation(left, right, unknown)
+        unknown = tuple(one.id for one in (*left, *right) if not derivation.knows(one.id))
+        self.derivation, self.equation = derivation, DerivationEquation(left, right, unknown)
         self.lines, self.axes = lines, tuple[Axis, ...]()
 
     def find(self, vector: Vector, axis: complex, letter: Letter, point: str, symbol: Symbol | str = "") -> Ref:
@@ -263,13 +263,13 @@ class Projected:
         left, right = self.equation.left, self.equation.right
         here, there = (left, right) if vector in left else (right, left)
         others = [one for one in here if one != vector]
-        found = solved_for(self.board.q, vector.direction, axis, there, others)
+        size = solved_for(self.derivation.q, vector.direction, axis, there, others)
         self.axes += (Axis(letter, axis if letter == "ξ" else towards(axis, vector.direction), point),)
-        return self.then(self.board.q.define(vector.id, found, symbol))
+        return self.then(self.derivation.q.define(vector.id, size, symbol))
 
     def find_sum(self, what: str, point: str) -> None:
         """Enters the size of what the right side adds up to, v or a of a point, from its components along x and y."""
-        q, component, sides = self.board.q, ids.COMPONENT[what], []
+        q, component, sides = self.derivation.q, ids.COMPONENT[what], []
         for axis, letter in COORDINATES:
             if terms := components(q, self.equation.right, axis):
                 side = q.define(component(point, letter), total(terms), Symbol(what, f"{point}{letter}"))
@@ -283,6 +283,6 @@ class Projected:
         return line
 
     def step(self, kind: str, body: int, point: str, base: str = "") -> None:
-        """Puts the step on the board that all this was."""
+        """Puts the step in the derivation that all this was."""
         step = Step(kind, self.lines, body, point, base, equation=self.equation, axes=self.axes)
-        self.board.steps.append(step)
+        self.derivation.steps.append(step)

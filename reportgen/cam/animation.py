@@ -11,27 +11,27 @@ from reportgen.base.units import significant_decimals
 from reportgen.cam.diagrams import angle_axis, axis, motion_charts, pressure_chart
 from reportgen.cam.drawings import PITCH, fitting, follower_parts, guide_walls, pivot_of
 from reportgen.cam.laws import NODE, Floats
-from reportgen.cam.profile import Complexes, Traced
+from reportgen.cam.profile import CamProfile, Complexes
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Circle, Item, Line, Polyline, style
-from reportgen.drawing.charts import PlottedCurve, plotted
-from reportgen.drawing.film import (
+from reportgen.drawing.animation import (
+    Animation,
     BarScale,
-    Carried,
     Chart,
     Curve,
     Errors,
-    Film,
     MomentValue,
+    MovingBody,
     MovingItem,
     MovingName,
     MovingVector,
+    Pane,
     Spot,
-    Stage,
     Still,
     Track,
     extent,
 )
+from reportgen.drawing.charts import PlottedCurve, plotted
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import KINDS
@@ -48,20 +48,20 @@ BESIDE = 2e-5
 """How far from a jump of the motion (rad) both its sides are sampled."""
 
 
-def film(case: SolvedCam) -> Film:
+def animation(case: SolvedCam) -> Animation:
     """All that moves on the page of a cam."""
     knots = _knots(case)
-    traced = case.solution.cam.traced(knots)
-    stage = _stage(case, traced)
-    return Film(
+    profile = case.solution.cam.profile_at(knots)
+    pane = _pane(case, profile)
+    return Animation(
         knots=np.degrees(knots),
         turns=1,
         span=0.0,
         positions=tuple((str(k), angle) for k, angle in enumerate(case.solution.degrees, start=1)),
         shown=case.worked[0] - 1,
-        stages=(stage,),
-        charts=tuple(_charts(case, traced)),
-        values=tuple(_values(case, traced)),
+        panes=(pane,),
+        charts=tuple(_charts(case, profile)),
+        values=tuple(_values(case, profile)),
         errors=_errors(case, knots, 1 / _scale(case)),
         layers=("paths",) if case.solution.cam.roller else (),
     )
@@ -74,8 +74,8 @@ def _knots(case: SolvedCam) -> Floats:
     wanted = np.concatenate((case.solution.φ, *((np.mod(jumps + side * BESIDE, 2 * math.pi)) for side in (-1, 1))))
     near = np.abs(grid[:, None] - wanted).min(axis=1) <= BESIDE / 10
     near[[0, -1]] = False
-    found = np.sort(np.concatenate((grid[~near], wanted)))
-    return found[np.concatenate(([True], np.diff(found) > BESIDE / 10))]
+    angles = np.sort(np.concatenate((grid[~near], wanted)))
+    return angles[np.concatenate(([True], np.diff(angles) > BESIDE / 10))]
 
 
 def _scale(case: SolvedCam) -> float:
@@ -86,94 +86,92 @@ def _scale(case: SolvedCam) -> float:
     return 1 / fitting([*ring, *([] if cam.translating else [pivot_of(cam)])], ROOM)[1]
 
 
-def _stage(case: SolvedCam, traced: Traced) -> Stage:
+def _pane(case: SolvedCam, profile: CamProfile) -> Pane:
     """The cam on its shaft with its follower, the point of contact and the common normal there."""
     cam = case.solution.cam
     at = 1 / _scale(case)
-    turn = Track(cam.turn * traced.φ)
-    profile: list[Item] = [Polyline(tuple(cam.outline() * at), style.VISIBLE, closed=True, fill=style.TINT)]
-    profile.append(Line(0j, 0.6 * cam.r0 * at * 1j, style.THIN))
+    turn = Track(cam.turn * profile.φ)
+    outline: list[Item] = [Polyline(tuple(cam.outline() * at), style.VISIBLE, closed=True, fill=style.TINT)]
+    outline.append(Line(0j, 0.6 * cam.r0 * at * 1j, style.THIN))
     items: list[MovingItem] = [
         Still((Circle(0j, cam.r0 * at, style.THIN),)),
-        Carried(tuple(profile), CENTRE, turn),
+        MovingBody(tuple(outline), CENTRE, turn),
         *(
-            [Carried((Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True),), CENTRE, turn, "paths")]
+            [MovingBody((Polyline(tuple(cam.sampled().pitch * at), PITCH, closed=True),), CENTRE, turn, "paths")]
             * bool(cam.roller)
         ),
         Still(style.pivot(0j)),
     ]
-    items += _follower(case, traced, at)
-    contact, normal = _contact(traced, cam.roller, cam.turn)
+    items += _follower(case, profile, at)
+    contact, normal = _contact(profile, cam.roller, cam.turn)
     place = Track(contact * at)
     items += [
         MovingVector(
             Track(contact * at - NORMAL / 2 * normal), Track(contact * at + NORMAL * normal), style.NORMAL, 0.0
         ),
-        Carried((Circle(0j, 0.7, None, style.RED),), place),
+        MovingBody((Circle(0j, 0.7, None, style.RED),), place),
         MovingName(Symbol("K"), place, (Track(contact * at + normal),), 1.0),
         MovingName(Symbol("O"), CENTRE, (Track(np.array([-3 - 5j])), Track(np.array([3 - 5j]))), 1.6),
     ]
     low, high = extent(items)
     spots: tuple[Spot, ...] = ()
     if cam.translating and not cam.flat and (ω := case.speed):
-        rates = Track(1j * ω * traced.ds), Track(1j * ω**2 * traced.dds)
-        spots = (Spot("B", Track(traced.at * at), Track(traced.at), *rates),)
-    return Stage(
-        "cam", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),), spots=spots
-    )
+        rates = Track(1j * ω * profile.ds), Track(1j * ω**2 * profile.dds)
+        spots = (Spot("B", Track(profile.at * at), Track(profile.at), *rates),)
+    return Pane("cam", case.title, tuple(items), low=low, high=high, scales=(BarScale(1 / at, "segment"),), spots=spots)
 
 
-def _contact(traced: Traced, roller: float, turn: int) -> tuple[Complexes, Complexes]:
+def _contact(profile: CamProfile, roller: float, turn: int) -> tuple[Complexes, Complexes]:
     """The point of contact and the outward normal in the fixed frame."""
-    turned = np.exp(1j * turn * traced.φ)
-    normal = traced.normal * turned
-    return traced.at - roller * normal, normal
+    turned = np.exp(1j * turn * profile.φ)
+    normal = profile.normal * turned
+    return profile.at - roller * normal, normal
 
 
-def _follower(case: SolvedCam, traced: Traced, at: float) -> Iterator[MovingItem]:
+def _follower(case: SolvedCam, profile: CamProfile, at: float) -> Iterator[MovingItem]:
     cam = case.solution.cam
     if cam.translating:
-        start = complex(traced.at[0]) * at
+        start = complex(profile.at[0]) * at
         tip = complex(0.0, start.imag) if cam.flat else start
         parts = tuple(follower_parts(cam, tip, at, 0j, walls=False))
-        lifted = Track(1j * (traced.s - traced.s[0]) * at)
-        yield Carried(parts, lifted)
+        lifted = Track(1j * (profile.s - profile.s[0]) * at)
+        yield MovingBody(parts, lifted)
         yield Still(tuple(guide_walls(tip + 1j * cam.motion.stroke * at)))
         return
     pivot = pivot_of(cam) * at
-    start = complex(traced.at[0]) * at
+    start = complex(profile.at[0]) * at
     parts = tuple(follower_parts(cam, start - pivot, at, 0j, walls=False))
     lifting = -cam.opposite * cam.turn
-    yield Carried(parts, Track(np.array([pivot])), Track(lifting * (traced.s - traced.s[0])))
+    yield MovingBody(parts, Track(np.array([pivot])), Track(lifting * (profile.s - profile.s[0])))
     yield Still(style.pivot(pivot))
 
 
 # --- curves and numbers ---------------------------------------------------------------------------
 
 
-def _charts(case: SolvedCam, traced: Traced) -> Iterator[Chart]:
+def _charts(case: SolvedCam, profile: CamProfile) -> Iterator[Chart]:
     language = case.assignment.language
     sampled = case.solution.cam.sampled()
-    for (symbol, unit, values), now in zip(motion_charts(case), (traced.s, traced.ds, traced.dds), strict=True):
+    for (symbol, unit, values), now in zip(motion_charts(case), (profile.s, profile.ds, profile.dds), strict=True):
         shown = plotted(
             (PlottedCurve(symbol, np.degrees(sampled.φ), values),), angle_axis(case), axis(symbol, unit), half=True
         )
         scale = np.abs(values).max() / max(float(np.abs(now).max()), NODE)
         yield Chart(formula(symbol, language), shown, (Curve(symbol, Track(now * scale)),))
     if not case.solution.cam.flat:
-        yield Chart("α", pressure_chart(case, half=True), (Curve(Symbol("α"), Track(np.degrees(traced.alpha))),))
+        yield Chart("α", pressure_chart(case, half=True), (Curve(Symbol("α"), Track(np.degrees(profile.alpha))),))
 
 
-def _values(case: SolvedCam, traced: Traced) -> Iterator[MomentValue]:
+def _values(case: SolvedCam, profile: CamProfile) -> Iterator[MomentValue]:
     omega = case.speed
-    for id, values in zip(case.solution.moved, (traced.s, traced.ds, traced.dds), strict=True):
+    for id, values in zip(case.solution.moved, (profile.s, profile.ds, profile.dds), strict=True):
         yield _value(case.ledger.symbol(id), case.ledger[id].kind, values)
     if omega is not None:
         rates = ("cam.v", "cam.acceleration") if case.solution.cam.translating else ("cam.omega.f", "cam.epsilon.f")
-        for id, values in zip(rates, (omega * traced.ds, omega**2 * traced.dds), strict=True):
+        for id, values in zip(rates, (omega * profile.ds, omega**2 * profile.dds), strict=True):
             yield _value(case.ledger.symbol(id), case.ledger[id].kind, values)
     if not case.solution.cam.flat:
-        yield _value(Symbol("α"), "angle", traced.alpha)
+        yield _value(Symbol("α"), "angle", profile.alpha)
 
 
 def _value(symbol: Symbol, kind: str, values: Floats) -> MomentValue:
@@ -187,7 +185,7 @@ def _errors(case: SolvedCam, knots: Floats, at: float) -> Errors:
     """What straight lines between samples miss, as the middles between them show; jumps left out."""
     cam = case.solution.cam
     wide = np.diff(knots) > 4 * BESIDE
-    here, between = cam.traced(knots), cam.traced((knots[1:] + knots[:-1]) / 2)
+    here, between = cam.profile_at(knots), cam.profile_at((knots[1:] + knots[:-1]) / 2)
     off = np.abs((here.at[1:] + here.at[:-1]) / 2 - between.at)[wide]
     share = 0.0
     for samples, true in ((here.ds, between.ds), (here.dds, between.dds)):

@@ -6,13 +6,14 @@ it follows.  A machine is drawn once, each link in its own frame; plans are arro
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Pen, Polyline, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import BEYOND, PENS, Construction
@@ -66,7 +67,7 @@ class Still:
 
 
 @dataclass(frozen=True, slots=True)
-class Carried:
+class MovingBody:
     """What moves with a frame: drawn about its origin, which goes along `at` and turns by `angle` (radians)."""
 
     items: tuple[Item, ...]
@@ -111,7 +112,7 @@ class Spot:
     acceleration: Track
 
 
-MovingItem = Still | Carried | MovingVector | MovingName
+MovingItem = Still | MovingBody | MovingVector | MovingName
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +131,7 @@ class BarScale:
 
 
 @dataclass(frozen=True, slots=True)
-class Stage:
+class Pane:
     """A drawing that moves, in mm, in the box from `low` to `high`, with the scales that bars show below it.
 
     With `finer` one of the scales is in use at a time, the first of them in the items: its number at each sample.
@@ -146,10 +147,36 @@ class Stage:
     finer: Track | None = None
 
     @property
-    def grown(self) -> float:
+    def enlargement(self) -> float:
         """How much larger letters, arrowheads and pens of arrows are than in figures."""
         size = self.high - self.low
         return min(max(size.real / MACHINE.real, size.imag / MACHINE.imag, 1.0), MOST)
+
+
+BARS, STRIP, UP = 2, 7.0, 1.5
+"""How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
+TICK = 0.8
+"""Half the strokes at the ends of a scale bar (mm)."""
+
+
+def scale_bars(pane: Pane) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
+    """The lower left corner of a pane with its bars, and a bar for each scale, its value above it.
+
+    Bars of scales that are in use in turns are all in one place.
+    """
+    enlargement, room = pane.enlargement, (pane.high - pane.low).real / BARS
+    tick, stroke = 1j * TICK * enlargement, Pen(round(style.VISIBLE.width * enlargement, 3))
+    bars: list[tuple[BarScale, tuple[Item, ...]]] = []
+    for number, scale in enumerate(pane.scales):
+        strip, column = divmod(0 if pane.finer else number, BARS)
+        value, length = scale.bar(room)
+        start = pane.low + (column * room + enlargement) - 1j * ((strip + 1) * STRIP - UP) * enlargement
+        end = start + length
+        strokes = ((start, end), (start - tick, start + tick), (end - tick, end + tick))
+        shown = Label(start + 1.5 * tick, value, "bottom-left", style.SMALL * enlargement)
+        bars.append((scale, (*(Line(*ends, stroke) for ends in strokes), shown)))
+    strips = 1 if pane.finer else math.ceil(len(pane.scales) / BARS)
+    return pane.low - 1j * strips * STRIP * enlargement, bars
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,7 +219,7 @@ class Errors:
 
 
 @dataclass(frozen=True, slots=True)
-class Film:
+class Animation:
     """All that moves in a panel of a page.
 
     `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle go on through all `turns`.
@@ -207,7 +234,7 @@ class Film:
     """Label and cycle angle (degrees) of each numbered position."""
     shown: int
     """The position (from 0) that the page opens at."""
-    stages: tuple[Stage, ...]
+    panes: tuple[Pane, ...]
     charts: tuple[Chart, ...]
     values: tuple[MomentValue, ...]
     errors: Errors
@@ -239,13 +266,13 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
     for layer in ("rails", "bars", "blocks"):
         for link, (origin, angle) in frames.items():
             if drawn := getattr(parts[link], layer):
-                items.append(Carried(drawn, origin, angle))
+                items.append(MovingBody(drawn, origin, angle))
     items += [Still(style.pivot(bones.points[name])) for name in bones.pivots]
     joints = [name for name in bones.joints if name not in bones.pivots]
-    items += [Carried((style.joint(0j),), places[name]) for name in joints]
-    items += [Carried(style.mass_centre(0j), places[name]) for name in looks.centres]
+    items += [MovingBody((style.joint(0j),), places[name]) for name in joints]
+    items += [MovingBody(style.mass_centre(0j), places[name]) for name in looks.centres]
     further = [name for name in places if name not in {*bones.joints, *looks.centres}]
-    items += [Carried((style.point(0j),), places[name]) for name in further]
+    items += [MovingBody((style.point(0j),), places[name]) for name in further]
     items += [
         MovingName(
             vocabulary.point(name), place, tuple(_neighbours(name, bones, places)), _reach(name, bones, looks) + 0.5
@@ -281,11 +308,11 @@ def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterabl
 
 def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
     """The curves that points describe."""
-    found: list[MovingItem] = []
+    curves: list[MovingItem] = []
     for name in names:
         curve = motion.points[name].p[motion.reachable] * scale
-        found.append(Still((Polyline(tuple(complex(p) for p in curve), style.PATH),), "paths"))
-    return found
+        curves.append(Still((Polyline(tuple(complex(p) for p in curve), style.PATH),), "paths"))
+    return curves
 
 
 def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
@@ -295,31 +322,31 @@ def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mov
         for line in plan.lines
     ]
     items += [
-        MovingVector(tracks[one.start], tracks[one.end], PENS[one.style], label=one.label, name=one.name)
-        for one in plan.vectors
+        MovingVector(tracks[vector.start], tracks[vector.end], PENS[vector.style], label=vector.label, name=vector.name)
+        for vector in plan.vectors
     ]
     if plan.pole:
-        items.append(Carried((Circle(0j, 0.7, Pen(0.25), style.PAPER),), tracks[plan.points[0].at]))
+        items.append(MovingBody((Circle(0j, 0.7, Pen(0.25), style.PAPER),), tracks[plan.points[0].at]))
     return items + _names(plan, tracks, 0.9)
 
 
 def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
     """A plan as a rigid lever about its pole."""
     items: list[MovingItem] = [
-        MovingVector(tracks[one.start], tracks[one.end], style.VISIBLE, 0.0) for one in plan.vectors
+        MovingVector(tracks[vector.start], tracks[vector.end], style.VISIBLE, 0.0) for vector in plan.vectors
     ]
     pole, *others = plan.points
-    items += [Carried((Circle(0j, 0.7, style.VISIBLE, style.PAPER),), tracks[point.at]) for point in others]
-    items.append(Carried((Circle(0j, 1.1, style.VISIBLE, style.PAPER),), tracks[pole.at]))
+    items += [MovingBody((Circle(0j, 0.7, style.VISIBLE, style.PAPER),), tracks[point.at]) for point in others]
+    items.append(MovingBody((Circle(0j, 1.1, style.VISIBLE, style.PAPER),), tracks[pole.at]))
     return items + _names(plan, tracks, 1.3)
 
 
 def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> list[MovingItem]:
     """The names of a plan's points, each on the side away from the vectors that meet there."""
     joined: dict[str, list[Track]] = {}
-    for one in plan.vectors:
-        joined.setdefault(one.start, []).append(tracks[one.end])
-        joined.setdefault(one.end, []).append(tracks[one.start])
+    for vector in plan.vectors:
+        joined.setdefault(vector.start, []).append(tracks[vector.end])
+        joined.setdefault(vector.end, []).append(tracks[vector.start])
     named = dict.fromkeys((point.label, point.at) for point in plan.points)
     return [MovingName(label, tracks[at], tuple(joined.get(at, ())), gap) for label, at in named]
 
@@ -361,7 +388,7 @@ def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
         match item:
             case Still(still) if still:
                 points += bounds(still)
-            case Carried(carried, at, angle) if not item.layer:
+            case MovingBody(carried, at, angle) if not item.layer:
                 low, high = bounds(carried)
                 turned = np.exp(1j * angle.values) if angle is not None else np.array([1.0])
                 box = (low, high, complex(low.real, high.imag), complex(high.real, low.imag))
