@@ -87,7 +87,7 @@ class NoCamError(ValueError):
 
 
 def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
-    """Where in a phase a function of s and s′ is greatest."""
+    """Where in a phase a function (SI) of s and s′ [N] is greatest."""
     best: Touch | None = None
     for number, interval in enumerate(motion.intervals):
         if interval.phase == phase:
@@ -105,7 +105,7 @@ def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Flo
 
 
 def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None) -> Least:
-    """The least cam of a translating follower with a knife or a roller, at a given offset or at the best one.
+    """The least cam of a translating follower with a knife or a roller, at an offset e (m) or at the best one.
 
     c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) lead to s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′].
     Where the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides by what is usual with a spring.
@@ -201,7 +201,7 @@ def triangle(a: float, arm: float, angle: float) -> float:
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
-    """The least cam of an oscillating follower at the best distance a of the pivot, between 0.4 and 3 arms.
+    """The least cam of an oscillating follower, arm in m, at the best distance a of the pivot: 0.4 to 3 arms.
 
     The region of the centres is convex, so that r₀ over a has one valley: a golden section finds it.
     """
@@ -229,7 +229,7 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
 
 
 def least_flat(cam: Cam, rho: float) -> float:
-    """The least r₀ with which the profile under a flat face is convex with a radius of curvature ρ at least.
+    """The least r₀ (m) with which the profile under a flat face is convex, its curvature's radius ρ (m) at least.
 
     A translating face: r₀ = ρ − min(s + s″).
     """
@@ -268,13 +268,13 @@ def step_of(length: float) -> float:
 
 
 def rounded_up(length: float) -> float:
-    """The least round length that is no less."""
+    """The least round length (m) that is no less."""
     step = step_of(length)
     return round(math.ceil(length / step - 1e-9) * step, 9)
 
 
 def rounded_down(length: float) -> float:
-    """The greatest round length that is no more, to whole millimetres where it has several."""
+    """The greatest round length (m) that is no more, to whole millimetres where it has several."""
     step = min(step_of(length), 1.0 / MM)
     return round(math.floor(length / step + 1e-9) * step, 9)
 
@@ -299,12 +299,12 @@ def enlarged_until(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -
 
 
 def least_convex_radius(cam: Cam) -> float:
-    """The least radius of curvature where the working profile is convex; infinite where it nowhere is."""
+    """The least radius of curvature (m) where the working profile is convex; infinite where it nowhere is."""
     every = range(len(cam.motion.intervals))
     return min(-cam.worst(number, lambda one: -one.effective)[1] for number in every)
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
-    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the convex curvature, rounded down; none if ≤ 0."""
+    """r_T ≤ 0.8 ρ_min, ≤ 0.4 r₀, leaving ρ of the convex curvature (all m), rounded down; none if ≤ 0."""
     least = least_convex_radius(replace(cam, roller=0.0))
     return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

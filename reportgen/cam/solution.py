@@ -73,10 +73,12 @@ class CamSolution:
 
     @cached_property
     def degrees(self) -> tuple[float, ...]:
+        """The angles of the positions [N] in degrees."""
         return positions_of(self.given)
 
     @cached_property
     def φ(self) -> Floats:
+        """The angles of the positions [N] (rad)."""
         return np.radians(self.degrees)
 
     @cached_property
@@ -299,6 +301,7 @@ class CamSheet:
 
     @property
     def given_rho(self) -> float:
+        """The least radius of curvature that is asked for (m)."""
         return self.of.designed.limits.rho
 
     def _touch(self, phase: str, touch: Touch) -> tuple[Ref, Ref]:

@@ -29,7 +29,7 @@ SPREAD, CURVED = 1.5, 6.0
 
 
 def crossing(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function that is below 0 at `low` and above at `high` is 0, to the last bit: the interval is halved."""
+    """Where (in its unit) a function below 0 at `low` and above at `high` is 0, to the last bit: by bisection."""
     while low != (middle := (low + high) / 2) and middle != high:
         low, high = (middle, high) if function(middle) < 0 else (low, middle)
     return middle
@@ -72,7 +72,7 @@ class Wheel:
 
     @property
     def pitch(self) -> float:
-        """The angle of a tooth with its space."""
+        """The angle of a tooth with its space (rad)."""
         return 2 * math.pi / self.z
 
     # --- the flank
@@ -90,7 +90,7 @@ class Wheel:
     # --- the fillet
 
     def fillet(self, ψ: Floats) -> Complexes:
-        """Points that the rack's rounding cuts where its outward normal has the direction ψ, from −π/2 to −α.
+        """Points (m) [N] that the rack's rounding cuts where its outward normal has the direction ψ, −π/2 to −α (rad).
 
         The normal through the centre of the rounding, y below the pitch line, passes through the pitch point:
         their distance is y/sin ψ.
@@ -125,7 +125,7 @@ class Wheel:
     # --- a tooth, the wheel
 
     def side(self, chord: float = CHORD) -> tuple[Complexes, Complexes]:
-        """The fillet from the root circle, and the flank from there to the tip, no chord farther than `chord` off."""
+        """The fillet from the root circle, the flank on to the tip (m) [N], no chord farther off than `chord` (m)."""
         ψ, start = self.join
         steps = math.ceil(SPREAD * math.sqrt(CURVED * self.m / (8 * chord)))
         fillet = self.fillet(np.linspace(-math.pi / 2, ψ, steps + 1))
@@ -135,7 +135,7 @@ class Wheel:
         return fillet, self.flank(self.r_b * np.hypot(1.0, np.linspace(low, high, steps + 1)))
 
     def tooth(self, chord: float = CHORD) -> Complexes:
-        """A tooth clockwise, from the middle of the space on its left to that on its right."""
+        """A tooth clockwise (m) [N], from the middle of the space on its left to that on its right."""
         fillet, flank = self.side(chord)
         steps = max(math.ceil(self.pitch * math.sqrt(self.r_a / (8 * chord)) / 2), 2)
         root = self.r_f * np.exp(1j * np.linspace(self.pitch / 2, np.angle(fillet[0]), steps))
@@ -144,6 +144,6 @@ class Wheel:
         return np.concatenate((left, left[-2::-1].conjugate()))
 
     def outline(self, chord: float = CHORD) -> Complexes:
-        """All teeth, clockwise, as a closed polyline."""
+        """All teeth, clockwise, as a closed polyline (m) [N]."""
         turns = np.exp(-1j * self.pitch * np.arange(self.z))
         return np.asarray((turns[:, None] * self.tooth(chord)[:-1]).ravel())

@@ -81,6 +81,7 @@ class GearPair:
 
     @cached_property
     def x(self) -> Floats:
+        """The shifts x (modules) [2, ...]."""
         return np.asarray(self.shifts, float)
 
     @cached_property
@@ -168,7 +169,7 @@ def least_shifts(pair: GearPair) -> Floats:
 
 
 def balanced(pair: GearPair, total: float) -> Floats:
-    """The shifts of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
+    """The shifts (modules) of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
     first = np.linspace(total / 2 - LARGEST, total / 2 + LARGEST, 601)
 
     def unlike(x1: Floats) -> Floats:
@@ -187,7 +188,7 @@ def balanced(pair: GearPair, total: float) -> Floats:
 
 
 def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
-    """Of all shifts in hundredths within the limits those with the least greater |λ|: there the two are nearly equal.
+    """Of shifts [2] in hundredths of the module within limits those of the least greater |λ|, λ₁ ≈ λ₂.
 
     Raises `NoPairError` where none keep the limits.
     """

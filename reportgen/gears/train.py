@@ -308,7 +308,7 @@ def mended(demand: Demand) -> tuple[int, ...]:
 
 
 def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ...]]:
-    """The angle of wheel 3, and of each satellite when the carrier is at 0, with a tooth of wheel 1 at 0.
+    """The angles (rad) of wheel 3 and of each satellite, the carrier at 0, a tooth of wheel 1 at 0.
 
     A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one stands in a gap of the other.
     An angle is None where no position of the satellite fits both wheels.
@@ -343,7 +343,7 @@ def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ..
 
 
 def power_way(ratio: float, carrier_drives: bool) -> int:
-    """+1 where, seen from the carrier, power goes from wheel 1 to wheel 3, else −1.
+    """+1 where, by the ratio u₁H, power goes from wheel 1 to wheel 3 seen from the carrier, else −1.
 
     Its sense is that of M₁(ω₁ − ω_H) = M₁ω₁ (1 − 1/u), where M₁ω₁ is positive for a driving wheel 1.
     """

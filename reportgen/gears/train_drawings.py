@@ -24,7 +24,8 @@ from reportgen.drawing.animation import (
     Track,
     extent,
 )
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
@@ -68,7 +69,7 @@ def radii(case: SolvedTrain) -> dict[str, float]:
 
 
 def outermost(r: dict[str, float]) -> float:
-    """How far wheels reach from the axis, by their reference circles."""
+    """How far wheels reach from the axis, by their reference circles, in the unit of the radii."""
     return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
 
 
@@ -283,7 +284,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
     z, (inner1, inner3) = train.teeth, case.scheme.inner
     ω1, ω2, ωH = (float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
     θ = math.copysign(1, ωH) * knots
-    one, satellite = ω1 / ωH, ω2 / ωH
+    wheel1, satellite = ω1 / ωH, ω2 / ωH
     still, placed = turned(train, case.given.k)
     centre, red = Track(np.zeros(1, complex)), Pen(0.35, style.RED)
 
@@ -297,7 +298,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
 
     items: list[MovingItem] = [
         MovingBody(marked("3", z.three, inner3), centre, Track(np.array([still]))),
-        MovingBody(marked("1", z.one, inner1), centre, Track(one * θ)),
+        MovingBody(marked("1", z.one, inner1), centre, Track(wheel1 * θ)),
     ]
     arm: list[Item] = [style.joint(0j)]
     for number, ψ in enumerate(placed):

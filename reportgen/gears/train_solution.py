@@ -50,8 +50,8 @@ class SolvedTrain(DesignCase):
 
     @property
     def given(self) -> Parameters:
-        found: Parameters = self.assignment.parameters
-        return found
+        parameters: Parameters = self.assignment.parameters
+        return parameters
 
     @property
     def scheme(self) -> TrainScheme:
@@ -78,13 +78,13 @@ class SolvedTrain(DesignCase):
     def misconceptions(self) -> Misconceptions:
         """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
         z = {wheel: Ref(train_ids.teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
-        term, sign, one = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
+        term, sign, unity = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
         ω1, ωH = (Ref(train_ids.omega(wheel)) for wheel in ("1", "H"))
         driven, inverse = (ω1, ωH * Ref("train.uH1")) if self.given.by_carrier else (ωH, ω1 * Ref("train.u1H"))
         side, turned = self.scheme.signs[0], z["1"] / z["2"]
         module, wheel = larger_satellite(self.train)
         changed: Mapping[str, list[tuple[str, Expression]]] = {
-            "train.u1H": [("train-without-one", signed(sign, term)), ("train-ratio-sign", one + signed(-sign, term))],
+            "train.u1H": [("train-without-one", signed(sign, term)), ("train-ratio-sign", unity + signed(-sign, term))],
             driven.id: [("train-inverse", inverse)],
             train_ids.omega("2"): [
                 ("train-carrier-still", signed(side, ω1 * turned)),
@@ -135,10 +135,10 @@ class TrainSheet:
         n = q.give("train.n.in", given.n_in.value, Symbol("n", "in"), "speed of rotation")
         self.rows: list[tuple[str, Expression]] = []
         for i, row in enumerate((*given.before, *given.behind)):
-            one, other = str(FIRST_ROW_WHEEL + 2 * i), str(FIRST_ROW_WHEEL + 2 * i + 1)
-            for wheel, teeth in zip((one, other), row, strict=True):
+            first_wheel, second_wheel = str(FIRST_ROW_WHEEL + 2 * i), str(FIRST_ROW_WHEEL + 2 * i + 1)
+            for wheel, teeth in zip((first_wheel, second_wheel), row, strict=True):
                 self.z[wheel] = q.give(train_ids.teeth(wheel), float(teeth))
-            self.rows.append((one, self.z[other] / self.z[one]))
+            self.rows.append((first_wheel, self.z[second_wheel] / self.z[first_wheel]))
         wanted = Symbol("u", "H1" if given.by_carrier else "1H", "*")
         if given.u is not None:
             q.give("train.u", given.wanted, wanted, "ratio")
@@ -201,8 +201,8 @@ class TrainSheet:
         self.u = u
         q.define("train.off", (u - q["train.u"]) / q["train.u"], "Δu", "share", scale=1.0, optional=True)
         of_rows = [
-            q.define(train_ids.row_ratio(one), -slower, Symbol("u", f"{one},{int(one) + 1}"))
-            for one, slower in self.rows
+            q.define(train_ids.row_ratio(wheel), -slower, Symbol("u", f"{wheel},{int(wheel) + 1}"))
+            for wheel, slower in self.rows
         ]
         if of_rows:
             ratios = *of_rows[: len(given.before)], u, *of_rows[len(given.before) :]
@@ -244,11 +244,11 @@ class TrainSheet:
         pairs = [(one, str(int(one) + 1), q[train_ids.row_ratio(one)]) for one, _ in self.rows]
         pairs.insert(len(given.before), (driver, driven, self.u))
         ω: Expression = 2 * PI * q["train.n.in"] / 60
-        for one, other, ratio in pairs:
-            start = q.define(train_ids.omega(one), ω)
-            ω = end = q.define(train_ids.omega(other), start / ratio)
+        for driving, driven_wheel, ratio in pairs:
+            start = q.define(train_ids.omega(driving), ω)
+            ω = end = q.define(train_ids.omega(driven_wheel), start / ratio)
             q.set_out("rates", start, end)
-            if one == driver:
+            if driving == driver:
                 ω1, ωH = q[train_ids.omega("1")], q[train_ids.omega("H")]
                 turned = signed(self.scheme.signs[0], (ω1 - ωH) * z["1"] / z["2"])
                 q.set_out("rates", q.define(train_ids.omega("2"), ωH + turned, scale=given.n_in.si))
@@ -333,8 +333,8 @@ def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:
     differ by less than ten times, one of whole half millimetres is taken if there is one.
     """
     most = larger * min(max(RATES_WIDTH / wide, NEAREST_POLE), FARTHEST_POLE)
-    found = [rate / nice_up(rate / most * share) for share in SERIES]
-    return next((h for h in found if math.isclose(2 * h, round(2 * h), rel_tol=1e-9)), found[0])
+    distances = [rate / nice_up(rate / most * share) for share in SERIES]
+    return next((h for h in distances if math.isclose(2 * h, round(2 * h), rel_tol=1e-9)), distances[0])
 
 
 def over(points: str) -> Symbol:
