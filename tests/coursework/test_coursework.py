@@ -313,7 +313,7 @@ def test_a_letter_with_an_index_has_room_in_its_drawings() -> None:
     """φ_cam is three times as wide as φ: it stands neither on the arrow of its axis nor off the sheet."""
     case = coursework(TWIN)
     widened = {str(symbol) for symbol in case.letters["cam"].values()}
-    (name, plates) = list(case.plates().items())[-1]
+    ((name, plates),) = case.joined_plates().items()
     scenes = list(nodes(tuple(plates), Scene))
     assert widened & {str(symbol) for symbol in nodes(tuple(scenes), Symbol)}, name
     assert [one for scene in scenes for one in overlaps(scene) if one.startswith(tuple(widened))] == []
