@@ -132,10 +132,12 @@ class MachineCase(MachineAnalysis):
 
     @property
     def speed(self) -> float:
+        """The driver's speed (rad/s), or that of a slide (m/s)."""
         return self.analysis.machine.speed
 
     @property
     def balance(self) -> np.ndarray | None:
+        """The balancing torque (N·m) [N], or the force (N) of a slide; None without loads."""
         return np.real(self.analysis.torque) if self.analysis.loads else None
 
     @property

@@ -33,9 +33,9 @@ def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
     for n, (centre, half) in frames.items():
         if items[n] == scene.items[n]:
             continue
-        way = _growth(scene.items[n], items[n])
+        growth = _growth(scene.items[n], items[n])
         others = [one for k, one in frames.items() if k != n]
-        by = min((way * step for step in STEPS), key=lambda by: _touched((centre + by, half), strokes, others))
+        by = min((growth * step for step in STEPS), key=lambda by: _touched((centre + by, half), strokes, others))
         items[n], frames[n] = moved(items[n], by), (centre + by, half)
     return _widened(replace(scene, items=tuple(items)), list(frames.values()))
 

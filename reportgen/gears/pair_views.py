@@ -10,8 +10,9 @@ from typing import Any
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.gears import gears_ids
+from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair_drawings import mesh, region, sliding
-from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.gears.pair_solution import SolvedPair
 from reportgen.report import Block, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.report.design import DesignPage
 from reportgen.report.wording import phrase
@@ -54,7 +55,7 @@ class PairPage(DesignPage[SolvedPair]):
             "sliding_table": self.sliding_table,
             "checks": self.checks,
             "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
-            "value": lambda id, k=None: Value(case.printed.result(id, k)),
+            "value": self.value,
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,

@@ -18,7 +18,8 @@ from reportgen.formula import Chain, Number, Symbol, signed
 from reportgen.gears import train_drawings, train_ids
 from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
-from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
+from reportgen.gears.train_formulas import OTHER, term_of
+from reportgen.gears.train_solution import FIRST_ROW_WHEEL, SolvedTrain
 from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.design import DesignPage
 from reportgen.report.result_entries import ResultEntries

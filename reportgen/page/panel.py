@@ -263,6 +263,7 @@ class _Writer:
         return self.element(parts, item.layer, follows)
 
     def label(self, content: Content, size: float) -> str:
+        """A label of a size (points) about its own place."""
         return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
     def half_size(self, content: Content, size: float) -> list[float]:
@@ -294,7 +295,7 @@ class _Writer:
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:
-    """A bound as printed: so many figures, never less than the value."""
+    """A bound as printed, in its unit: so many figures, never less than the value."""
     if value <= 0:
         return write(0.0, None, language)
     step = 10.0 ** (math.floor(math.log10(value)) - figures + 1)

@@ -10,10 +10,11 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Item, Line, Scene
+from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
 from reportgen.drawing.forces import lever as lever_figure
-from reportgen.drawing.labels import Canvas, label
+from reportgen.drawing.labels import label
 from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
@@ -83,7 +84,7 @@ class _Bodies:
     # --- reactions
 
     def reaction(self, name: str, at: complex) -> Force:
-        """A reaction R12, or a component R12.t of one, in its true sense."""
+        """A reaction R12, or a component R12.t of one, in its true sense at a place (mm)."""
         direction = true_sense(self.report, name, self.k)
         return Force(self.report.force_vector(name), at, direction, "reaction", name)
 
@@ -116,13 +117,13 @@ class _Bodies:
 
 
 def arm_of(report: Report, id: str, k: int, about: complex) -> ArmOf:
-    """An arm as it is printed."""
+    """An arm as it is printed, its foot `about` a point of the paper (mm)."""
     length = report.ledger.number(id, k, size=True).value / report.enlarged
     return ArmOf(report.ledger.symbol(id), about, report.ledger[id].of, length)
 
 
 def true_sense(report: Report, name: str, k: int) -> complex:
-    """How a reaction is drawn on a separated link: where it points; 0 where it is nothing."""
+    """How a reaction is drawn on a separated link: its direction, of length 1; 0 where it is nothing."""
     vector = report.ledger[ids.force_vector(name)]
     return 0j if report.is_zero(vector.of, k) else complex(vector.at(k))
 

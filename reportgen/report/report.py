@@ -188,7 +188,7 @@ class Report:
         return self.sense(self.machine.turn)
 
     def sense(self, value: float) -> str:
-        """The sense of a rotation; a dash where there is none."""
+        """The sense of a rotation (rad/s, or any other unit); a dash where there is none."""
         words = self.words["sense"]
         return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
 

@@ -250,7 +250,7 @@ class _Blocks:
         heads = [self.head(row) for row in rows]
 
         def aligned(start: int, step: int) -> float:
-            """What rows take whose relations stand below each other."""
+            """What rows take (mm) whose relations stand below each other."""
             left = heads[start::step]
             return max(left) + max(row - head for row, head in zip(own[start::step], left, strict=True))
 
