@@ -44,6 +44,8 @@ CIRCLES = (
     ("d_b", Pen(0.18, style.GRAY, style.DASHED)),
     ("d_f", style.THIN),
 )
+CIRCLE_PITCHES = 1.375
+"""The circles are drawn so many pitches to either side of the line of centres: past the outer of the three teeth."""
 LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 
 
@@ -153,7 +155,9 @@ def _circles(
         if any(abs(radius - other) < 0.01 for other in taken):
             continue
         taken.append(radius)
-        reach = min(math.asin(min(half / radius, 1.0)), 2.2 * math.pi / pair.teeth[number] * 1.25)
+        to_edge = math.asin(min(half / radius, 1.0))
+        beyond_teeth = CIRCLE_PITCHES * 2 * math.pi / pair.teeth[number]
+        reach = min(to_edge, beyond_teeth)
         items.append(Arc(o, radius, middle - reach, middle + reach, pen))
         places = [
             o + radius * np.exp(1j * (middle + side * reach * share)) for share in (1.0, 0.97) for side in (-1, 1)
