@@ -17,8 +17,12 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.cam import formulas
+from reportgen.cam.formulas import valued
 from reportgen.cam.laws import Floats, FollowerMotion
 from reportgen.cam.profile import Cam, greatest
+from reportgen.formula import Ref
+from reportgen.formula.evaluation import evaluate
 
 Rule = Literal["apex", "rise", "return"]
 """What decides: both lines together, or that of one phase."""
@@ -89,7 +93,7 @@ def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Flo
         if interval.phase == phase:
 
             def value(φ: Floats, number: int = number) -> Floats:
-                s, ds, _ = motion(φ, np.full(φ.shape, number))
+                s, ds, _ = motion(φ, np.full(φ.shape, number), derivatives=1)
                 return of(s, ds)
 
             φ, bound = greatest(value, interval.start, interval.stop)
@@ -108,30 +112,38 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
     """
     assert limits.rise is not None
     t1 = math.tan(limits.rise)
-    rise = touch(motion, "rise", lambda s, ds: ds - t1 * s)
+    rise = touch(motion, "rise", lambda s, ds: valued(formulas.rise_intercept, s, ds, t1))
     back, t2 = None, math.inf
     if limits.back is not None or (e is not None and e >= rise.bound):
         t2 = math.tan(limits.back or USUAL_BY_SPRING)
-        back = touch(motion, "return", lambda s, ds: -ds - t2 * s)
+        back = touch(motion, "return", lambda s, ds: valued(formulas.return_intercept, s, ds, t2))
     c1, c2 = rise.bound, back.bound if back else 0.0
 
-    high = (c1 + c2) / (t1 + t2)
-    apex = complex(c1 - t1 * high, high) if back else None
+    high = float(valued(formulas.apex_height, c1, c2, t1, t2))
+    across = float(valued(formulas.apex_offset, c1, high, t1))
+    apex = complex(across, high) if back else None
+
+    def by_rise(offset: float) -> float:
+        return float(valued(formulas.height_by_rise, c1, offset, t1))
+
+    def by_return(offset: float) -> float:
+        return float(valued(formulas.height_by_return, c2, offset, t2))
 
     def at(rule: Rule, s0: float, offset: float) -> Least:
-        return Least(rule, math.hypot(s0, offset), offset, s0, rise=rise, back=back, apex=apex)
+        r0 = float(valued(formulas.base_radius, s0, offset))
+        return Least(rule, r0, offset, s0, rise=rise, back=back, apex=apex)
 
     if e is not None:
-        by_rise, by_return = (c1 - e) / t1, (c2 + e) / t2
-        return at("rise", by_rise, e) if by_rise >= by_return else at("return", by_return, e)
+        return at("rise", by_rise(e), e) if by_rise(e) >= by_return(e) else at("return", by_return(e), e)
     # The nearest point of the region to the origin: the foot on one line, if the other allows it, else the apex.
-    foot = c1 / (1 + t1**2)
-    if -foot + t2 * (foot * t1) >= c2:
-        return at("rise", foot * t1, foot)
-    foot = c2 / (1 + t2**2)
-    if -foot + t1 * (foot * t2) >= c1:
-        return at("return", foot * t2, -foot)
-    return at("apex", high, c1 - t1 * high)
+    foot = float(valued(formulas.foot_of_rise, c1, t1))
+    if (s0 := float(valued(formulas.height_on_rise, foot, t1))) >= by_return(foot):
+        return at("rise", s0, foot)
+    if back is not None:
+        foot = float(valued(formulas.foot_of_return, c2, t2))
+        if (s0 := float(valued(formulas.height_on_return, foot, t2))) >= by_rise(foot):
+            return at("return", s0, foot)
+    return at("apex", high, across)
 
 
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
@@ -163,17 +175,22 @@ def bounded(
     """
     side = opposite if phase == "rise" else -opposite
 
-    def share(ds: Floats) -> Floats:
-        return arm * (1 + opposite * ds) * math.cos(limit) / a
+    lowest_by = formulas.lowest_against if side > 0 else formulas.lowest_with
 
-    def half(ds: Floats) -> Floats:
-        return np.arccos(np.clip(share(ds), -1, 1))
+    cosine = formulas.cosine_aside(Ref("l"), formulas.factor(Ref("ds"), opposite), Ref("cos"), Ref("a"))
+    known = {"l": arm, "cos": math.cos(limit), "a": a}
+
+    def share(ds: Floats) -> Floats:
+        return np.asarray(evaluate(cosine, {"ds": ds, **known}))
 
     def lowest(s: Floats, ds: Floats) -> Floats:
-        return np.where(side * share(ds) > 1, np.inf, side * (limit - half(ds)) - s)
+        c = share(ds)
+        aside = np.arccos(np.clip(c, -1, 1))
+        return np.where(side * c > 1, np.inf, valued(lowest_by, limit, aside, s))
 
     def most(s: Floats, ds: Floats) -> Floats:
-        return (limit + half(ds) if side > 0 else 2 * math.pi - half(ds) - limit) - s
+        aside = np.arccos(np.clip(share(ds), -1, 1))
+        return (limit + aside if side > 0 else 2 * math.pi - aside - limit) - s
 
     return touch(motion, phase, lowest), -touch(motion, phase, lambda s, ds: -most(s, ds)).bound
 

@@ -307,8 +307,13 @@ class FollowerMotion:
         corner = at_start & (number > 0) & still[number] & ~still[before]
         return np.where(corner, before, number)
 
-    def __call__(self, φ: Floats, of: NDArray[np.intp] | None = None) -> tuple[Floats, Floats, Floats]:
-        """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be."""
+    def __call__(
+        self, φ: Floats, of: NDArray[np.intp] | None = None, derivatives: int = 2
+    ) -> tuple[Floats, Floats, Floats]:
+        """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be.
+
+        What is beyond so many `derivatives` is left 0.
+        """
         numbers = self.of(φ) if of is None else of
         turned = φ if of is not None else np.mod(φ, 2 * math.pi)
         motion = np.zeros((3, φ.size))

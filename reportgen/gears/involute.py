@@ -14,7 +14,10 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula.evaluation import inv
+from reportgen.formula.constructions import Value
+from reportgen.formula.model import model
+from reportgen.gears import gears_ids
+from reportgen.gears.formulas import Rack, pair_sheet
 
 Floats = np.ndarray
 Complexes = np.ndarray
@@ -33,25 +36,6 @@ def crossing(function: Callable[[float], float], low: float, high: float) -> flo
 
 
 @dataclass(frozen=True)
-class Rack:
-    """The basic rack: profile angle (rad), addendum and bottom clearance as multiples of the module."""
-
-    alpha: float
-    ha: float = 1.0
-    c: float = 0.25
-
-    @property
-    def rounding(self) -> float:
-        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α) (modules), which ends where the addendum does."""
-        return self.c / (1 - math.sin(self.alpha))
-
-    @property
-    def land(self) -> float:
-        """Half the flat of its tip (modules); negative where the rounding has no room."""
-        return math.pi / 4 - self.ha * math.tan(self.alpha) - self.rounding * math.cos(self.alpha)
-
-
-@dataclass(frozen=True)
 class Wheel:
     """A wheel of `z` teeth of module `m` (m), cut by a rack shifted by x m, its tips turned to the radius `r_a` (m)."""
 
@@ -61,20 +45,30 @@ class Wheel:
     x: float
     r_a: float
 
+    def _of(self, *wanted: str, d_a: Value) -> list[Value]:
+        """Quantities of a wheel by the formulas of a pair, with tips turned to the diameter `d_a` (m)."""
+        sheet = pair_sheet(self.rack, self.m, (self.z, self.z))
+        names = [gears_ids.of_wheel(one, 1) for one in wanted]
+        found = model(sheet, names, **{gears_ids.of_wheel("x", 1): self.x, gears_ids.of_wheel("d_a", 1): d_a})
+        return [found[name] for name in names]
+
+    @cached_property
+    def _blank(self) -> tuple[float, ...]:
+        """The radii of the reference, base and root circles, and of curvature where the involute begins (m)."""
+        d, d_b, d_f, rho_f = self._of("d", "d_b", "d_f", "rho_f", d_a=2 * self.r_a)
+        return float(d) / 2, float(d_b) / 2, float(d_f) / 2, float(rho_f)
+
     @property
     def r(self) -> float:
-        """The reference radius r = m z/2 (m)."""
-        return self.m * self.z / 2
+        return self._blank[0]
 
     @property
     def r_b(self) -> float:
-        """The base radius r_b = r cos α (m)."""
-        return self.r * math.cos(self.rack.alpha)
+        return self._blank[1]
 
     @property
     def r_f(self) -> float:
-        """The root radius r_f = r − m (h_a* + c* − x) (m)."""
-        return self.r - self.m * (self.rack.ha + self.rack.c - self.x)
+        return self._blank[2]
 
     @property
     def pitch(self) -> float:
@@ -84,11 +78,10 @@ class Wheel:
     # --- the flank
 
     def half_angle(self, r: Floats) -> Floats:
-        """Half the angle of a tooth at radii [...]: s/d + inv α − inv α_r."""
-        α, x = self.rack.alpha, self.x
-        reference = (math.pi / 2 + 2 * x * math.tan(α)) / self.z
-        at = np.arccos(np.minimum(self.r_b / np.asarray(r), 1.0))
-        return np.asarray(reference + inv(α) - inv(at))
+        """Half the angle of a tooth at radii [...]: s_a/d_a of a wheel that is turned to them."""
+        turned_to = np.maximum(2 * np.asarray(r), 2 * self.r_b)
+        (thickness,) = self._of("s_a", d_a=turned_to)
+        return np.asarray(thickness / turned_to)
 
     def flank(self, r: Floats) -> Complexes:
         """Points of the flank on the left of the tooth at radii [...]."""
@@ -112,11 +105,10 @@ class Wheel:
 
     @cached_property
     def join(self) -> tuple[float, float]:
-        """Where fillet and flank meet: direction ψ (rad) and radius (m); they touch unless the tooth is undercut."""
-        α, m = self.rack.alpha, self.m
-        along = self.r * math.sin(α) - (self.rack.ha - self.x) * m / math.sin(α)
-        if along >= 0:
-            return -α, math.hypot(self.r_b, along)
+        """Where fillet and flank meet: the direction ψ and the radius; they touch unless the tooth is undercut."""
+        α, begun = self.rack.alpha, self._blank[3]
+        if begun >= 0:
+            return -α, math.hypot(self.r_b, begun)
 
         def beyond(ψ: float) -> float:
             cut = complex(self.fillet(np.array(ψ)))

@@ -29,11 +29,13 @@ from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
-from reportgen.formula import Symbol
+from reportgen.formula import Ref, Symbol
+from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears import train_ids
 from reportgen.gears.train import ALPHA, turned
-from reportgen.gears.train_solution import OTHER, SolvedTrain, pole_distance
+from reportgen.gears.train_formulas import OTHER, reference_radius
+from reportgen.gears.train_solution import SolvedTrain, pole_distance
 from reportgen.sheets.plates import on_sheet
 
 FRONT = 80.0
@@ -52,6 +54,7 @@ BEYOND = 6.0
 APART = 16.0
 """White between the triangles and the plan of angular velocities (mm)."""
 SAMPLES = 360
+RADIUS = reference_radius(Ref("m"), Ref("z"))
 FILMED = 110.0
 """What the wheels may fill on a page (mm)."""
 
@@ -60,9 +63,9 @@ def radii(case: SolvedTrain) -> dict[str, float]:
     """Reference radii of the wheels, and of the circle of the satellites' axes as H (m)."""
     given, z = case.given, case.train.teeth
     m, m2 = given.m.si, given.second_module.si
-    first, _ = case.scheme.signs
-    sizes = {"1": m * z.one, "2": m * z.two, OTHER: m2 * z.other, "3": m2 * z.three, "H": m * (z.one - first * z.two)}
-    return {wheel: size / 2 for wheel, size in sizes.items()}
+    wheels = {"1": (m, z.one), "2": (m, z.two), OTHER: (m2, z.other), "3": (m2, z.three)}
+    found = {wheel: float(evaluate(RADIUS, {"m": module, "z": teeth})) for wheel, (module, teeth) in wheels.items()}
+    return found | {"H": float(case.ledger["train.a.1"].values[0])}
 
 
 def outermost(r: dict[str, float]) -> float:

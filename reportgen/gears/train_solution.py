@@ -14,14 +14,14 @@ from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
+from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids
-from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
+from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
 from reportgen.gears.train_file import Parameters
+from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 from reportgen.report.case import Misconceptions
 from reportgen.report.design import DesignCase
 
-OTHER = "2′"
-"""The second wheel of a double satellite."""
 FIRST_ROW_WHEEL = 4
 """Wheels of ordinary rows are numbered from here."""
 PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
@@ -99,11 +99,6 @@ class SolvedTrain(DesignCase):
                     if teeth.id in self.ledger:
                         readings.setdefault(teeth.id, []).append((f"train-{name}", np.array([number])))
         return Misconceptions(readings=readings, changed=changed)
-
-
-def term_of(scheme: TrainScheme, z: Mapping[str, Ref | Symbol]) -> Expression:
-    """z₂z₃/(z₁z₂′), of a single satellite z₃/z₁."""
-    return z["3"] / z["1"] if scheme.single else Product((z["2"], z["3"])) / Product((z["1"], z[OTHER]))
 
 
 def larger_satellite(train: Train) -> tuple[str, str]:
@@ -200,9 +195,7 @@ class TrainSheet:
 
     def _enter_ratio(self) -> None:
         q, given = self.q, self.given
-        u = q.define(
-            "train.u1H", 1 + signed(self.scheme.sign, term_of(self.scheme, self.z)), Symbol("u", "1H"), "ratio"
-        )
+        u = q.define("train.u1H", formulas.ratio(self.scheme, self.z), Symbol("u", "1H"), "ratio")
         if given.by_carrier:
             u = q.define("train.uH1", 1 / u, Symbol("u", "H1"), "ratio")
         self.u = u
@@ -220,12 +213,12 @@ class TrainSheet:
     # --- conditions
 
     def _enter_conditions(self) -> None:
-        q, z, (side1, side2) = self.q, self.z, self.scheme.signs
-        a = self._length("train.a.1", self.m * (z["1"] + signed(-side1, z["2"])) / 2, Symbol("a", "12"))
+        q, z = self.q, self.z
+        a = self._length("train.a.1", self.m * formulas.first_axes(self.scheme, z) / 2, Symbol("a", "12"))
         far = Symbol("a", "23" if self.scheme.single else f"{OTHER}3")
-        self._length("train.a.2", self.m2 * (z["3"] + signed(-side2, z[OTHER])) / 2, far)
+        self._length("train.a.2", self.m2 * formulas.second_axes(self.scheme, z) / 2, far)
         module, wheel = larger_satellite(self.train)
-        tip = self._length("train.tip", q[module] * (z[wheel] + 2), Symbol("d", f"a{wheel}"))
+        tip = self._length("train.tip", formulas.tip_diameter(q[module], z[wheel]), Symbol("d", f"a{wheel}"))
         q.define("train.gap", tip / (2 * a), "q", "ratio")
         k = q["train.k"]
         q.define("train.room", sin(PI / k), Symbol("q", "max"), "ratio")
@@ -265,8 +258,8 @@ class TrainSheet:
     def _enter_triangles(self) -> None:
         """Velocities over the distance from the axis are straight lines; parallels to them through a pole cut off ω."""
         q, z, a = self.q, self.z, self.q["train.a.1"]
-        r1 = self._length("train.r.1", self.m * z["1"] / 2, Symbol("r", "1"))
-        r3 = self._length("train.r.3", self.m2 * z["3"] / 2, Symbol("r", "3"))
+        r1 = self._length("train.r.1", formulas.reference_radius(self.m, z["1"]), Symbol("r", "1"))
+        r3 = self._length("train.r.3", formulas.reference_radius(self.m2, z["3"]), Symbol("r", "3"))
         v = {
             "A": q.define(train_ids.velocity("A"), q[train_ids.omega("1")] * r1),
             "B": q.define(train_ids.velocity("B"), q[train_ids.omega("H")] * a),

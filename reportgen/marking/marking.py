@@ -40,8 +40,12 @@ SEARCHES: tuple[Callable[[Working, Cells], dict[Place, Mistake]], ...] = (
 """What looks for names, one after the other."""
 
 
+@np.errstate(all="ignore")
 def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate] = ()) -> Marking:
-    """The verdicts on a submission; `classmates` are those that none of its values should come from."""
+    """The verdicts on a submission; `classmates` are those that none of its values should come from.
+
+    A sheet may hold any number, 0 or 10³⁰⁸: what comes to no number by it is the value of nothing.
+    """
     if scheme.parts:
         sheets = sheets_of(scheme, submission, classmates)
         return joined(
@@ -182,8 +186,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
 def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) -> Iterator[str]:
     """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
-    for problem in marking.submission.problems.values():
-        yield str(problem)
+    yield from map(str, (*marking.submission.problems.values(), *marking.submission.notes))
     counted = Counter(cell.verdict for cell in marking.cells)
     for cell in marking.first_errors:
         given = marking.submission.values[(cell.id, cell.position)]

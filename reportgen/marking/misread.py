@@ -350,10 +350,9 @@ def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np
     unit = float(working.unit(place[0])[index])
     given, band = float(working.values[place[0]][index]), cell.band * unit
     expected = values[:, index]
-    with np.errstate(all="ignore"):
-        wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
-        near = scheme.distance(place[0], given, expected) <= band * wider
-        shows = scheme.distance(place[0], cell.own * unit, expected) > band
+    wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
+    near = scheme.distance(place[0], given, expected) <= band * wider
+    shows = scheme.distance(place[0], cell.own * unit, expected) > band
     return np.asarray(near & shows)
 
 

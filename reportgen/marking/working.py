@@ -205,8 +205,7 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
             if (scale_used := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
                 tried.insert(0, float(scale_used / usual[place]))
             if first is not None:
-                with np.errstate(divide="ignore"):
-                    tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
+                tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
             plan_of_place = [id for id in plan if id != first]
             factor[place], shown = drawn_at(scheme, values, plan_of_place, tried, own)
             if any(np.isfinite(values[id][own]).any() for id in plan):
@@ -265,10 +264,9 @@ def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stat
     ratios_read: list[np.ndarray] = []
     for length in (id for id in values if vocabulary.plan(id) == scale):
         for size in scheme.sizes[length] & values.keys():
-            with np.errstate(all="ignore"):
-                # A short length may be rounded by more than scales differ.
-                rounding = READ_TO / np.abs(values[length])
-                ratios_read.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
+            # A short length may be rounded by more than scales differ.
+            rounding = READ_TO / np.abs(values[length])
+            ratios_read.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
     ratios, rounding = np.concatenate(ratios_read, axis=1) if ratios_read else np.zeros((2, 0))
     known = np.isfinite(ratios) & (ratios > 0)
     ratios, rounding = ratios[known], rounding[known]

@@ -199,8 +199,8 @@ def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
 
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
-    points = [point.p[SHOWN_AT] for point in report.analysis.motion.points.values()]
-    size = np.array(points)[np.isfinite(points)] * drawing_scale(report) * report.enlarged
+    points = np.array([report.place(name, SHOWN_AT + 1) for name in report.analysis.motion.points])
+    size = points[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 

@@ -43,7 +43,7 @@ class _Bodies:
 
     def at(self, name: str) -> complex:
         """Where a point stands on paper (mm)."""
-        return complex(self.report.analysis.motion.points[name].p[self.k - 1]) * self.scale
+        return self.report.place(name, self.k) * self.scale
 
     def scene(self, forces: Sequence[Force], **more: Any) -> Scene:
         report, look = self.report, looks(self.report, self.scale, self.share)
@@ -250,7 +250,7 @@ def _percussion(report: Report, link: int, k: int) -> Canvas:
     scale, number = drawing_scale(report), str(link)
     known, meeting = (point * scale for point in points)
     marks: tuple[Item, ...] = (
-        Line(complex(report.analysis.motion.points[body.centre].p[k - 1]) * scale, meeting, CONSTRUCTION),
+        Line(report.place(body.centre, k) * scale, meeting, CONSTRUCTION),
         Line(known, meeting, CONSTRUCTION),
         Circle(known, 0.6, VISIBLE, PAPER),
         Circle(meeting, 0.6, VISIBLE, PAPER),
@@ -264,7 +264,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
     if not (group.offset and link == group.j):
         return Canvas()
     scale, ledger = drawing_scale(report), report.ledger
-    pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
+    pivot, block = (report.place(name, k) * scale for name in (group.T, group.Q))
     along = complex(ledger[ids.slot(link)].at(k))
     at = complex(constructions.foot(pivot, block, along))
     marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))

@@ -386,6 +386,10 @@ class Report:
 
     # --- motion
 
+    def place(self, point: str, k: int) -> complex:
+        """Where a point stands at a position (m)."""
+        return complex(self.ledger[ids.place(point)].at(k))
+
     def known(self, quantities: Iterable[str]) -> list[str]:
         """Those of the ids that the ledger knows, each once."""
         return self.ledger.known(quantities)
