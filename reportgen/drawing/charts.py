@@ -324,6 +324,7 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
 
 
 def framed(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
+    """A rectangle between two corners (mm)."""
     corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
     return Polyline(corners, pen, closed=True, fill=fill)
 

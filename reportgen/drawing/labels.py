@@ -102,7 +102,7 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
 
 
 def label_row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
-    """Labels side by side on one baseline, their common box centred on `at`; `over` lines they stand on paper."""
+    """Labels side by side on a baseline, their common box centred on `at` (mm); `over` lines they stand on paper."""
     boxes = [box(part, size) for part in parts]
     total = reduce(Box.beside, boxes)
     x = at.real - total.width / 2
