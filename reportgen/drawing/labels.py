@@ -19,7 +19,8 @@ from functools import cached_property, lru_cache, reduce
 import numpy as np
 
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
-from reportgen.drawing.geometry import Box, Complexes, Flags, Floats, Ink, box, frame, overlap, segments
+from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, frame, overlap, segments
+from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.spots import (
     CLEAR,
     FINE,

@@ -10,7 +10,7 @@ from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.units import Language
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.formula import Number, Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of

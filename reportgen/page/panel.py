@@ -29,7 +29,8 @@ from reportgen.drawing.animation import (
     Track,
     scale_bars,
 )
-from reportgen.drawing.geometry import POINT, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine.laws import Law

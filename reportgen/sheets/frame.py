@@ -20,7 +20,7 @@ from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, templates
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
 from reportgen.report.case import Case
 
