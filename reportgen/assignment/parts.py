@@ -148,7 +148,7 @@ def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fa
         # Nothing of it is read, so that nothing of it is told.
         return Source(str(path)), [Fault("path-outside", named.mark, {"text": named.text})]
     source = read_source(file)
-    unread = [replace(one, mark=named.mark) for one in source.faults if one.code == "unreadable"]
+    unread = [replace(fault, mark=named.mark) for fault in source.faults if fault.code == "unreadable"]
     return source, unread
 
 

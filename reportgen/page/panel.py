@@ -159,7 +159,7 @@ class _Writer:
                 for spot in animation.panes[0].spots
             ],
             "finer": {
-                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / one.per for one in pane.scales]}
+                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / scale.per for scale in pane.scales]}
                 for pane in animation.panes
                 if pane.finer
             },
