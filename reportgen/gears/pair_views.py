@@ -55,7 +55,7 @@ class PairPage(DesignPage[SolvedPair]):
             "sliding_table": self.sliding_table,
             "checks": self.checks,
             "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
-            "value": lambda id, k=None: Value(case.printed.result(id, k)),
+            "value": self.value,
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,

@@ -156,8 +156,8 @@ class DesignPage(ABC, Generic[Designed]):
         return in_language(Symbol(base, sub), self.case.words["symbols"])
 
     def value(self, id: str, k: int | None = None) -> Value:
-        """A number with its unit, at a position (from 1)."""
-        return Value(self.case.printed.number(id, k))
+        """A result with its unit, at a position (from 1): in text it has the figures of its kind, as in tables."""
+        return Value(self.case.printed.result(id, k))
 
     def quantity(self, id: str, k: int | None = None) -> Inlines:
         """A symbol with its number."""

@@ -212,8 +212,8 @@ def positions(report: Report) -> FigureScenes:
 def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
     """A drawing to μ_l, by which it is measured, or at the first reduction that leaves half a page to the text.
 
-    What is wider than the text stands turned, as large as the page allows.  Where labels want more room, it is the next
-    larger one that has it.
+    What no reduction brings into the text stands turned, as large as the page allows.  Where labels want more room, it
+    is the next larger one that has it.
     """
     if report.parts("true-size"):
         return on_paper(draw(1.0))
@@ -221,8 +221,11 @@ def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> Figure
     for smaller in SMALLER:
         scene = close(draw(1 / smaller))
         drawn.append(replace(on_paper(scene), smaller=smaller))
-        if drawn[-1].turned or (in_text(scene) and scene.height <= HALF_PAGE):
+        if in_text(scene) and scene.height <= HALF_PAGE:
             break
+    else:
+        turned = next((n for n, one in enumerate(drawn, 1) if one.turned), len(drawn))
+        del drawn[turned:]
     return next((shown for shown in reversed(drawn) if not shown.scenes[0].crowded), drawn[-1])
 
 

@@ -123,14 +123,14 @@ def _width(row: Expression) -> float:
 
 # --- contents ----------------------------------------------------------------------------------------
 
-MANY_ENTRIES = 22
-"""So many lines fill about half a page."""
+PAGE_ENTRIES, MANY_ENTRIES = 50, 30
+"""So many lines fill a page, and so many all of it but what would not be called white."""
 
 
 def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
-    """The table of contents of some blocks; one that would leave half of its page white is not alone there."""
-    entries = [block for block in blocks if isinstance(block, Section) and block.level <= (2 if brief else 3)]
-    return Contents(title, brief, alone=not brief and len(entries) > MANY_ENTRIES)
+    """The table of contents of some blocks; one that would leave half of its last page white is not alone there."""
+    entries = sum(isinstance(block, Section) and block.level <= (2 if brief else 3) for block in blocks)
+    return Contents(title, brief, alone=not brief and (entries - 1) % PAGE_ENTRIES >= MANY_ENTRIES)
 
 
 # --- blocks ---------------------------------------------------------------------------------------

@@ -108,6 +108,16 @@ def test_tables_print_what_the_lines_say(name: str) -> None:
     assert [one for one in off if one.shown != 0] == []
 
 
+@pytest.mark.parametrize("name", [file.stem for file in FILES])
+def test_a_summary_has_the_figures_of_the_table(name: str) -> None:
+    """The lines go on from 26.499821°; who sums up says 26.4998°."""
+    (paragraph,) = pair_case(name).summary()
+    assert isinstance(paragraph, tree.Paragraph)
+    told = [one.number for one in paragraph.inlines if isinstance(one, tree.Value)]
+    assert len(told) == 8
+    assert all(one.decimals is None or one.decimals <= 4 for one in told), told
+
+
 @pytest.mark.parametrize("language", ["vi", "en"])
 def test_a_short_report_has_less(language: str) -> None:
     assignment = load(file_of("pair-equal-sliding"), language)  # type: ignore[arg-type]

@@ -116,6 +116,13 @@ def test_a_plan_is_as_large_as_it_says(name: str, kind: str) -> None:
             )
 
 
+def test_a_short_plan_that_has_room_in_the_text_takes_no_page_of_its_own() -> None:
+    """A slider-crank is 194 mm long at the scale of the text; half as large it has room for all its letters."""
+    _, (plan,) = drawn("slider-crank-01", "short")
+    assert (plan.smaller, plan.turned) == (2.0, False)
+    assert figures.in_text(*plan.scenes)
+
+
 def blocks(document: Document, key: str) -> Figure | Plate:
     return next(b for b in built.walk(document.blocks) if isinstance(b, (Figure, Plate)) and b.key == key)
 
