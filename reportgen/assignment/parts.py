@@ -16,10 +16,10 @@ from pathlib import Path
 from reportgen.assignment.common import PARTS, AssignedPart, Assignment, Kind, NamedPart, TakenDatum
 from reportgen.base.errors import Fault, Where
 from reportgen.base.files import leads_out
+from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
 from reportgen.base.source_text import at, put, without
 from reportgen.base.units import NUMBER
-from reportgen.base.words import kinds
 
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
