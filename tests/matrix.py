@@ -26,8 +26,8 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
 from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import samples
 from reportgen.base.units import Language
-from reportgen.base.words import samples
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.marking.key import Ask, key_of

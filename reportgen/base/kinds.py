@@ -7,8 +7,9 @@ from functools import cache
 from pathlib import Path
 
 from reportgen.base.errors import TemplateError
+from reportgen.base.template_folders import kind_file
 from reportgen.base.units import Language
-from reportgen.base.words import kind_file, load_words, sections
+from reportgen.base.words import load_words, sections
 
 SAMPLE = "new"
 """The section of a kind's words with the file to begin with."""

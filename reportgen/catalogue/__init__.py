@@ -27,8 +27,9 @@ from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Proble
 from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
+from reportgen.base.template_folders import samples
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, as_problem, language_of, samples, word
+from reportgen.base.words import as_error, as_problem, language_of, word
 from reportgen.catalogue import assembly
 from reportgen.machine.analysis import Machine
 

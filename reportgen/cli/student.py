@@ -256,7 +256,7 @@ def samples(
     lang: LangOption = None,
 ) -> None:
     """Copy the examples, and a class to try, to DIR. Every kind of machine has examples."""
-    from reportgen.base.words import samples as packed
+    from reportgen.base.template_folders import samples as packed
 
     with ending(lang):
         files = {folder / path.relative_to(packed()): path for path in sorted(packed().rglob("*")) if path.is_file()}

@@ -17,8 +17,8 @@ from typing import Literal
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.limits import give_memory_back
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
-from reportgen.base.words import templates
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.label_size import box

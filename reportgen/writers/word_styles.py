@@ -10,8 +10,8 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates
 from reportgen.writers.word_elements import DECLARED, MATH_FONT, NAMESPACES, PROLOGUE, escape, twips
 
 if TYPE_CHECKING:
