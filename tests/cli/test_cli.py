@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 import typer
 
+from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
-from reportgen.base.words import kinds
 from reportgen.cli.common import ending
 from tests.lanes import matrix, proof
 
