@@ -28,12 +28,14 @@ from reportgen.report.case import bounded
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
+    from reportgen.export.figures import MovingFigure
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
     from reportgen.report import Document
     from reportgen.report.case import Case
     from reportgen.report.key import Key
     from reportgen.report.layout import Letter
+    from reportgen.report.named_figures import NamedFigure
     from reportgen.writers.pdflatex import Ahead
 
 Engine = Literal["typst", "latex"]
@@ -200,7 +202,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     """The Word file of a report with the look of a school's Word file, if there is one."""
     from reportgen.report.layout import Letter
     from reportgen.workbook.letterhead import read_letterhead
-    from reportgen.writers import typst
+    from reportgen.writers import pictures
     from reportgen.writers import word as writer
     from reportgen.writers.word_elements import Own
 
@@ -210,7 +212,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     if look is not None and look.exists():
         letterhead = read_letterhead(look, tree.language)
         own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
-    drawn = partial(typst.pictures, language=tree.language)
+    drawn = partial(pictures.for_word, language=tree.language)
     return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
 
 
@@ -337,6 +339,8 @@ def key_files(
 
 
 SHEET_FORMATS = ("pdf", "dxf")
+FIGURE_FORMATS = ("svg", "png", "pdf", "eps", "gif", "mp4")
+"""What a figure can be written as; GIF and MP4 of what moves."""
 
 
 def sheet_files(
@@ -368,6 +372,51 @@ def sheet_files(
         for number, sheet in enumerate(sheets, start=1)
         for name in formats
     }
+
+
+def figure_list(
+    path: Path | str, language: Language | None = None
+) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
+    """The figures of a file's report in their order, and what moves on its page."""
+    from reportgen.export import figures
+
+    return figures.listed(open_case(path, language))
+
+
+def figure_files(
+    path: Path | str,
+    names: Sequence[str] = (),
+    at: str = "",
+    formats: Sequence[str] = ("svg",),
+    dpi: int = 0,
+    layers: Sequence[str] = ("paths",),
+    language: Language | None = None,
+) -> Mapping[str, bytes]:
+    """Figures as files in some of `FIGURE_FORMATS`, by name; all that the report has unless some are named.
+
+    With the label or the number of a position `at` that one is worked out, and of several drawings those that show it
+    are chosen.  Raises `UnknownNameError`, `NotOfferedError`, `TypesetterError`.
+    """
+    from reportgen.export import figures
+
+    case = open_case(path, language)
+    case, labels = worked_at(case.assignment, at) if at else (case, ())
+    query = figures.FigureQuery(names, labels, formats, dpi, tuple(layers))
+    return figures.figure_files(case, query)
+
+
+def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:
+    """The case with one position worked out, and the labels that it goes by: its own, that of its place in a turn.
+
+    Raises `UnknownNameError` where there is no such position, `NotOfferedError` of a kind without any.
+    """
+    if not catalogue.kind(assignment.kind).has_positions:
+        raise NotOfferedError(word("no_at", assignment.language, kind=assignment.kind))
+    number = assignment.position(at)
+    # What repeats from turn to turn is drawn once.
+    turn = assignment.cycle_positions // assignment.turns
+    labels = dict.fromkeys(assignment.labels[k] for k in (number - 1, (number - 1) % turn))
+    return opened(assignment.with_worked(number)), tuple(labels)
 
 
 MAKERS: Mapping[str, Maker] = {

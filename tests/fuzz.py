@@ -31,8 +31,8 @@ from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
 from reportgen.marking.key import key_of
-from reportgen.marking.marks import read_policy
 from reportgen.marking.paper import task_of
+from reportgen.marking.policy import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key

@@ -37,7 +37,11 @@ from tests.marking.filled import filled
 
 OWN: Language | Literal[""] = ""
 """The language of the file."""
-CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYPE html>", ".dxf": b"  0\nSECTION"}
+CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYPE html>", ".dxf": b"  0\nSECTION"} | {
+    ".svg": b"<svg",
+    ".png": b"\x89PNG",
+    ".eps": b"%!PS-Adobe-3.0 EPSF-3.0",
+}
 """What files begin with."""
 MOST = 8
 """Cases that are kept at once: those of one coursework and its parts."""
@@ -122,12 +126,19 @@ def shared() -> Iterator[None]:
         if name not in made:
             if len(made) == MOST:
                 made.pop(next(iter(made)))
-            made[name] = plain(assignment)
+            made[name] = _remembering(plain(assignment))
         return made[name]
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(cases_module, "opened", opened)
         yield
+
+
+def _remembering(case: Case) -> Case:
+    """A case whose report is composed once, and what moves of it."""
+    for name in ("document", "animations"):
+        object.__setattr__(case, name, cache(getattr(case, name)))
+    return case
 
 
 def desk(subject: str, folder: Path, capture: pytest.CaptureFixture[str], **wanted: object) -> Desk:
@@ -192,6 +203,20 @@ def sheet(at: Desk) -> None:
     assert paths[0].stem == "sheet-1"
 
 
+def figure(at: Desk) -> None:
+    """The first figure of its report, as its list names it; every one of what moves stands in the list, too."""
+    from reportgen.export.figures import MOVING, STILL
+
+    lines = at.run("figure", at.file, "--list").splitlines()
+    moving = open_case(at.file, at.language or None).animations()
+    assert sum("/".join(MOVING) in line for line in lines) == sum(len(one.panes) for one in moving)
+    name = lines[0].split()[0]
+    formats = at.formats(STILL, "svg")
+    paths = at.made("figure", *([name] if at.brief else []), "--format", formats)
+    assert {path.suffix[1:] for path in paths} == set(formats.split(","))
+    assert paths[0].stem.startswith(name)
+
+
 def key(at: Desk) -> None:
     formats = at.formats(api.KEY_FORMATS, "csv,json")
     paths = at.made("key", "--format", formats, "--engine", at.engine)
@@ -233,7 +258,7 @@ def watch(at: Desk) -> None:
 
 
 COMMANDS: tuple[Callable[[Desk], None], ...] = (
-    *(check, solve, solve_json, solve_format, build, sheet, key, task, compare, grade, watch),
+    *(check, solve, solve_json, solve_format, build, sheet, figure, key, task, compare, grade, watch),
 )
 BY_ENGINE, BY_EXTENT = {build, key, task, grade}, {build}
 """Commands that typeset what they make, and that which makes it in two extents."""

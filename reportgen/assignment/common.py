@@ -27,10 +27,10 @@ from reportgen.assignment.fields import (
     WorkedPositions,
     quantity,
 )
-from reportgen.base.errors import Finding
+from reportgen.base.errors import Finding, UnknownNameError
 from reportgen.base.files import school_strays
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
-from reportgen.base.words import is_school, named_school
+from reportgen.base.words import is_school, named_school, unknown
 
 POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""
@@ -228,6 +228,13 @@ class Assignment:
             return tuple(range(1, self.cycle_positions + 1))
         return tuple(self.labels.index(one) + 1 if isinstance(one, str) else one for one in worked)
 
+    def position(self, named: str) -> int:
+        """The number of the position of a label or a number; raises `UnknownNameError` where there is none."""
+        position = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
+        if not position:
+            raise UnknownNameError(unknown("no_position", named, self.labels, self.language))
+        return position
+
     def with_positions(self, count: int) -> Assignment:
         """The same with `count` positions a turn; worked positions beyond the new cycle are dropped.
 
@@ -242,6 +249,10 @@ class Assignment:
         labels = counted.labels
         kept = None if worked is None else tuple(one for one in worked if number_of(one, labels)) or (2,)
         return replace(counted, report=self.report.model_copy(update={"worked_positions": kept}))
+
+    def with_worked(self, position: int) -> Assignment:
+        """The same with one position worked out, by its number."""
+        return replace(self, report=self.report.model_copy(update={"worked_positions": (position,)}))
 
     def with_language(self, language: Language) -> Assignment:
         """The same, reported in another language."""

@@ -159,6 +159,12 @@ class NotOfferedError(ReportgenError):
     exit_code = 1
 
 
+class UnknownNameError(ReportgenError):
+    """There is nothing of the name that was asked for: no figure, quantity, position or parameter."""
+
+    exit_code = 2
+
+
 class TypesetterError(ReportgenError):
     """The typesetter is missing or failed; nothing the assignment can mend."""
 

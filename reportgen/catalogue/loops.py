@@ -83,7 +83,7 @@ class LoopBody:
     eps: Expression = NOTHING
 
     def place(self, local: complex) -> Pair:
-        """The place of a point by its typed distances along the link and across it."""
+        """The place of a point by its typed distances (m) along the link and across it."""
         e, (u, w) = along(self.angle), typed(local)
         return add(self.origin.p, scaled(u, e), scaled(w, turned(e)))
 

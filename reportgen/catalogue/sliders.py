@@ -150,12 +150,12 @@ class OffsetSlider:
 
     @property
     def stretched(self) -> float:
-        """φ at the outer dead centre, crank and rod in line: sin φ = e/(l + r)."""
+        """φ (rad) at the outer dead centre, crank and rod in line: sin φ = e/(l + r)."""
         return math.asin(self.e / (self.l + self.r))
 
     @property
     def folded(self) -> float:
-        """φ at the inner dead centre, the rod over the crank: φ = π + arcsin(e/(l − r))."""
+        """φ (rad) at the inner dead centre, the rod over the crank: φ = π + arcsin(e/(l − r))."""
         return math.pi + math.asin(self.e / (self.l - self.r))
 
     def slider(self, reach: float) -> complex:
@@ -163,11 +163,11 @@ class OffsetSlider:
         return self._placed(complex(math.sqrt(reach**2 - self.e**2), self.e))
 
     def crank_angle(self, phi: float) -> float:
-        """The crank's angle from +x of the drawing."""
+        """The crank's angle (rad) from +x of the drawing."""
         return self.axis + self.turn * phi
 
     def phi(self, crank_angle: float) -> float:
-        """φ of a crank's angle from +x of the drawing."""
+        """φ (rad) of a crank's angle (rad) from +x of the drawing."""
         return self.turn * (crank_angle - self.axis)
 
     def _placed(self, own: complex) -> complex:
@@ -180,7 +180,7 @@ class OffsetSlider:
         return -(self.r * np.cos(phi - beta) + omega**2 * self.l) / np.cos(beta)
 
     def fastest(self) -> tuple[float, float]:
-        """φ of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
+        """φ (rad) of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
         low = np.array([self.stretched, self.folded])
         high = np.array([self.folded, self.stretched + FULL_TURN])
         before = self.acceleration(low)[:, None]
@@ -188,7 +188,7 @@ class OffsetSlider:
         return float(low[0]), float(low[1])
 
     def course(self, start: float, turns: int) -> Stroke:
-        """The way of slider 3 in a machine that starts at φ = `start` and has a cycle of `turns` turns."""
+        """The way of slider 3 in a machine that starts at φ = `start` (rad) and has a cycle of `turns` turns."""
         return Stroke(
             link=3,
             rod=2,
@@ -203,7 +203,7 @@ class OffsetSlider:
 
     @property
     def line(self) -> complex:
-        """The point of the guide's line that is nearest to A."""
+        """The point (m) of the guide's line that is nearest to A."""
         return self._placed(1j * self.e)
 
     def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:

@@ -91,7 +91,7 @@ def _app() -> typer.Typer:
     """The commands in the order of the help."""
     import typer
 
-    from reportgen.cli import instructor, student
+    from reportgen.cli import instructor, student, takeaway
     from reportgen.cli.common import Commands, begin
 
     made = typer.Typer(
@@ -109,6 +109,7 @@ def _app() -> typer.Typer:
         student.check,
         student.build,
         student.sheet,
+        takeaway.figure,
         student.watch,
         student.solve,
         student.compare,

@@ -126,3 +126,5 @@ class Scene:
     """The white around what is drawn, mm each side."""
     crowded: bool = False
     """Whether its labels want more room than so small a drawing has."""
+    at: str = ""
+    """The position that it shows, of several scenes of a figure; it is not printed."""

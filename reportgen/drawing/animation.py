@@ -6,13 +6,14 @@ it follows.  A machine is drawn once, each link in its own frame; plans are arro
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Pen, Polyline, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import BEYOND, PENS, Construction
@@ -147,9 +148,35 @@ class Pane:
 
     @property
     def enlargement(self) -> float:
-        """How much larger letters, arrowheads and pens of arrows are than in figures."""
+        """By which factor letters, arrowheads and pens of arrows are larger than in figures."""
         size = self.high - self.low
         return min(max(size.real / MACHINE.real, size.imag / MACHINE.imag, 1.0), MOST)
+
+
+BARS, STRIP, UP = 2, 7.0, 1.5
+"""How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
+TICK = 0.8
+"""Half the strokes at the ends of a scale bar (mm)."""
+
+
+def scale_bars(pane: Pane) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
+    """The lower left corner of a pane with its bars, and a bar for each scale, its value above it.
+
+    Bars of scales that are in use in turns are all in one place.
+    """
+    enlargement, room = pane.enlargement, (pane.high - pane.low).real / BARS
+    tick, stroke = 1j * TICK * enlargement, Pen(round(style.VISIBLE.width * enlargement, 3))
+    bars: list[tuple[BarScale, tuple[Item, ...]]] = []
+    for number, scale in enumerate(pane.scales):
+        strip, column = divmod(0 if pane.finer else number, BARS)
+        value, length = scale.bar(room)
+        start = pane.low + (column * room + enlargement) - 1j * ((strip + 1) * STRIP - UP) * enlargement
+        end = start + length
+        strokes = ((start, end), (start - tick, start + tick), (end - tick, end + tick))
+        shown = Label(start + 1.5 * tick, value, "bottom-left", style.SMALL * enlargement)
+        bars.append((scale, (*(Line(*ends, stroke) for ends in strokes), shown)))
+    strips = 1 if pane.finer else math.ceil(len(pane.scales) / BARS)
+    return pane.low - 1j * strips * STRIP * enlargement, bars
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,7 +307,7 @@ def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterabl
 
 
 def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
-    """The curves that points describe."""
+    """The curves that points (m) describe, `scale` mm of paper to a metre."""
     curves: list[MovingItem] = []
     for name in names:
         curve = motion.points[name].p[motion.reachable] * scale
@@ -355,7 +382,7 @@ def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int) -> Fitted:
 
 
 def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
-    """Lower left and upper right corner of what the items, but for switched ones, ever cover, with room for labels."""
+    """Lower left and upper right corner (mm) of what items, but for switched ones, ever cover, with room for labels."""
     points: list[complex] = []
     for item in items:
         match item:

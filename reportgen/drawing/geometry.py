@@ -29,7 +29,7 @@ CELL = 0.25
 
 
 def ends(item: Item) -> Sequence[complex] | Complexes:
-    """The item's strokes as segments: the start and the end of each, one after the other; a label has none."""
+    """The item's strokes as segments (mm) [2 × strokes]: start and end of each, in turn; a label has none."""
     match item:
         case Line(start, end):
             return start, end
@@ -92,7 +92,7 @@ def frame(label: Label) -> tuple[complex, complex]:
 
 
 def corners(item: Item) -> Sequence[complex] | Complexes:
-    """Points whose bounding box is the item's."""
+    """Points (mm) whose bounding box is the item's."""
     match item:
         case Label():
             centre, half = frame(item)
@@ -104,13 +104,13 @@ def corners(item: Item) -> Sequence[complex] | Complexes:
 
 
 def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
-    """Lower left and upper right corner of the box around all items; (0, 0) for none."""
+    """Lower left and upper right corner (mm) of the box around all items; (0, 0) for none."""
     points = _stacked(map(corners, items))
     return corners_of(points) if points.size else (0j, 0j)
 
 
 def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
-    """Lower left and upper right corner of the box around points."""
+    """Lower left and upper right corner of the box around points [N], in their unit."""
     p = np.asarray(points, dtype=np.complex128)
     return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
 
@@ -160,7 +160,7 @@ def _enlarged_pen(stroke: Pen, factor: float) -> Pen:
 
 
 def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:
-    """The part of a segment inside the box low…high, or None (Liang–Barsky)."""
+    """The part of a segment inside the box low…high (mm), or None (Liang–Barsky)."""
     d = end - start
     enter, leave = 0.0, 1.0
     for speed, lower, upper in (
@@ -184,11 +184,12 @@ class HalfPlane:
     inward: complex
 
     def depth(self, point: complex) -> float:
+        """How deep a point lies in the half-plane (mm); negative outside."""
         return ((point - self.at) * self.inward.conjugate()).real
 
 
 def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """What of a convex polygon lies in all half-planes."""
+    """What of a convex polygon (mm) lies in all half-planes (Sutherland–Hodgman)."""
     corners = list(box)
     for plane in planes:
         kept: list[complex] = []
@@ -242,18 +243,18 @@ def on_one_line(longer: tuple[complex, complex], shorter: tuple[complex, complex
 
 
 def unit(vector: complex) -> complex:
-    """The direction of a vector; 1 for a vector of no length."""
+    """The direction of a vector, of length 1; 1 for a vector of no length."""
     size = abs(vector)
     return vector / size if size > 0 else 1 + 0j
 
 
 def polar(angle: float) -> complex:
-    """e^{iφ}."""
+    """The unit vector e^{iφ} at an angle φ (rad)."""
     return cmath.exp(1j * angle)
 
 
 def rectangle(centre: complex, length: float, width: float, angle: float = 0.0) -> tuple[complex, ...]:
-    """Corners of a rectangle, its length along `angle`."""
+    """Corners of a rectangle (mm), its length along `angle` (rad)."""
     u = polar(angle)
     a, b = complex(length, width) / 2, complex(length, -width) / 2
     return (centre - u * a, centre + u * b, centre + u * a, centre - u * b)
@@ -300,11 +301,11 @@ class Ink:
         self.inked = np.cumsum(inked, axis=0, out=inked)
 
     def touches(self, centres: Complexes, half: Complexes) -> Flags:
-        """Which boxes touch a stroke, to half a cell."""
+        """Which boxes [N], by centres and half sizes (mm), touch a stroke, to half a cell."""
         return np.asarray(self.covered(centres, half) != 0)
 
     def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
-        """How many inked cells each box covers."""
+        """How many inked cells each box covers [N], by centres and half sizes (mm)."""
         low, high = (centres - half - self.low) / CELL, (centres + half - self.low) / CELL
         x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
         y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))

@@ -38,9 +38,9 @@ def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
             continue
         own = {n for n, _ in row}
         others = [frame(item) for n, item in enumerate(items) if isinstance(item, Label) and n not in own]
-        placed, way = _side_by_side(labels, spelled)
+        placed, growth = _side_by_side(labels, spelled)
         frames = [frame(label) for label in placed]
-        by = min((way * step for step in STEPS), key=lambda by: _touched(frames, by, strokes, others))
+        by = min((growth * step for step in STEPS), key=lambda by: _touched(frames, by, strokes, others))
         for n, label in zip(sorted(own), placed, strict=True):
             items[n] = moved(label, by)
     return scene if items == list(scene.items) else _widened(replace(scene, items=tuple(items)))
@@ -69,9 +69,9 @@ def _side_by_side(old: Sequence[Label], new: Sequence[Label]) -> tuple[list[Labe
     before, after = (2 * sum(frame(label)[1] for label in labels) for labels in (old, new))
     if new[0].turn == 90:
         return list(new), 1j * (after - before).imag / 2
-    way = complex((after - before).real / 2)
+    growth = complex((after - before).real / 2)
     first, half = frame(old[0])
-    x, placed = (first - half - way).real, []
+    x, placed = (first - half - growth).real, []
     for label, spelled in zip(old, new, strict=True):
         was, extent = box(label.content, label.size), box(spelled.content, spelled.size)
         line = frame(label)[0].imag - (was.height - was.depth) / 2
@@ -79,7 +79,7 @@ def _side_by_side(old: Sequence[Label], new: Sequence[Label]) -> tuple[list[Labe
         centre = complex(x + width / 2, line + (extent.height - extent.depth) / 2)
         placed.append(replace(spelled, at=centre, anchor="center"))
         x += width
-    return placed, way
+    return placed, growth
 
 
 def _touched(labels: Sequence[Frame], by: complex, strokes: Complexes, others: Sequence[Frame]) -> int:

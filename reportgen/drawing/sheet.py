@@ -28,7 +28,7 @@ class PlacedScene:
 
     @property
     def box(self) -> tuple[complex, complex]:
-        """Its lower left and upper right corner on the sheet."""
+        """Its lower left and upper right corner on the sheet (mm)."""
         return self.at, self.at + complex(self.scene.width, self.scene.height)
 
 
@@ -155,7 +155,7 @@ EDGE, RULE = Pen(0.35), Pen(0.15)
 
 
 def widths(rows: Sequence[Sequence[Content]]) -> list[float]:
-    """The widths of columns: of each its widest cell with the white beside it."""
+    """The widths (mm) of columns: of each its widest cell with the white beside it."""
     columns = zip(*rows, strict=True)
     return [max(box(cell, style.SMALL).width for cell in column) + 2 * PADDING for column in columns]
 

@@ -152,7 +152,7 @@ def _field(entries: Sequence[Algebraic]) -> Any:
 
 
 def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
-    """The size of a number or a vector, simplified; `at` are values of the symbols, which tell signs."""
+    """The size of a number or a vector (SI), simplified; `at` are values (SI) of the symbols, which tell signs."""
     sp = _sympy()
     if isinstance(of, Plane):
         parts = [simplified(part) for part in (of.real, of.imag)]
@@ -180,7 +180,7 @@ def simplified(of: Algebraic) -> Algebraic:
 
 
 def value(of: Algebraic, at: Mapping[str, float]) -> float:
-    """What an expression comes to at values of its symbols.
+    """What an expression comes to (SI) at values (SI) of its symbols.
 
     It is worked out by floats alone: sympy would ask of every root what it is, which may take it minutes.
     """

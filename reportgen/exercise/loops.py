@@ -54,6 +54,7 @@ class Reached:
     unknown: Mapping[int, complex]
 
     def plus(self, reached: Reached, factor: float = 1.0) -> Reached:
+        """Both rates, the other one times a factor."""
         known, unknown = dict(self.known), dict(self.unknown)
         for quantity, vector in reached.known.items():
             known[quantity] = known.get(quantity, 0j) + factor * vector
@@ -104,7 +105,7 @@ class Loops:
                 yield body, [*pivot, *(name for name in names if name not in pivot)]
 
     def across_slots(self) -> Iterator[tuple[Reached, complex]]:
-        """What a point on a line of a moving body does across that line, against the body's own point there."""
+        """What a point on a moving line does across it (of length 1), against the body's own point there."""
         members = dict(self.bodies())
         for joint in self.derivation.layout.given.slots:
             if joint.point in self.points:

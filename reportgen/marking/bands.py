@@ -261,6 +261,6 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
-    """Whether a quantity can be worked out from the positions alone; the speed only where the excess work can."""
+    """Whether a quantity can be worked out from the positions alone; speed only where excess work can (errors SI)."""
     id = "A.excess" if id == "omega.of" else id
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

@@ -207,9 +207,9 @@ def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[M
 
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     """Faults of single cells, each with its place in the student's own file."""
-    found = sorted(problems, key=lambda problem: problem.mark)
-    if found:
-        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in found)
+    in_order = sorted(problems, key=lambda problem: problem.mark)
+    if in_order:
+        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in in_order)
         yield tree.List(tuple((paragraph(text),) for text in texts))
 
 

@@ -23,8 +23,9 @@ from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Notice, Place, Submission, Verdict
+from reportgen.marking.marks import Cells, Marked, Notice, Place, Submission, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Working, last_half_unit
 from reportgen.report.key import Key, KeyRow, Role
 
@@ -298,7 +299,7 @@ def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
     """The step (mm) to which the lengths on paper of a sheet are read."""
     lengths = [cell.given for cell in cells.values() if cell.given and scheme.ledger[cell.id].kind == "segment"]
     for step in STEPS:
-        on_it = sum(math.isclose(one, round(one / step) * step, rel_tol=1e-9) for one in lengths)
+        on_it = sum(abs(math.remainder(one, step)) <= 1e-9 * abs(one) for one in lengths)
         if on_it >= FOREIGN_SHARE * len(lengths):
             return step
     return TENTH
@@ -397,9 +398,8 @@ def _differs(working: Working, cell: Marked) -> bool:
     values = {name: np.full((len(moved) + 1, 1), value) for name, value in inputs.items()}
     for row, (name, share) in enumerate(moved.items(), start=1):
         values[name][row] *= 1 + share
-    with np.errstate(all="ignore"):
-        own, *others = (abs(float(one.real)) for one in np.asarray(evaluate(definition, values))[:, 0])
-        moves = [abs(one - own) for one in others]
+    own, *others = (abs(float(one.real)) for one in np.asarray(evaluate(definition, values))[:, 0])
+    moves = [abs(one - own) for one in others]
     value = abs(float(working.values[cell.id][index]))
     last = last_half_unit(cell.given) * float(working.unit(cell.id)[index])
     return bool(np.isfinite(own) and abs(value - own) > ROOM * (sum(moves) + last))

@@ -159,7 +159,7 @@ def _formula(ledger: Ledger, id: str) -> Expression:
 
 
 def is_open(values: np.ndarray, sense: str) -> bool:
-    """Whether the papers leave the sign of values open: there are negative ones, and no words about them."""
+    """Whether the papers leave the sign of values [N] open: there are negative ones, and no words about them."""
     return sense in OPEN or (not sense and bool(np.nanmin(values, initial=0.0) < 0))
 
 

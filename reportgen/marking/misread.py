@@ -16,8 +16,9 @@ import numpy as np
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Verdict
+from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Change, Working, last_half_unit
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
@@ -349,10 +350,9 @@ def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np
     unit = float(working.unit(place[0])[index])
     given, band = float(working.values[place[0]][index]), cell.band * unit
     expected = values[:, index]
-    with np.errstate(all="ignore"):
-        wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
-        near = scheme.distance(place[0], given, expected) <= band * wider
-        shows = scheme.distance(place[0], cell.own * unit, expected) > band
+    wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
+    near = scheme.distance(place[0], given, expected) <= band * wider
+    shows = scheme.distance(place[0], cell.own * unit, expected) > band
     return np.asarray(near & shows)
 
 

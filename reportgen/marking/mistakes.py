@@ -17,7 +17,7 @@ from reportgen.formula import Call, Expression, Negative, Sum, rebuild, refs, wa
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.formula.sheet import Family
-from reportgen.marking.bands import is_direction
+from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Values, Verdict
 from reportgen.marking.working import Change, Working
 from reportgen.report.key import Role
@@ -262,7 +262,7 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
         *(
             ("too-few-figures", place)
             for place, cell in first.items()
-            if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place, cell)
+            if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place)
         ),
         # A scale was taken from the task while the plan was drawn at another.
         *(
@@ -291,13 +291,13 @@ def _has_too_few_figures(cell: Marked) -> bool:
     )
 
 
-def _comes_of_a_misconception(working: Working, place: Place, cell: Marked) -> bool:
-    """Whether a mistake known of the quantity gives the value in all its figures: a_w = a of 200 mm is not rounded."""
+def _comes_of_a_misconception(working: Working, place: Place) -> bool:
+    """Whether a mistake known of the quantity gives the value to three figures: a_w = a of 200 mm is not rounded."""
     (id, position), scheme = place, working.scheme
     known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]
     index = scheme.rows[id].at(position)
-    values = foreseen(working, [id], known)[id][:, index] / working.unit(id)[index]
-    return cell.given is not None and bool(np.isclose(values, cell.given, rtol=1e-9).any())
+    values, given = foreseen(working, [id], known)[id][:, index], working.values[id][index]
+    return bool((np.abs(values - given) <= half_unit(given, FEW_FIGURES + 1)).any())
 
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:
@@ -382,12 +382,11 @@ def _explained(
     own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
     values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
     candidates = [*candidates, *candidates]
-    with np.errstate(all="ignore"):
-        # What a mistake makes larger, it makes less certain in the same measure.
-        wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
-        apart = scheme.distance(id, given, values)
-        off = apart / (band * wider)
-        shows = np.min([scheme.distance(id, one, values) for one in (own, expected)], axis=0) > band
+    # What a mistake makes larger, it makes less certain in the same measure.
+    wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
+    apart = scheme.distance(id, given, values)
+    off = apart / (band * wider)
+    shows = np.min([scheme.distance(id, one, values) for one in (own, expected)], axis=0) > band
     # What is nearly nothing is so by many a mistake: it shows one only if it is met in its own figures.
     left_out = np.array([[mistake.name == NO_CORIOLIS] for mistake in candidates])
     met = (off <= 1) & shows & (left_out | (np.abs(given) > band) | (apart <= OWN_FIGURES * np.abs(values)))
@@ -424,7 +423,7 @@ def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
-    """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
+    """What quantities come to (SI) by each mistake, from a student's own earlier values [mistakes, positions]."""
     scheme = working.scheme
     ledger = scheme.ledger
     made: dict[str, list[tuple[int, Change]]] = {}

@@ -15,7 +15,9 @@ from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.marking.guard import Classmate
-from reportgen.marking.marks import Marked, Marking, MarkingScheme, Notice, Place, Policy, Submission
+from reportgen.marking.marks import Marked, Marking, Notice, Place, Submission
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.report.key import Key, PartOfKey
 
 

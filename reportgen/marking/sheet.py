@@ -379,7 +379,7 @@ class _Reading:
         self.problems[place] = as_problem(fault, self.language)
 
     def note(self, fault: Fault) -> None:
-        self.notes.append(as_problem(fault, self.language))
+        self.notes.append(as_problem(fault, self.language, "note"))
 
 
 def _nearest(ways: Sequence[float], right: float, otherwise: float) -> float:

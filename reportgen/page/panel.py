@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import Language, write
-from reportgen.drawing import Content, Label, Line, Pen
+from reportgen.drawing import Content, Label
 from reportgen.drawing.animation import (
     LAYERS,
     Animation,
@@ -27,9 +27,10 @@ from reportgen.drawing.animation import (
     Pane,
     Still,
     Track,
+    scale_bars,
 )
 from reportgen.drawing.geometry import POINT, frame
-from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, VISIBLE, decimal
+from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
@@ -37,10 +38,6 @@ from reportgen.page.html import Panel, data, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
-BARS, STRIP, UP = 2, 7.0, 1.5
-"""How many scale bars stand side by side, in strips so high (mm), so far above the lower edge of theirs (mm)."""
-TICK = 0.8
-"""Half the strokes at the ends of a scale bar (mm)."""
 LINE = 0.42
 """Half the height of a line of letters, in font sizes."""
 HIT = 4.0
@@ -189,8 +186,7 @@ class _Writer:
     def pane(self, pane: Pane) -> _Drawn:
         """A drawing in the box of all that it ever shows, about the origin of its places, y downwards; bars below."""
         self.enlargement = pane.enlargement
-        strips = 1 if pane.finer else math.ceil(len(pane.scales) / BARS)
-        size = pane.high - pane.low + 1j * strips * STRIP * self.enlargement
+        size = pane.high - scale_bars(pane)[0]
         width, height = decimal(size.real), decimal(size.imag)
         return _Drawn(
             key=pane.key,
@@ -206,25 +202,13 @@ class _Writer:
 
     def bars(self, pane: Pane) -> Iterator[str]:
         """A bar for each scale, its value above it; of scales in use in turns all in one place."""
-        enlargement, room = self.enlargement, (pane.high - pane.low).real / BARS
-        tick, stroke = 1j * TICK * enlargement, Pen(round(VISIBLE.width * enlargement, 3))
-        for number, scale in enumerate(pane.scales):
-            strip, column = divmod(0 if pane.finer else number, BARS)
-            value, length = scale.bar(room)
-            start = pane.low + (column * room + enlargement) - 1j * ((strip + 1) * STRIP - UP) * enlargement
-            end = start + length
-            lines = (
-                Line(start, end, stroke),
-                Line(start - tick, start + tick, stroke),
-                Line(end - tick, end + tick, stroke),
-            )
-            shown = Label(start + 1.5 * tick, value, "bottom-left", SMALL * enlargement)
+        for number, (scale, bar) in enumerate(scale_bars(pane)[1]):
             attributes = f' data-bar="{number}"'
             if pane.finer:
                 attributes += f' data-scale="{number}"' + " hidden" * bool(number)
             if scale.layers:
                 attributes += f' data-of-layer="{" ".join(scale.layers)}" hidden'
-            yield f"<g{attributes}>{self.painter.items((*lines, shown))}</g>"
+            yield f"<g{attributes}>{self.painter.items(bar)}</g>"
 
     def item(self, item: MovingItem) -> str:
         """The element of an item; if it moves it gets a number, and what it follows goes into the data."""
@@ -279,6 +263,7 @@ class _Writer:
         return self.element(parts, item.layer, follows)
 
     def label(self, content: Content, size: float) -> str:
+        """A label of a size (points) about its own place."""
         return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
     def half_size(self, content: Content, size: float) -> list[float]:
@@ -310,7 +295,7 @@ class _Writer:
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:
-    """A bound as printed: so many figures, never less than the value."""
+    """A bound as printed, in its unit: so many figures, never less than the value."""
     if value <= 0:
         return write(0.0, None, language)
     step = 10.0 ** (math.floor(math.log10(value)) - figures + 1)

@@ -154,7 +154,7 @@ class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
     Where the page has no room for it, the text runs on to the end of the page before it.  One that is `turned` by 90°
-    has a page for itself.
+    has a page for itself.  `at` is the label of the position that it shows, if it shows one.
     """
 
     scenes: tuple[Scene, ...]
@@ -162,6 +162,7 @@ class Figure:
     key: str = ""
     number: str = ""
     turned: bool = False
+    at: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,7 +171,8 @@ class Plate:
 
     Plates stand together at the end of their chapter.
 
-    With `continues` it is a further page of the figure before it, whose number it shares.
+    With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
+    position that it shows, if it shows one.
     """
 
     scene: Scene
@@ -179,6 +181,7 @@ class Plate:
     key: str = ""
     number: str = ""
     continues: bool = False
+    at: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -107,7 +107,7 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
 
 
 def lines(rows: Sequence[Expression], room: float) -> int:
-    """How many lines the rows of an equation take, short ones two abreast."""
+    """How many lines the rows of an equation take in a room (mm), short ones two abreast."""
     groups = in_groups(rows, room)
     return sum(-(-len(one) // 2) if all(_is_short(row, room) for row in one) else len(one) for one in groups)
 

@@ -209,6 +209,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     name that nobody draws.
     """
     key, draw = FIGURES[name]
+    at = ""
     if arguments and isinstance(arguments[0], str):
         key, caption, *shown = arguments
     else:
@@ -216,6 +217,7 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
         group = next((one for one in shown if isinstance(one, GroupView)), None)
         position = next((one for one in shown if isinstance(one, Position)), None)
         key = ".".join(str(part) for part in (key, group, position) if part is not None)
+        at = "" if position is None else str(position)
         links = {"i": group.i, "j": group.j} if group else None
         caption = report.words["captions"][words or name].format(k=position, g=links)
     drawn = draw(report, *shown)
@@ -226,10 +228,10 @@ def figure(report: Report, name: str, *arguments: Any, words: str = "") -> tuple
     if drawn.note is not None:
         inlines = (*inlines, Text("; "), InlineMath(drawn.note))
     if drawn.paper is None:
-        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned),)
+        return (Figure(drawn.scenes, inlines, key, turned=drawn.turned, at=at),)
     first, *others = drawn.scenes
     further = (Plate(scene, drawn.paper, continues=True) for scene in others)
-    return Plate(first, drawn.paper, inlines, key), *further
+    return Plate(first, drawn.paper, inlines, key, at=at), *further
 
 
 def smaller(report: Report, name: str) -> Inlines:

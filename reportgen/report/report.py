@@ -188,7 +188,7 @@ class Report:
         return self.sense(self.machine.turn)
 
     def sense(self, value: float) -> str:
-        """The sense of a rotation; a dash where there is none."""
+        """The sense of a rotation (rad/s, or any other unit); a dash where there is none."""
         words = self.words["sense"]
         return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
 
@@ -385,6 +385,10 @@ class Report:
         return frozenset(id for id, family in self.ledger.families.items() if family.definition is not None)
 
     # --- motion
+
+    def place(self, point: str, k: int) -> complex:
+        """Where a point stands at a position (m)."""
+        return complex(self.ledger[ids.place(point)].at(k))
 
     def known(self, quantities: Iterable[str]) -> list[str]:
         """Those of the ids that the ledger knows, each once."""

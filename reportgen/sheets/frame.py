@@ -119,7 +119,7 @@ def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scen
 
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
-    """The title block with its cells filled in; the texts keep inside their cells."""
+    """The title block of a size (mm) with its cells filled in; the texts keep inside their cells."""
     outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
     return Scene(*size, (*_cells(cells), outline))
 

@@ -12,7 +12,7 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Literal
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
@@ -41,8 +41,6 @@ CAPITAL, OUT = 2.4, 0.8
 """Height of capitals there, and how far a formula may stand out above them or below the line, mm."""
 CELL, CELL_INSET = 10.0, 3.0
 """The size of letters in tables, in points, and the white on both sides of a cell, mm."""
-PPI = 220
-"""Dots an inch of pictures."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 
@@ -63,7 +61,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
         )
     )
     body = _Blocks(document.language, document.words, letter, document.close).write(document.blocks)
-    return f"{_frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
+    return f"{frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
 
 
 def _in(letter: layout.Letter) -> Iterator[str]:
@@ -80,10 +78,10 @@ def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:
     items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
     drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
-    return "\n".join((_frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
+    return "\n".join((frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
 
 
-def _frame(close: bool = False) -> str:
+def frame(close: bool = False) -> str:
     """The frame's source, for a document that is set `close` or not: from the package, or beside it in a checkout."""
     path = templates() / "frames" / "typst" / "report.typ"
     try:
@@ -252,7 +250,7 @@ class _Blocks:
         heads = [self.head(row) for row in rows]
 
         def aligned(start: int, step: int) -> float:
-            """What rows take whose relations stand below each other."""
+            """What rows take (mm) whose relations stand below each other."""
             left = heads[start::step]
             return max(left) + max(row - head for row, head in zip(own[start::step], left, strict=True))
 
@@ -373,46 +371,30 @@ def compile(source: str, system: bool = False) -> bytes:
 
     Raises `TypesetterError` with the message's first lines.
     """
+    (pdf,) = compile_as(source, "pdf", system)
+    return pdf
+
+
+def compile_as(source: str, format: Literal["pdf", "png", "svg"], system: bool = False, dpi: int = 0) -> list[bytes]:
+    """A PDF of a Typst source, or a picture of each of its pages, of `dpi` dots an inch.
+
+    Raises `TypesetterError`.
+    """
     try:
         import typst
     except ModuleNotFoundError as error:
         raise TypesetterError("typst is not installed: pip install typst") from error
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
-    own = not needs_system_fonts(source, lacking)
+    own = not needs_system_fonts(source, lacking) and not system
     give_memory_back()
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
         try:
-            pdf = typst.compile(str(path), root=folder, ignore_system_fonts=own and not system)
+            made = typst.compile(str(path), root=folder, ignore_system_fonts=own, format=format, ppi=dpi or None)
         except typst.TypstError as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
-    assert isinstance(pdf, bytes)
-    return pdf
-
-
-def pictures(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:
-    """Scenes in true size as PNG and as SVG."""
-    import typst
-
-    if not scenes:
-        return []
-    formulas = TypstFormulas(language)
-    pages = (
-        f"#page(width:{scene.width}mm,height:{scene.height}mm,margin:0pt)[#{paint_typst(scene, formulas)}]"
-        for scene in scenes
-    )
-    source = "\n".join((_frame(), SHEET_LOOK, *pages))
-    own = not needs_system_fonts(source, lacking)
-    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
-        path = Path(folder) / "figures.typ"
-        path.write_text(source, encoding="utf-8", newline="")
-        compiler = typst.Compiler(str(path), root=folder, ignore_system_fonts=own)
-        made: list[Any] = [compiler.compile(format="png", ppi=PPI), compiler.compile(format="svg")]
     # What has one page comes alone.
-    pngs, svgs = made if len(scenes) > 1 else ([one] for one in made)
-    # Letters are symbols that are used; groups that are used look the same, and more programs know them.
-    grouped = (svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>") for svg in svgs)
-    return list(zip(pngs, grouped, strict=True))
+    return [made] if isinstance(made, bytes) else list(made)

@@ -112,6 +112,7 @@ class _Setting:
 
     @property
     def indent(self) -> float:
+        """How far a paragraph at this level is indented (mm)."""
         return LIST_INDENT * self.level
 
     @property

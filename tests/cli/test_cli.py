@@ -52,11 +52,16 @@ def test_check_is_silent_when_all_is_well() -> None:
 
 
 def test_check_and_help_leave_heavy_libraries_alone() -> None:
-    """They answer at once: pint alone takes longer to import than all of `check`."""
+    """They answer at once: pint alone takes longer to import than all of `check`.
+
+    Nor does a machine load other kinds of work, or what renders templates.
+    """
     script = (
         "import sys\nfrom pathlib import Path\nimport reportgen.cli, reportgen.api\n"
         f"assert reportgen.api.check(Path({str(SAMPLE)!r})) == []\n"
-        "print(*{'pint', 'matplotlib', 'pylatex', 'typst', 'jinja2'} & set(sys.modules))"
+        "print(*{'pint', 'matplotlib', 'pylatex', 'typst', 'jinja2', 'reportgen.report.prose'} & set(sys.modules))\n"
+        "print(*{'cam', 'gears', 'exercise', 'coursework'} & {one.split('.')[1] for one in sys.modules if one[:9] == "
+        "'reportgen' and '.' in one})"
     )
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == ""

@@ -26,8 +26,10 @@ from reportgen.drawing import Scene
 from reportgen.formula import Symbol
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Answer, Marking, Policy, Submission, Verdict, marking_scheme
+from reportgen.marking.marks import Answer, Marking, Submission, Verdict
 from reportgen.marking.paper import task_of
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.page import panels
 from reportgen.report import Contents, Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced

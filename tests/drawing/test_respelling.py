@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 
 from reportgen.drawing import Circle, Content, Label, Line, Pen, style
@@ -30,7 +32,7 @@ def test_a_row_that_grows_touches_nothing(beside: complex) -> None:
     row = [item for item in grown.items if isinstance(item, Label)]
     assert [item.content for item in row] == ["s = ", LONG, " / 2"]
     ends = [(centre - half, centre + half) for centre, half in map(frame, row)]
-    assert all(right.real == pytest.approx(left.real) for (_, right), (left, _) in zip(ends, ends[1:], strict=False))
+    assert all(right.real == pytest.approx(left.real) for (_, right), (left, _) in pairwise(ends))
 
 
 def test_a_label_at_the_edge_takes_the_sheet_with_it() -> None:

@@ -14,8 +14,10 @@ from reportgen.cases import opened
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import FLAGS_ONLY, TAKES, MarkingScheme, Policy, Submission, Verdict
+from reportgen.marking.marks import Submission, Verdict
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import FLAGS_ONLY, TAKES, Policy
+from reportgen.marking.scheme import MarkingScheme
 from tests.lanes import matrix, proof
 from tests.marking import hands, students
 

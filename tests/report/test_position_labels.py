@@ -15,8 +15,9 @@ from reportgen.assignment.common import Extent
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase
 from reportgen.drawing import Circle, Label, Line, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import coincident
-from reportgen.drawing.labels import Canvas, finish, label
+from reportgen.drawing.labels import label
 from reportgen.drawing.positions import DOT
 from reportgen.drawing.sheet import ENLARGED, lettered
 from reportgen.formula import Chain, Symbol, vocabulary

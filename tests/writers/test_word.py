@@ -15,7 +15,8 @@ from reportgen.drawing import Scene
 from reportgen.formula import Matrix, Symbol, VectorEquation
 from reportgen.report import Block, Equation, Figure, Paragraph, Plate, Section, Table, Text, plain
 from reportgen.report.layout import Letter
-from reportgen.writers import typst, word
+from reportgen.writers import pictures as drawn
+from reportgen.writers import word
 from tests.writers import sample
 from tests.writers.pages import document
 from tests.writers.word_file import WP, A, M, R, W, WordFile, letters_of, recounted, squash, style_of
@@ -26,7 +27,7 @@ INCH = 25.4
 
 
 def pictures(scenes: Any) -> list[tuple[bytes, bytes]]:
-    return typst.pictures(scenes, "vi")
+    return drawn.for_word(scenes, "vi")
 
 
 @cache

@@ -13,7 +13,8 @@ from typing import Any
 import pytest
 
 from reportgen.report import Cell, Section, Table, plain
-from reportgen.writers import typst, word
+from reportgen.writers import pictures as drawn
+from reportgen.writers import word
 from tests.lanes import proof
 from tests.report import built
 from tests.writers import sample
@@ -39,7 +40,7 @@ def has_times() -> bool:
 
 def written(folder: Path, document: Any, language: Any) -> Path:
     path = folder / "report.docx"
-    path.write_bytes(word.write(document, lambda scenes: typst.pictures(scenes, language)))
+    path.write_bytes(word.write(document, lambda scenes: drawn.for_word(scenes, language)))
     return path
 
 

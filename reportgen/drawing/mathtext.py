@@ -1,0 +1,60 @@
+"""Formulas → mathtext, the letters between dollar signs that matplotlib sets in labels and legends."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import ClassVar
+
+from reportgen.formula import Chain, Expression, Symbol
+from reportgen.formula.setter import TextSetter
+from reportgen.formula.setting import NAMED, Fence, Sign, Written, is_tall, parted
+from reportgen.formula.vocabulary import numbered, runs
+
+MEANT = {sign: f"\\{sign}" for sign in "$%_#&{}"} | {"\\": r"\backslash ", "^": r"\hat{}", " ": r"\ ", ",": "{,}"}
+"""What letters are written as that mean something in mathematics."""
+
+
+class MathText(TextSetter):
+    BELOW = "{%s}_{%s}"
+    RAISED = POWER = "{%s}^{%s}"
+    QUOTIENT, RADICAL = r"\frac{%s}{%s}", r"\sqrt{%s}"
+    SIGNS: ClassVar = {"·": r"\cdot ", "×": r"\times ", "−": "-"}
+
+    def label(self, content: Expression | str) -> str:
+        """A label of matplotlib: plain text, or mathematics, behind which a note stands as text."""
+        if isinstance(content, str):
+            return content.replace("$", r"\$")
+        if isinstance(content, Chain) and content.note:
+            return f"{self.label(replace(content, note=''))} ({self.label(content.note)})"
+        return f"${self.math(content)}$"
+
+    def text(self, text: str) -> str:
+        return r"\mathrm{" + "".join(MEANT.get(one, one) for one in text) + "}" if text else ""
+
+    def fence(self, fence: Fence) -> str:
+        inner = self.part(fence.of)
+        match fence.left:
+            case "(" if is_tall(fence.of):
+                return rf"\left({inner}\right)"
+            case "|":
+                return rf"\left|{inner}\right|"
+        return self.FENCES[fence.left] % inner
+
+    def sign(self, sign: Sign) -> str:
+        return self.SIGNS.get(sign.of, sign.of)
+
+    def function(self, name: str) -> str:
+        return rf"\{name} " if name in NAMED else self.text(name)
+
+    def number(self, number: Written) -> str:
+        return self.text(number.text(" "))
+
+    def symbol(self, node: Symbol) -> str:
+        """A symbol with its marks: base in italics, sub- and superscript upright, a bar over the whole of it."""
+        letters, above = parted(node)
+        base = self.lowered(runs(letters), lambda part: rf"\mathit{{{part}}}" if part.isalpha() else self.text(part))
+        if node.over == "vector":
+            base = rf"\vec{{{base}}}"
+        below = f"_{{{self.lowered(numbered(node.sub), self.upright)}}}" if node.sub else ""
+        marked = f"{{{base}}}{below}" + (f"^{{{self.text(above)}}}" if above else "")
+        return rf"\overline{{{marked}}}" if node.over == "segment" else marked

@@ -1,0 +1,191 @@
+"""Figures of a case as files of their own: those of its report, and what moves on its page.
+
+A figure of the report goes by its key without what says that it is one: v.4, motion, cam.law.  What moves goes by the
+name of its drawing, machine, v, R23, that of a part behind the part's name, cam.cam.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.base.errors import NotOfferedError, UnknownNameError
+from reportgen.base.units import Language
+from reportgen.base.words import unknown, word
+from reportgen.drawing import Scene
+from reportgen.drawing.animation import LAYERS, Animation, Pane, Track
+from reportgen.drawing.stills import sample_at, stills
+from reportgen.report.case import Case, bounded
+from reportgen.report.named_figures import NamedFigure, named_figures, safe
+
+STILL, MOVING = ("svg", "png", "pdf", "eps"), ("gif", "mp4")
+FORMATS = (*STILL, *MOVING)
+"""What a figure can be written as; the last ones of what moves alone."""
+SHOWN = LAYERS[:1]
+"""What is drawn on a machine besides, as its page has it at first."""
+FRAMES = 60
+"""Of a turn."""
+MOVING_DPI = 110
+"""Dots an inch of what moves."""
+
+
+@dataclass(frozen=True, slots=True)
+class MovingFigure:
+    """A drawing that moves, by its name."""
+
+    name: str
+    animation: Animation
+    pane: Pane
+
+    def at(self, label: str, layers: Collection[str]) -> Scene:
+        """It at a position, by its label; at the one that the page opens at where there is none."""
+        angles = dict(self.animation.positions)
+        angle = angles.get(label, self.animation.positions[self.animation.shown][1])
+        return next(stills(self.animation, self.pane, [sample_at(self.animation, angle)], layers))
+
+    def frames(self, layers: Collection[str]) -> list[Scene]:
+        """It through a turn, or through the cycle if that is longer for what is shown."""
+        turns = self.animation.turns if self._goes_on(layers) else 1
+        ends = not self.animation.span
+        angles = np.linspace(0.0, 360.0 * turns, FRAMES * turns + (not ends), endpoint=not ends)
+        return list(
+            stills(self.animation, self.pane, [sample_at(self.animation, float(one)) for one in angles], layers)
+        )
+
+    def _goes_on(self, layers: Collection[str]) -> bool:
+        """Whether something is shown that does not repeat from turn to turn."""
+        shown = (item for item in self.pane.items if not item.layer or item.layer in layers)
+        return any(
+            track.values.size > self.animation.knots.size
+            for item in shown
+            for track in (getattr(item, name, None) for name in ("at", "start", "end"))
+            if isinstance(track, Track)
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class FigureQuery:
+    """Which figures are wanted and how: all without `names`; those of a position that goes by `labels`, the first best.
+
+    What moves shows `layers` besides; pictures have `dpi` dots an inch, as many as is usual for 0.
+    """
+
+    names: Sequence[str] = ()
+    labels: Sequence[str] = ()
+    formats: Sequence[str] = STILL[:1]
+    dpi: int = 0
+    layers: Sequence[str] = SHOWN
+
+
+def listed(case: Case) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
+    """The figures of the report in their order, and what moves."""
+    return named_figures(case.document()), moving(case)
+
+
+def moving(case: Case) -> tuple[MovingFigure, ...]:
+    """What moves, of all parts."""
+    return tuple(
+        MovingFigure(f"{one.name}.{pane.key}" if one.name else pane.key, one, pane)
+        for one in case.animations()
+        for pane in one.panes
+    )
+
+
+def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
+    """The figures that are wanted, by the names of their files.
+
+    Raises `UnknownNameError` for a figure or a layer that there is not, `NotOfferedError` for a figure in a format that
+    it cannot have, `TypesetterError`.
+    """
+    language = case.assignment.language
+    still = [name for name in query.formats if name in STILL]
+    moved = [name for name in query.formats if name in MOVING]
+    # Opening what moves takes as long as all else.
+    movable = moving(case) if moved or query.layers != SHOWN or query.names else ()
+    _check_layers(query, movable, language)
+    files: dict[str, bytes] = {}
+    if still:
+        scenes = dict(_drawings(case, query, movable))
+        found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
+        files |= {f"{name}.{format}": one for format in still for name, one in zip(scenes, found[format], strict=True)}
+    for one in _wanted(case, query, movable) if moved else ():
+        frames = one.frames(query.layers)
+        for format in moved:
+            made = bounded(case.assignment, animated, frames, language, format, query.dpi)
+            files[f"{safe(one.name)}.{format}"] = made
+    return files
+
+
+def drawn(
+    scenes: Sequence[Scene], language: Language, formats: Sequence[str] = STILL[:1], dpi: int = 0
+) -> dict[str, list[bytes]]:
+    """Scenes in some of the formats that stand still."""
+    from reportgen.writers import pictures
+
+    makers: Mapping[str, Callable[[], list[bytes]]] = {
+        "svg": lambda: pictures.svgs(scenes, language),
+        "png": lambda: pictures.pngs(scenes, language, dpi or pictures.DPI),
+        "pdf": lambda: pictures.pdfs(scenes, language),
+        "eps": lambda: _eps(scenes, language),
+    }
+    return {name: makers[name]() for name in formats}
+
+
+def _eps(scenes: Sequence[Scene], language: Language) -> list[bytes]:
+    from reportgen.writers import figure
+
+    return [figure.eps(scene, language) for scene in scenes]
+
+
+def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int = 0) -> bytes:
+    """Scenes one after the other in one of the formats that move."""
+    from reportgen.writers import video
+
+    return {"gif": video.gif, "mp4": video.mp4}[format](scenes, language, dpi or MOVING_DPI)
+
+
+def _drawings(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[tuple[str, Scene]]:
+    """The drawings of what is wanted that stand still, by the names of their files."""
+    language, figures = case.assignment.language, named_figures(case.document())
+    if not query.names:
+        shown = [one.shown_at(query.labels) for one in figures] if query.labels else figures
+        if not any(shown):
+            raise NotOfferedError(word("no_figure_at", language, label=query.labels[0] if query.labels else ""))
+        for one in filter(None, shown):
+            yield from one.files.items()
+    for name in query.names:
+        # With a position v is the plan of that one.
+        of_name = [one for one in figures if name == one.name or (query.labels and name == one.kind)]
+        if of_name:
+            for one in of_name:
+                yield from ((query.labels and one.shown_at(query.labels)) or one).files.items()
+        elif found := next((one for one in movable if one.name == name), None):
+            label = query.labels[0] if query.labels else ""
+            yield safe(f"{name}-{label}" if label else name), found.at(label, query.layers)
+        else:
+            known = [*(one.name for one in figures), *(one.name for one in movable)]
+            raise UnknownNameError(unknown("no_figure", name, known, language))
+
+
+def _wanted(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[MovingFigure]:
+    """What moves of all that is wanted."""
+    language, by_name = case.assignment.language, {one.name: one for one in movable}
+    if not by_name:
+        raise NotOfferedError(word("nothing_moves", language))
+    for name in query.names or by_name:
+        if name not in by_name:
+            stands = any(name in (one.name, one.kind) for one in named_figures(case.document()))
+            known = list(by_name)
+            if stands:
+                raise NotOfferedError(word("figure_stands", language, text=name, known=", ".join(known)))
+            raise UnknownNameError(unknown("no_figure", name, known, language))
+        yield by_name[name]
+
+
+def _check_layers(query: FigureQuery, movable: Sequence[MovingFigure], language: Language) -> None:
+    known = dict.fromkeys(layer for one in movable for layer in one.animation.layers)
+    for layer in query.layers if query.layers != SHOWN else ():
+        if layer not in known:
+            raise UnknownNameError(unknown("no_layer", layer, list(known), language))

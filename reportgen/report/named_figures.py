@@ -1,0 +1,83 @@
+"""The figures of a finished report by their names, each as drawings that can stand by themselves."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+
+from reportgen.drawing import Scene
+from reportgen.report import Block, Document, Figure, List, Plate, plain
+
+_FIGURE = re.compile(r"(^|\.)fig\.")
+"""What says in the key of a block that it is a figure, behind the name of its part: cam.fig.law."""
+_UNSAFE = re.compile(r"[^\w.′″-]+")
+"""What no name of a file needs."""
+
+
+@dataclass(frozen=True, slots=True)
+class NamedFigure:
+    """A figure of a report: its name, its number and caption as text, its drawings.
+
+    One that shows a position, whose label is `at`, has it at the end of its name, v.4.
+    """
+
+    name: str
+    number: str
+    caption: str
+    scenes: tuple[Scene, ...]
+    at: str = ""
+
+    @property
+    def kind(self) -> str:
+        """Its name without its position."""
+        return self.name.removesuffix(f".{self.at}") if self.at else self.name
+
+    @property
+    def positions(self) -> tuple[str, ...]:
+        """The positions that its drawings show one by one."""
+        return tuple(dict.fromkeys(scene.at for scene in self.scenes if scene.at))
+
+    def shown_at(self, labels: Sequence[str]) -> NamedFigure | None:
+        """The figure of a position that goes by these labels, the nearest first; None where it shows none of them."""
+        if self.at:
+            return self if self.at in labels else None
+        for label in labels:
+            if scenes := tuple(scene for scene in self.scenes if scene.at == label):
+                return replace(self, scenes=scenes)
+        return None
+
+    @property
+    def files(self) -> Mapping[str, Scene]:
+        """Its drawings by the names of their files: of several by their positions, or else counted."""
+        if len(self.scenes) == 1 and not self.scenes[0].at:
+            return {safe(self.name): self.scenes[0]}
+        return {safe(f"{self.name}-{one.at or number}"): one for number, one in enumerate(self.scenes, start=1)}
+
+
+def named_figures(document: Document) -> tuple[NamedFigure, ...]:
+    """All figures of a report in their order; one on several pages is one."""
+    figures: list[NamedFigure] = []
+    for block in _figures(document.blocks):
+        scenes = block.scenes if isinstance(block, Figure) else (block.scene,)
+        if isinstance(block, Plate) and block.continues:
+            figures[-1] = replace(figures[-1], scenes=figures[-1].scenes + scenes)
+        else:
+            name = _FIGURE.sub(r"\1", block.key, count=1) or block.number or str(len(figures) + 1)
+            caption = plain(block.caption, document.language)
+            figures.append(NamedFigure(name, block.number, caption, scenes, block.at))
+    return tuple(figures)
+
+
+def safe(name: str) -> str:
+    """A name as that of a file."""
+    return _UNSAFE.sub("_", name)
+
+
+def _figures(blocks: Sequence[Block]) -> Iterator[Figure | Plate]:
+    for block in blocks:
+        if isinstance(block, (Figure, Plate)):
+            yield block
+        elif isinstance(block, List):
+            yield from _figures(tuple(chain.from_iterable(block.items)))

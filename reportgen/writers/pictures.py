@@ -1,0 +1,48 @@
+"""Scenes as pictures in true size, each a file of its own: SVG, PNG and PDF by Typst, in the letters of the report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reportgen.base.units import Language
+from reportgen.drawing import Scene
+from reportgen.writers import typst
+from reportgen.writers.drawing import paint_typst
+from reportgen.writers.typst_math import TypstFormulas
+
+DPI = 220
+"""Dots an inch of pictures in PNG."""
+
+
+def svgs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
+    """Scenes as SVG; letters are outlines, which look the same everywhere.  Raises `TypesetterError`."""
+    # Letters are symbols that are used; groups that are used look the same, and more programs know them.
+    return [
+        svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>")
+        for svg in typst.compile_as(_source(scenes, language), "svg")
+    ]
+
+
+def pngs(scenes: Sequence[Scene], language: Language, dpi: int = DPI) -> list[bytes]:
+    """Scenes as PNG of `dpi` dots an inch.  Raises `TypesetterError`."""
+    return typst.compile_as(_source(scenes, language), "png", dpi=dpi)
+
+
+def pdfs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
+    """A PDF for each scene.  Raises `TypesetterError`."""
+    return [typst.compile(_source([scene], language)) for scene in scenes]
+
+
+def for_word(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:
+    """Scenes as PNG and as SVG, of which a Word file has both."""
+    return list(zip(pngs(scenes, language), svgs(scenes, language), strict=True)) if scenes else []
+
+
+def _source(scenes: Sequence[Scene], language: Language) -> str:
+    """A Typst source with a page for each scene, of its size."""
+    formulas = TypstFormulas(language)
+    pages = (
+        f"#page(width:{scene.width}mm,height:{scene.height}mm,margin:0pt)[#{paint_typst(scene, formulas)}]"
+        for scene in scenes
+    )
+    return "\n".join((typst.frame(), typst.SHEET_LOOK, *pages))
