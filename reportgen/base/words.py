@@ -263,9 +263,7 @@ def _alike(present: Any, standing_in: Any) -> bool:
     """Whether a word can stand for another one: both are tables, or texts, or lists of as many that can."""
     if isinstance(present, list) and isinstance(standing_in, list):
         return len(present) == len(standing_in) and all(map(_alike, present, standing_in))
-    return isinstance(present, Mapping) == isinstance(standing_in, Mapping) and isinstance(present, str) == isinstance(
-        standing_in, str
-    )
+    return all(isinstance(present, kind) == isinstance(standing_in, kind) for kind in (Mapping, str))
 
 
 def language_of(source: Source) -> Language:

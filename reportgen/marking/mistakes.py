@@ -18,7 +18,8 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.formula.sheet import Family
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Values, Verdict
+from reportgen.marking.marks import Cells, Marked, Place, Verdict
+from reportgen.marking.scheme import MarkingScheme, Values
 from reportgen.marking.working import Change, Working
 from reportgen.report.key import Role
 

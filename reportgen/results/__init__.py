@@ -27,7 +27,7 @@ def results(case: Case) -> dict[str, Any]:
     about = {"format": FORMAT, "kind": assignment.kind, "variant": assignment.variant, "units": "SI"}
     about_all = {**about, **plain(entries.besides), "positions": plain(entries.positions)}
     further = {name: results(part) for name, part in islice(case.parts.items(), 1, None)}
-    return {**about_all, "parts": further} if further else entries_said
+    return {**about_all, "parts": further} if further else about_all
 
 
 def plain(value: Any) -> Any:
