@@ -7,8 +7,9 @@ from itertools import pairwise
 import pytest
 
 from reportgen.drawing import Circle, Content, Label, Line, Pen, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import frame
-from reportgen.drawing.labels import Canvas, finish, label
+from reportgen.drawing.labels import label
 from reportgen.drawing.respelling import respelled
 from reportgen.formula import Symbol
 from tests.drawing.overlaps import overlaps
