@@ -16,7 +16,7 @@ from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol

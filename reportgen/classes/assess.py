@@ -15,8 +15,9 @@ from reportgen import api
 from reportgen.api import Engine
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.base.files import overwritten, put_files, reported, scratch
+from reportgen.base.kinds import title
 from reportgen.base.units import Language
-from reportgen.base.words import as_problem, counted, title, word
+from reportgen.base.words import as_problem, counted, word
 from reportgen.cases import open_case
 from reportgen.classes.gradebooks import Gradebook, StudentResult
 from reportgen.classes.platforms import Owner, handed_in, zipped

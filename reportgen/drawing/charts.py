@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.geometry import box, clusters
+from reportgen.drawing.geometry import clusters
+from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
@@ -324,6 +325,7 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
 
 
 def framed(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
+    """A rectangle between two corners (mm)."""
     corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
     return Polyline(corners, pen, closed=True, fill=fill)
 

@@ -56,7 +56,7 @@ class Moment:
     sample: int
 
     def of(self, track: Track) -> complex:
-        """The value of a track: of one that stands still, of one that repeats from turn to turn, or of the cycle."""
+        """A track's value (mm, rad): of one that stands still, that repeats from turn to turn, or of the cycle."""
         turn = self.animation.knots.size - 1
         if track.values.size == 1:
             return complex(track.values[0])

@@ -66,7 +66,7 @@ def turned(pair: GearPair, number: int, rolled: float) -> float:
 
 
 def centre(pair: GearPair, number: int) -> complex:
-    """The centre of a wheel, the pitch point at 0."""
+    """The centre of a wheel (m), the pitch point at 0."""
     return (-1j, 1j)[number] * float(pair["d_w"][number]) / 2
 
 

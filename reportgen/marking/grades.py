@@ -9,8 +9,9 @@ from pathlib import Path
 from statistics import fmean, median
 from typing import Any
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Content
 from reportgen.drawing.counts import bars, histogram
 from reportgen.formula.vocabulary import Chapter

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import NARROW, written

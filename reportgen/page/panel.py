@@ -29,7 +29,8 @@ from reportgen.drawing.animation import (
     Track,
     scale_bars,
 )
-from reportgen.drawing.geometry import POINT, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
@@ -158,7 +159,7 @@ class _Writer:
                 for spot in animation.panes[0].spots
             ],
             "finer": {
-                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / one.per for one in pane.scales]}
+                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / scale.per for scale in pane.scales]}
                 for pane in animation.panes
                 if pane.finer
             },

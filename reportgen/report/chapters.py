@@ -184,7 +184,7 @@ def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tab
     """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
     peaks = list(_extremes(report))
     height = -(-len(peaks) // BESIDE)
-    cells = [tuple(Cell(part) for part in _row(one)) for one in peaks]
+    cells = [tuple(Cell(part) for part in _row(peak)) for peak in peaks]
     cells += [(Cell(),) * len(SET)] * (BESIDE * height - len(cells))
     body = (tuple(cell for line in cells[start::height] for cell in line) for start in range(height))
     titles = tuple(Cell((Text(title),)) for title in head) * BESIDE
