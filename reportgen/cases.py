@@ -20,9 +20,9 @@ from reportgen.base.units import Language
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.loads import STEPS
+from reportgen.machine.loads import FULL_TURN, STEPS
 from reportgen.report import Document
-from reportgen.report.case import Case, MachineAnalysis, Misconceptions
+from reportgen.report.case import Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.report.key import Key
 from reportgen.report.shafts import Shaft
 
@@ -108,6 +108,21 @@ class MachineCase(MachineAnalysis):
     @property
     def speed(self) -> float:
         return self.analysis.machine.speed
+
+    @property
+    def driver_motion(self) -> DriverMotion:
+        """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
+        from reportgen.report.report import Report
+
+        machine, points = self.analysis.machine, self.analysis.motion.points
+        signed = {
+            name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
+            for pin, way in Report(self).slider_senses.items()
+            for rate, name in ids.POINT_RATE.items()
+        }
+        slides = bool(machine.span)
+        gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
+        return DriverMotion(gone, machine.way, abs(machine.speed), slides, signed)
 
     @property
     def balance(self) -> np.ndarray | None:

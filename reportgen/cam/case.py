@@ -20,7 +20,7 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Document
-from reportgen.report.case import Misconceptions
+from reportgen.report.case import DriverMotion, Misconceptions
 from reportgen.report.key import Key, Span
 from reportgen.report.shafts import Shaft
 from reportgen.sheets import on_sheets
@@ -37,6 +37,10 @@ class CamCase(SolvedCam):
     @property
     def positions_of_a_turn(self) -> int:
         return self.count
+
+    @property
+    def driver_motion(self) -> DriverMotion:
+        return DriverMotion(self.solution.φ, 2 * np.pi, self.speed)
 
     @property
     def balance(self) -> None:

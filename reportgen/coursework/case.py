@@ -27,7 +27,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.marking.key import phrase
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, LoadedAssignment, Misconceptions
+from reportgen.report.case import Case, DriverMotion, LoadedAssignment, Misconceptions
 from reportgen.report.key import Key, PartOfKey, capitalised
 from reportgen.report.shafts import Shaft
 from reportgen.report.used_symbols import explained, is_explained, used_symbols
@@ -172,6 +172,10 @@ class Coursework:
     @property
     def speed(self) -> float | None:
         return self.machine.speed
+
+    @property
+    def driver_motion(self) -> DriverMotion | None:
+        return self.machine.driver_motion
 
     @property
     def balance(self) -> np.ndarray | None:

@@ -78,6 +78,22 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
                 yield id, taken
 
 
+@dataclass(frozen=True, slots=True)
+class DriverMotion:
+    """How a driver goes through the positions of a cycle, at constant speed.
+
+    `gone` is how far it has gone since the first of them [N], `whole` its way through the cycle (rad, or m of one that
+    `slides`, which does not begin anew), `speed` that of its motion (rad/s or m/s), if it has one.  `signed` are by
+    their ids the values [N] of the sizes of vectors along a line, counted in the direction of a unit vector.
+    """
+
+    gone: np.ndarray
+    whole: float
+    speed: float | None
+    slides: bool = False
+    signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)
+
+
 class Case(Protocol):
     """An assignment opened once; each part is computed when it is first asked for.
 
@@ -118,6 +134,10 @@ class Case(Protocol):
     @property
     def speed(self) -> float | None:
         """Of its driver (rad/s or m/s); None where nothing drives it."""
+
+    @property
+    def driver_motion(self) -> DriverMotion | None:
+        """How its driver goes through its positions; None where these are none of a driver's."""
 
     @property
     def balance(self) -> np.ndarray | None:
@@ -290,6 +310,11 @@ class LoadedAssignment:
     @property
     def used(self) -> Collection[Symbol] | None:
         """Nobody knows before its report is composed."""
+        return None
+
+    @property
+    def driver_motion(self) -> DriverMotion | None:
+        """It has no positions of a driver."""
         return None
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
