@@ -107,7 +107,7 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
     _check_layers(query, movable, language)
     files: dict[str, bytes] = {}
     if still:
-        scenes = dict(_drawings(case, query, movable))
+        scenes = dict(drawings(case, query, movable))
         found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
         files |= {f"{name}.{format}": one for format in still for name, one in zip(scenes, found[format], strict=True)}
     for one in _wanted(case, query, movable) if moved else ():
@@ -146,7 +146,7 @@ def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int 
     return {"gif": video.gif, "mp4": video.mp4}[format](scenes, language, dpi or MOVING_DPI)
 
 
-def _drawings(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[tuple[str, Scene]]:
+def drawings(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[tuple[str, Scene]]:
     """The drawings of what is wanted that stand still, by the names of their files."""
     language, figures = case.assignment.language, named_figures(case.document())
     if not query.names:
