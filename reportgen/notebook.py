@@ -92,9 +92,8 @@ class Model:
         assert isinstance(top, MappingNode), "an assignment in order is a table"
         for name, value in values.items():
             where = (PARAMETERS, *name.split("."))
-            old = at(top, where)
-            mark = old.mark if old is not None else top.mark
-            changed = put(top, where, Scalar(self._written(where, value), mark))
+            nearest = next(node for step in range(len(where), -1, -1) if (node := at(top, where[:step])) is not None)
+            changed = put(top, where, Scalar(self._written(where, value), nearest.mark))
             assert isinstance(changed, MappingNode), "a key is put into a table"
             top = changed
         return Model(replace(self._source, top=top), self._path, self._language)
