@@ -23,8 +23,8 @@ from reportgen.base.files import reported, scratch, version
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, school_folder, templates_hash, word
-from reportgen.cases import open_case, opened
-from reportgen.report.case import MachineAnalysis, bounded
+from reportgen.cases import MachineCase, open_case, opened
+from reportgen.report.case import bounded
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
@@ -50,7 +50,7 @@ load, check, examine = catalogue.load, catalogue.check, catalogue.examine
 
 def analyse(assignment: Assignment) -> Analysis:
     """Everything computed of an assignment, as arrays over its positions."""
-    return MachineAnalysis(assignment).analysis
+    return MachineCase(assignment).analysis
 
 
 def solve(assignment: Assignment, positions: int | None = None, printed: bool = False) -> dict[str, Any]:
@@ -59,13 +59,13 @@ def solve(assignment: Assignment, positions: int | None = None, printed: bool = 
     What the report prints stands beside as `printed`, if it is asked for and there is a report of it.  Raises
     `NotOfferedError` for positions of an exercise, which is one instant.
     """
-    from reportgen.marking.results import printed_values
+    from reportgen.results import printed_values, results
 
     if positions is not None and not catalogue.kind(assignment.kind).counts_positions:
         raise NotOfferedError(word("no_positions", assignment.language, kind=assignment.kind))
     chosen = assignment if positions is None else assignment.with_positions(positions)
     case = opened(chosen)
-    found = case.results()
+    found = results(case)
     if printed:
         with suppress(NotOfferedError):
             found["printed"] = printed_values(case.printed)
@@ -84,13 +84,13 @@ def result_files(
 
     CSV, which has one table a file, has a further file for each part of a coursework, results-cam.csv.
     """
-    from reportgen.marking.results import result_file
+    from reportgen.results.files import result_file
 
     assignment = load(path, language)
     wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).counts_positions else None)
-    found = solve(assignment, wanted)
-    files = {f"results.{name}": result_file(found, name) for name in formats}
-    parts = found.get("parts", {}) if "csv" in formats else {}
+    results = solve(assignment, wanted)
+    files = {f"results.{name}": result_file(results, name) for name in formats}
+    parts = results.get("parts", {}) if "csv" in formats else {}
     return files | {f"results-{part}.csv": result_file(one, "csv") for part, one in parts.items()}
 
 
@@ -211,8 +211,8 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
     own = None
     if look is not None and look.exists():
-        found = read_letterhead(look, tree.language)
-        own = Own(found.styles, found.header, found.footer, found.margins)
+        letterhead = read_letterhead(look, tree.language)
+        own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
     drawn = partial(pictures.for_word, language=tree.language)
     return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
 
@@ -302,15 +302,16 @@ def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
     """The student's handout, and the answer sheet to fill in, of what is to be asked; no answer is in them."""
-    from reportgen.marking.key import Ask
+    from reportgen.marking.key import Ask, key_of
+    from reportgen.marking.paper import task_of
     from reportgen.marking.sheet import answer_book
     from reportgen.workbook import write_xlsx
 
     case = open_case(path, language)
     chosen = ask or Ask()
-    key = chosen.on_paper(case.key())
+    key = chosen.on_paper(key_of(case))
     letter = letter_of(case.assignment, engine)
-    task = case.task(key, chosen.by_section)
+    task = task_of(case, key, chosen.by_section)
     files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}
     return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
 
@@ -324,11 +325,11 @@ def key_files(
 ) -> Mapping[str, bytes]:
     """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
     from reportgen.marking import key_files as files
-    from reportgen.marking.key import Ask
+    from reportgen.marking.key import Ask, key_of
     from reportgen.workbook import write_csv, write_xlsx
 
     case = open_case(path, language)
-    key = (ask or Ask()).of(case.key())
+    key = (ask or Ask()).of(key_of(case))
     makers: Mapping[str, Callable[[], bytes]] = {
         "pdf": lambda: bounded(case.assignment, typeset, files.key_document(key, case.title), engine)[1],
         "xlsx": lambda: write_xlsx(files.key_book(key)),
@@ -359,10 +360,10 @@ def sheet_files(
     plate or those usually handed in; the title `block` is that of the language unless a file of one is given.  Raises
     `SheetError` where there is nothing to draw, and `AssignmentError` where a plate has no place on the size.
     """
-    from reportgen.sheets import dxf
+    from reportgen.sheets import drawing_sheets, dxf
 
     case = open_case(path, language)
-    sheets = case.sheets(size, sets, block, every)
+    sheets = drawing_sheets(case, size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
         "pdf": lambda sheet: bounded(case.assignment, typeset_sheet, sheet, case.title, case.assignment.language),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
@@ -465,6 +466,8 @@ ASKING = frozenset({"task", "key"})
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:
     """Raises `AssignmentError` if a policy asks for what no machine of these assignments has."""
 
+    from reportgen.marking.key import key_of
+
     def keys() -> Iterator[Key]:
         """A key of each kind of machine; what cannot be computed is told where its turn comes."""
         seen: set[str] = set()
@@ -473,7 +476,7 @@ def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None)
                 case = open_case(path, language)
                 if case.assignment.kind not in seen:
                     seen.add(case.assignment.kind)
-                    yield case.key()
+                    yield key_of(case)
 
     if ask is not None:
         ask.check(keys(), language)

@@ -6,30 +6,33 @@ A kind's module gives either `machine`, which makes a `Machine` of an assignment
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
-from functools import cached_property, partial
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import takewhile
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.assignment.common import Drawing
 from reportgen.base.units import Language
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.loads import FULL_TURN, STEPS
-from reportgen.report import Document
-from reportgen.report.case import Case, DriverMotion, MachineAnalysis, Misconceptions
-from reportgen.report.key import Key
+from reportgen.machine.laws import FULL_TURN, STEPS
+from reportgen.report import Block, Document, Paragraph, Strong, Text
+from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
+from reportgen.report.equations import heading_words
+from reportgen.report.key import Span
+from reportgen.report.report import Report
 from reportgen.report.shafts import Shaft
+from reportgen.report.wording import positive_sense
 
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.drawing.sheet import DrawingSheet
 
 
 GENERAL, HEIGHT = "vasntωεφα", "y"
@@ -102,8 +105,21 @@ class MachineCase(MachineAnalysis):
         )
 
     @property
-    def positions_of_a_turn(self) -> int:
-        return self.analysis.machine.count
+    def span(self) -> Span:
+        machine, report = self.analysis.machine, Report(self)
+        labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
+        printed = report.all_positions if report.thinned else ()
+        return Span(labels, machine.count, tuple(self.assignment.worked_positions), printed)
+
+    def sense(self, id: str) -> str:
+        return positive_sense(id, self.ledger, self.words, self._ways)
+
+    @cached_property
+    def _ways(self) -> Mapping[str, str]:
+        """Where the motion of its sliders counts as positive, in words, by their points."""
+        report = Report(self)
+        ways = report.slider_senses.items()
+        return {point: heading_words(report, float(np.degrees(np.angle(way)))) for point, way in ways}
 
     @property
     def speed(self) -> float:
@@ -112,8 +128,6 @@ class MachineCase(MachineAnalysis):
     @property
     def driver_motion(self) -> DriverMotion:
         """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
-        from reportgen.report.report import Report
-
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {
             name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
@@ -151,20 +165,20 @@ class MachineCase(MachineAnalysis):
 
         return self.bounded(compose)
 
-    def key(self) -> Key:
-        from reportgen.marking.key import machine_key
+    def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
+        from reportgen.report.outline import names
 
-        return machine_key(self)
-
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.marking.paper import machine_task
-
-        return self.bounded(partial(machine_task, key=key, by_section=by_section))
-
-    def results(self) -> dict[str, Any]:
-        from reportgen.marking.results import machine_results
-
-        return machine_results(self)
+        report = Report(self)
+        prose = report.prose
+        known = names(report) | {
+            "answer_tables": asked.answers,
+            "asks_scales": asked.scales,
+            "asked": asked.positions,
+            "known_tables": asked.known,
+        }
+        title, *given = prose.render("given", known)
+        kind = Paragraph((Strong((Text(self.title),)),), "center")
+        return (title, kind), (*given, *prose.render("task", known))
 
     def animations(self) -> tuple[Animation, ...]:
         from reportgen.page.sampling import animation
@@ -184,12 +198,15 @@ class MachineCase(MachineAnalysis):
 
         return plates_by_set(self, sets, every)
 
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        from reportgen.sheets import drawing_sheets
+    @property
+    def redrawn(self) -> tuple[float, Callable[[float], Case]] | None:
+        """The length (mm) of its drawn crank, and the same case with another."""
+        crank = Report(self).drawn_crank
+        return (crank, self._with_crank) if crank else None
 
-        return drawing_sheets(self, size, sets, block, every)
+    def _with_crank(self, length: float) -> Case:
+        drawing = Drawing.model_validate({"crank": f"{length:g} mm"})
+        return MachineCase(replace(self.assignment, drawing=drawing))
 
 
 def _turns(machine: Machine) -> bool:
@@ -209,27 +226,27 @@ def _finite(analysis: Analysis) -> bool:
 
 def _wrong_readings(analysis: Analysis) -> Mapping[str, list[tuple[str, np.ndarray]]]:
     """The pressure of another piston, or of another stroke at the piston's own place."""
-    found: dict[str, list[tuple[str, np.ndarray]]] = {}
+    readings: dict[str, list[tuple[str, np.ndarray]]] = {}
     for here in analysis.gas.values():
         piston = here.piston
         others = [("other-piston", state.pressure) for state in analysis.gas.values() if state is not here]
         strokes = (here.angle + 2 * np.pi, -here.angle, 2 * np.pi - here.angle)
         table = piston.law.table
-        found[ids.pressure(piston.link)] = others + [
+        readings[ids.pressure(piston.link)] = others + [
             ("wrong-stroke", table.pressure(angle, here.fraction, piston.dead_centres)) for angle in strokes
         ]
-    return found
+    return readings
 
 
 def _whole_rods(machine: Machine, entered: tuple[str, ...]) -> Mapping[str, str]:
     """The length of the rod on which `l.AS2` places a mass centre; of those `entered`, one before it."""
     centres = {body.centre for body in machine.linkage.inertias}
-    found: dict[str, str] = {}
+    rods: dict[str, str] = {}
     for dyad in machine.linkage.dyads:
         for end in (dyad.start, dyad.end):
             names = {ids.length(end, dyad.middle), ids.length(dyad.middle, end)}
             for id in (ids.length(end, centre) for centre in centres):
                 rod = next((name for name in takewhile(id.__ne__, entered) if name in names), "")
                 if id in entered and rod:
-                    found.setdefault(id, rod)
-    return found
+                    rods.setdefault(id, rod)
+    return rods

@@ -131,7 +131,7 @@ class Model:
 
     def table(self, positions: int | None = None) -> ResultTable:
         """The results as a table, a row a position, of so many positions a turn; raises `NotOfferedError`."""
-        from reportgen.marking.results import result_rows
+        from reportgen.results.files import result_rows
 
         head, *rows = result_rows(api.solve(self.assignment, positions))
         return ResultTable(tuple(map(str, head)), tuple(map(tuple, rows)))

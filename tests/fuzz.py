@@ -30,7 +30,9 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
+from reportgen.marking.key import key_of
 from reportgen.marking.marks import read_policy
+from reportgen.marking.paper import task_of
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key
@@ -269,7 +271,7 @@ def _words(number: int, chance: random.Random, folder: Path) -> None:
     case = replace(_case())
     vars(case)["words"] = load_words((file, *case.places))
     case.document()
-    case.task(case.key())
+    task_of(case, key_of(case))
 
 
 @cache
@@ -302,7 +304,7 @@ def _sheet(number: int, chance: random.Random, folder: Path) -> None:
 @cache
 def _key() -> tuple[Key, str, bytes]:
     """The key of a sample with its empty sheet as CSV and as a workbook."""
-    key = open_case(Path("assignments/slotted-lever-01.yaml"), "en").key()
+    key = key_of(open_case(Path("assignments/slotted-lever-01.yaml"), "en"))
     book = answer_book(key)
     rows = [[getattr(entry, "value", entry) for entry in row] for row in book.sheets[0].rows]
     return key, write_csv(rows).decode("utf-8-sig"), write_xlsx(book)

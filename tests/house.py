@@ -28,6 +28,8 @@ ID_HEADS = (
 )
 """What the ids of quantities begin with, before their first dot."""
 _ID = re.compile(rf"({ID_HEADS})\.")
+VAGUE = {"one", "other", "found", "told", "way"}
+"""Names that say nothing of what they stand for."""
 
 Graph = Mapping[str, frozenset[str]]
 """What each node has arrows to."""
@@ -231,6 +233,38 @@ def _called(call: ast.Call) -> str:
     return ""
 
 
+def vague_names(house: House) -> Counted:
+    """Variables, parameters and attributes with a vague name.
+
+    It may stay in a comprehension or lambda that ends a line further on at most, and `other` in an operator.
+    """
+    return [
+        f"{module.path}:{line} {name}"
+        for module in house.modules.values()
+        for name, line in _bound(module.tree)
+        if name in VAGUE
+    ]
+
+
+def _bound(node: ast.AST) -> Iterator[tuple[str, int]]:
+    """The names that are bound in a part of a module, with their lines; none in what is read at one glance."""
+    for inner in ast.iter_child_nodes(node):
+        match inner:
+            case ast.ListComp() | ast.SetComp() | ast.DictComp() | ast.GeneratorExp() | ast.Lambda():
+                if (inner.end_lineno or 0) - inner.lineno <= 1:
+                    continue
+            case ast.FunctionDef(name=name) if name.startswith("__"):
+                yield from (bound for part in inner.body for bound in _bound(part))
+                continue
+            case ast.FunctionDef(name=name) | ast.ClassDef(name=name) | ast.arg(arg=name):
+                yield name, inner.lineno
+            case ast.Name(id=name, ctx=ast.Store()) | ast.Attribute(attr=name, ctx=ast.Store()):
+                yield name, inner.lineno
+            case ast.MatchAs(name=str(name)) | ast.MatchStar(name=str(name)):
+                yield name, inner.lineno
+        yield from _bound(inner)
+
+
 LIMITS: Mapping[Callable[[House], Counted], int] = {
     rooms: 27,
     floors: 11,
@@ -242,6 +276,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     ids_by_f_string: 0,
     class_names_twice: 0,
     longest_positional_call: 6,
+    vague_names: 320,
 }
 """What no figure may pass."""
 

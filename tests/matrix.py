@@ -29,7 +29,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import kinds, samples
 from reportgen.cases import open_case
 from reportgen.cli import app
-from reportgen.marking.key import Ask
+from reportgen.marking.key import Ask, key_of
 from reportgen.page.live import LiveSession
 from reportgen.report.case import Case
 from reportgen.report.key import Key
@@ -113,7 +113,7 @@ class Desk:
 
 @cache
 def _key(file: Path, language: Language) -> Key:
-    return open_case(file, language).key()
+    return key_of(open_case(file, language))
 
 
 @contextmanager

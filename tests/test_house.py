@@ -74,6 +74,33 @@ def test_a_list_of_any_length_is_one_argument(tmp_path: Path) -> None:
     assert house.longest_positional_call(built(tmp_path, side="print(1, 2, 3, 4)\n")) == 4
 
 
+VAGUE = """
+def way(one, *other):
+    found = [one for one in other]
+    match found:
+        case [told]:
+            return lambda other: other
+    return [
+        one
+        for one in
+        found
+    ]
+class Told:
+    one: int = 1
+    def __add__(self, other):
+        self.way = other
+        return other
+"""
+
+
+def test_a_vague_name_counts_where_it_is_bound_and_lives_longer_than_a_line(tmp_path: Path) -> None:
+    counted = house.vague_names(built(tmp_path, side=VAGUE))
+    assert isinstance(counted, list)
+    assert [place.rsplit(":", 1)[1] for place in counted] == [
+        *("2 way", "2 one", "2 other", "3 found", "5 told", "9 one", "13 one", "15 way")
+    ]
+
+
 @pytest.mark.proof
 def test_a_limit_that_is_passed_is_a_fault(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.rooms: 1000})

@@ -9,7 +9,6 @@ from __future__ import annotations
 import datetime
 import math
 import re
-import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
@@ -18,13 +17,12 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import school_strays
-from reportgen.base.source import Quoted
+from reportgen.base.source import STRANGE, Quoted
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
 from reportgen.base.words import school_folder, schools, templates
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
-_FORBIDDEN = {"Cc", "Cs", "Co", "Zl", "Zp"}
 _UNIT_PATTERN = r"[A-Za-zµ°ºđ][^,]*"
 _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
@@ -216,7 +214,7 @@ class TypedText(Reader):
         text = _text(value, "text")
         if len(text) > LONGEST_TEXT:
             raise fault("text-too-long", largest=str(LONGEST_TEXT))
-        if any(unicodedata.category(character) in _FORBIDDEN for character in text):
+        if STRANGE.search(text):
             raise fault("control-character")
         return text
 

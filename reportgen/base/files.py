@@ -32,7 +32,7 @@ SETS = {
 }
 """The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")
-"""What these folders name is open or a device, even where it leads to a regular file."""
+"""A link in these folders stands for what is open, even where it leads to a regular file."""
 _UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
@@ -93,7 +93,8 @@ def is_stream(target: Path) -> bool:
     except OSError:
         return False
     folder = Path(os.path.abspath(target)).parent
-    return not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)) or any(folder.is_relative_to(one) for one in _STREAMS)
+    is_open = target.is_symlink() and any(folder.is_relative_to(one) for one in _STREAMS)
+    return is_open or not (stat.S_ISREG(mode) or stat.S_ISDIR(mode))
 
 
 def write_stream(target: Path, content: bytes) -> None:

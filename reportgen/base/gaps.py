@@ -12,6 +12,8 @@ from reportgen.base.errors import Mark
 
 FILLS = (str, Real)
 """What a gap is filled with."""
+NO_LETTER = "\0"
+"""Fills a gap whose place is looked for: it stands in no word."""
 _ENTRY = re.compile(r"\{[^{}]*[.\[!]")
 """A gap that asks for more than a value."""
 

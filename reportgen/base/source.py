@@ -35,6 +35,8 @@ MOST_FAULTS = 100
 """After so many faults of its syntax a file is read no further."""
 _MAY_BE_MORE = re.compile(r"(?m)(?:^|[\s\[{,])[&*!]\S")
 """What anchors, aliases and tags look like, and some other texts."""
+STRANGE = re.compile(r"[\x00-\x1f\x7f-\x9f\u2028\u2029\ud800-\uf8ff\ufdd0-\ufdef\ufffe\uffff\U000f0000-\U0010ffff]")
+"""A sign that has no place in a line of text: control and private characters, ends of lines, what is no character."""
 _NULL = {"", "~", "null", "Null", "NULL"}
 _SYNTAX = (
     ("mapping values are not allowed", "syntax-colon"),
@@ -91,6 +93,11 @@ class Source:
     text: str = ""
     top: Node | None = None
     faults: tuple[Fault, ...] = ()
+
+
+def in_a_line(text: str) -> str:
+    """A text in one line that was typed in several."""
+    return " ".join(text.rstrip("\n").split("\n")) if "\n" in text else text
 
 
 def scalars(node: Node | None) -> Iterator[Scalar]:

@@ -72,7 +72,7 @@ SPELLED: Mapping[str, str] = {
     **dict.fromkeys(("vg/ph", "v/ph", "vg/phút", "vòng/phút", "r/min", "rev/min"), "rpm"),
     "%": "percent",
     "1/s": "s-1",
-    "1/mm": "mm-1",
+    **dict.fromkeys(("1/mm", "mm⁻¹"), "mm-1"),
     **dict.fromkeys(("1/s2", "1/s²", "1/s^2"), "s-2"),
 }
 """Units as people write them, by names that pint knows."""

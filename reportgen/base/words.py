@@ -23,7 +23,19 @@ from typing import Any
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
 from reportgen.base.files import OF_SCHOOL, school_strays
 from reportgen.base.gaps import FILLS, filled, gaps, plain_gaps
-from reportgen.base.source import MappingNode, Scalar, Source, plain, read_own, read_words, scalars, text_in
+from reportgen.base.source import (
+    STRANGE,
+    MappingNode,
+    Scalar,
+    Source,
+    in_a_line,
+    plain,
+    read_own,
+    read_text,
+    read_words,
+    scalars,
+    text_in,
+)
 from reportgen.base.source_text import at, path_text
 from reportgen.base.units import Language
 
@@ -136,18 +148,18 @@ def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
     """
     merged: Mapping[str, Any] | None = None
     for place in reversed(places):
-        if (table := _words_in(place)) is not None:
+        if (table := _words_in(place, not place.is_relative_to(places[-1]))) is not None:
             merged = table if merged is None else _over(merged, table, place)
     if merged is None:
         raise TemplateError(f"{places[-1]}: there are no words here")
     return merged
 
 
-def _words_in(place: Path) -> Mapping[str, Any] | None:
-    """The words of a file of sections or of a folder."""
+def _words_in(place: Path, of_others: bool) -> Mapping[str, Any] | None:
+    """The words of a file of sections, perhaps not the program's own, or of a folder."""
     if place.suffix == ".md":
         section = sections(place).get(SECTION)
-        return None if section is None else _as_written(section, place)
+        return None if section is None else _as_written(section, place, of_others)
     return _read(place / FILE) if (place / FILE).is_file() else None
 
 
@@ -163,16 +175,17 @@ def _as_of(path: Path, changed: int, size: int) -> Mapping[str, Any]:
 
 
 @lru_cache(maxsize=FILES)
-def _as_written(section: Passage, place: Path) -> Mapping[str, Any]:
-    """The words that a section holds.
+def _as_written(section: Passage, place: Path, of_others: bool) -> Mapping[str, Any]:
+    """The words that a section holds; those of others are read with care.
 
-    Raises `TemplateError` for a gap that is filled with more than a value, and for a text that is too long.
+    Raises `TemplateError` for a gap that is filled with more than a value, for a text too long, for a strange sign.
     """
-    source = read_own(section.text, str(section.file))
+    source = (read_text if of_others else read_own)(section.text, str(section.file))
     for scalar in scalars(source.top):
         for key, sound in (
             ("template_unsafe", plain_gaps(scalar.text)),
             ("template_word", len(scalar.text) <= LONGEST),
+            ("template_character", not STRANGE.search(in_a_line(scalar.text))),
         ):
             if not sound:
                 refusal = word(key, of_file(place), longest=LONGEST)
@@ -217,7 +230,7 @@ def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
         raise TemplateError(f"{_below(Mark(source.file), above)}: a table of words is wanted here")
 
     def said(scalar: Scalar) -> str:
-        text = _Word(scalar.text)
+        text = _Word(in_a_line(scalar.text))
         text.mark = _below(scalar.mark, above)
         return text
 
@@ -239,7 +252,7 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
         here, common = (*where, key), below.get(key, value)
         if not _alike(value, common):
             section = sections(place)[SECTION]
-            node = at(read_own(section.text).top, here)
+            node = at(read_text(section.text).top, here)
             line = section.line + (node.mark.line if node else 0)
             raise TemplateError(f"{place}:{line}: {word('template_form', of_file(place), text=path_text(here))}")
         result[key] = _over(common, value, place, here) if isinstance(value, Mapping) else value
@@ -247,9 +260,9 @@ def _over(below: Mapping[str, Any], above: Mapping[str, Any], place: Path, where
 
 
 def _alike(present: Any, standing_in: Any) -> bool:
-    """Whether a word can stand for another one: both are tables, or texts, or lists of at least as many that can."""
+    """Whether a word can stand for another one: both are tables, or texts, or lists of as many that can."""
     if isinstance(present, list) and isinstance(standing_in, list):
-        return len(present) >= len(standing_in) and all(map(_alike, present, standing_in))
+        return len(present) == len(standing_in) and all(map(_alike, present, standing_in))
     return isinstance(present, Mapping) == isinstance(standing_in, Mapping) and isinstance(present, str) == isinstance(
         standing_in, str
     )
@@ -352,9 +365,8 @@ def _shown(text: str) -> str:
 
 
 # --- words by sections ----------------------------------------------------------------------------
-# A file has many, each behind a line `%% name`, in the order in which they are read.
-# A machine's words and a school's are one file a language; those that all machines share are a folder, in which
-# `report.md` has the section `foreword`, and `dyads.md` the section `RRR-forces` of the name `dyads/RRR-forces`.
+# Each stands behind a line `%% name`, in reading order.  The words of a machine or of a school are a file a language,
+# those of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
 
 HEADING = "%%"
 MACHINES = "catalogue"

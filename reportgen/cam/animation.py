@@ -74,8 +74,8 @@ def _knots(case: SolvedCam) -> Floats:
     wanted = np.concatenate((case.solution.φ, *((np.mod(jumps + side * BESIDE, 2 * math.pi)) for side in (-1, 1))))
     near = np.abs(grid[:, None] - wanted).min(axis=1) <= BESIDE / 10
     near[[0, -1]] = False
-    found = np.sort(np.concatenate((grid[~near], wanted)))
-    return found[np.concatenate(([True], np.diff(found) > BESIDE / 10))]
+    angles = np.sort(np.concatenate((grid[~near], wanted)))
+    return angles[np.concatenate(([True], np.diff(angles) > BESIDE / 10))]
 
 
 def _scale(case: SolvedCam) -> float:

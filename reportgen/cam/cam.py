@@ -46,7 +46,7 @@ IDLE = {"translating": ("psi_max", "arm", "a", "lifts"), "oscillating": ("h", "e
 
 def _keys(given: Parameters) -> Iterator[Finding]:
     """Every length that such a follower has is given, and no other."""
-    told = given.model_fields_set
+    keys_given = given.model_fields_set
     needed, idle = list(NEEDED[given.follower]), list(IDLE[given.follower])
     if given.end != "roller":
         idle.append("roller")
@@ -55,10 +55,10 @@ def _keys(given: Parameters) -> Iterator[Finding]:
     elif not given.translating:
         needed.append("arm")
     for key in needed:
-        if key not in told:
+        if key not in keys_given:
             yield Finding("missing-key", (*TOP, key), {"key": key})
     for key in idle:
-        if key in told:
+        if key in keys_given:
             yield Finding("cam-idle-key", (*TOP, key), {"key": key, "of": f"{given.follower}, {given.end}"}, at="key")
     sought = [key for key in ("r0", "e", "a") if given.seeks(key)]
     if given.end == "flat" and given.seeks("a"):
@@ -73,8 +73,8 @@ def _phases(given: Parameters) -> Iterator[Finding]:
     first, far, back, near = given.phase_degrees
     total = first + far + back + near
     if near < -SUM or (given.phases.near is not None and abs(total - 360) > SUM):
-        told = first + far + back + max(near, 0.0)
-        yield Finding("cam-phases", (*TOP, "phases"), {"sum": f"{told:g}", "off": f"{360 - told:+g}"})
+        phase_sum = first + far + back + max(near, 0.0)
+        yield Finding("cam-phases", (*TOP, "phases"), {"sum": f"{phase_sum:g}", "off": f"{360 - phase_sum:+g}"})
     parts = dict(zip(PHASES, (first, far, back, near), strict=True))
     if isinstance(given.positions, PerPhase):
         for key, _ in given.positions.counts:
@@ -84,23 +84,23 @@ def _phases(given: Parameters) -> Iterator[Finding]:
 
 def _tables(given: Parameters) -> Iterator[Finding]:
     """An acceleration given as a graph begins at 0, ends at 1, and brings the follower to rest."""
-    for key, one in (("rise", given.laws.rise), ("return", given.laws.return_)):
-        if isinstance(one, str):
+    for key, law in (("rise", given.laws.rise), ("return", given.laws.return_)):
+        if isinstance(law, str):
             continue
         where = (*TOP, "laws", key)
-        if len(one.x) != len(one.a):
-            counts = {"key": "a", "given": str(len(one.a)), "other": "x", "wanted": str(len(one.x))}
+        if len(law.x) != len(law.a):
+            counts = {"key": "a", "given": str(len(law.a)), "other": "x", "wanted": str(len(law.x))}
             yield Finding("row-length", (*where, "a"), counts)
-        elif one.x[0] != 0 or one.x[-1] != 1:
-            at = 0 if one.x[0] != 0 else len(one.x) - 1
+        elif law.x[0] != 0 or law.x[-1] != 1:
+            at = 0 if law.x[0] != 0 else len(law.x) - 1
             yield Finding("table-end", (*where, "x", at), {"key": "x", "end": "0" if at == 0 else "1"})
-        elif falls := [i + 1 for i in range(len(one.x) - 1) if one.x[i + 1] < one.x[i]]:
+        elif falls := [i + 1 for i in range(len(law.x) - 1) if law.x[i + 1] < law.x[i]]:
             yield Finding("not-increasing", (*where, "x", falls[0]), {"key": "x"})
         else:
-            above, below = AccelerationGraph(np.array(one.x), np.array(one.a)).areas
+            above, below = AccelerationGraph(np.array(law.x), np.array(law.a)).areas
             if abs(above - below) > SAME_AREA * max(above, below) or above == 0:
                 yield Finding("cam-areas", (*where, "a"), {"above": f"{above:.4g}", "below": f"{below:.4g}"})
-            elif AccelerationGraph(np.array(one.x), np.array(one.a)).way <= 0:
+            elif AccelerationGraph(np.array(law.x), np.array(law.a)).way <= 0:
                 yield Finding("cam-backwards", (*where, "a"))
 
 
@@ -122,8 +122,8 @@ def _shape(given: Parameters) -> Iterator[Finding]:
             ends = {"low": f"{abs(a.si - arm.si) * MM:g}", "high": f"{(a.si + arm.si) * MM:g}"}
             yield Finding("cam-triangle", (*TOP, "r0"), {"r0": r0.text, **ends})
             return
-    if not given.translating and (found := list(_swing(given))):
-        yield from found
+    if not given.translating and (faults := list(_swing(given))):
+        yield from faults
         return
     try:
         cam = designed(given).cam
@@ -157,9 +157,9 @@ def _past(angle: float) -> Finding:
 def check(given: Parameters) -> Iterator[Finding]:
     """Keys first, then phases and tables, then lengths: each only where what it stands on is in order."""
     for look in (_keys, lambda one: (*_phases(one), *_tables(one)), _shape):
-        found = list(look(given))
-        if found:
-            yield from found
+        faults = list(look(given))
+        if faults:
+            yield from faults
             return
 
 
@@ -169,12 +169,12 @@ def _worked(draft: Draft) -> Iterator[Finding]:
     if report is None or given is None or report.worked_positions is None or list(check(given)):
         return
     last = len(positions_of(given))
-    for index, one in enumerate(report.worked_positions):
+    for index, position in enumerate(report.worked_positions):
         where = ("report", "worked_positions", index)
-        if isinstance(one, str):
-            yield Finding("no-such-label", where, {"text": one, "known": f"1 … {last}"})
-        elif one > last:
-            yield Finding("no-such-position", where, {"text": str(one), "last": str(last)})
+        if isinstance(position, str):
+            yield Finding("no-such-label", where, {"text": position, "known": f"1 … {last}"})
+        elif position > last:
+            yield Finding("no-such-position", where, {"text": str(position), "last": str(last)})
 
 
 CHECKS = (of_parameters(check), _worked)
@@ -186,21 +186,21 @@ CHECKS = (of_parameters(check), _worked)
 def physics(assignment: Assignment) -> Iterator[Finding]:
     """Rigid impacts, a pressure angle beyond its limit or what is usual, an undercut profile: where, and what helps."""
     given: Parameters = assignment.parameters
-    found = designed(given)
-    cam, motion = found.cam, found.cam.motion
+    design = designed(given)
+    cam, motion = design.cam, design.cam.motion
     for impact in motion.impacts:
         if impact.kind == "rigid":
             phase = motion.intervals[int(motion.of(np.array([impact.angle]))[0])].phase
             key = phase if phase in ("rise", "return") else "rise" if phase == "far" else "return"
             yield Finding("cam-impact", (*TOP, "laws", key), {"angle": f"{math.degrees(impact.angle):g}"})
-    for phase, angle, at in exceeded(found):
-        wanted = found.least
+    for phase, angle, at in exceeded(design):
+        wanted = design.least
         mend = f"{math.ceil(wanted.r0 * MM * 10) / 10:g}" if wanted is not None else ""
-        told = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
-        yield Finding("cam-pressure", (*TOP, "limits", phase), told | ({"r0": mend} if mend else {}))
-    for angle, at, usual in steep(found) if given.limits is None else ():
-        told = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
-        yield Finding("cam-steep", (*TOP, "r0"), told | {"usual": f"{math.degrees(usual):g}"})
+        angles = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
+        yield Finding("cam-pressure", (*TOP, "limits", phase), angles | ({"r0": mend} if mend else {}))
+    for angle, at, usual in steep(design) if given.limits is None else ():
+        angles = {"angle": f"{math.degrees(angle):.2f}", "at": f"{math.degrees(at):.1f}"}
+        yield Finding("cam-steep", (*TOP, "r0"), angles | {"usual": f"{math.degrees(usual):g}"})
     for angle in cam.undercut[:1]:
         yield Finding("cam-undercut", (*TOP, "roller" if cam.roller else "r0"), {"at": f"{math.degrees(angle):.1f}"})
 

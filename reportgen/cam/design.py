@@ -85,14 +85,14 @@ class NoCamError(ValueError):
 def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
     """Where in a phase a function of s and s′ is greatest."""
     best: Touch | None = None
-    for number, one in enumerate(motion.intervals):
-        if one.phase == phase:
+    for number, interval in enumerate(motion.intervals):
+        if interval.phase == phase:
 
             def value(φ: Floats, number: int = number) -> Floats:
                 s, ds, _ = motion(φ, np.full(φ.shape, number))
                 return of(s, ds)
 
-            φ, bound = greatest(value, one.start, one.stop)
+            φ, bound = greatest(value, interval.start, interval.stop)
             if best is None or bound > best.bound:
                 s, ds, _ = motion(np.array([φ]), np.array([number]))
                 best = Touch(φ, float(s[0]), float(ds[0]), bound)
@@ -141,10 +141,10 @@ def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opp
     what is usual with a spring.
     """
     assert limits.rise is not None
-    found = [bounded(motion, "rise", limits.rise, arm, opposite, a)]
-    if limits.back is not None or found[0][0].bound <= 0:
-        found.append(bounded(motion, "return", limits.back or USUAL_BY_SPRING, arm, opposite, a))
-    touches, most = [touch for touch, _ in found], min(most for _, most in found)
+    bounds = [bounded(motion, "rise", limits.rise, arm, opposite, a)]
+    if limits.back is not None or bounds[0][0].bound <= 0:
+        bounds.append(bounded(motion, "return", limits.back or USUAL_BY_SPRING, arm, opposite, a))
+    touches, most = [touch for touch, _ in bounds], min(most for _, most in bounds)
     back = touches[1] if len(touches) > 1 else None
     rule: Rule = "return" if back is not None and back.bound > touches[0].bound else "rise"
     ψ0 = max(touch.bound for touch in touches)
@@ -190,8 +190,8 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
     """
 
     def of(a: float) -> float:
-        found = least_oscillating(motion, limits, arm, opposite, a)
-        return math.inf if found is None else found.r0
+        least_there = least_oscillating(motion, limits, arm, opposite, a)
+        return math.inf if least_there is None else least_there.r0
 
     grid = np.linspace(0.4 * arm, 3 * arm, 53)
     sizes = [of(float(a)) for a in grid]
@@ -206,9 +206,9 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
         tried_size = of(tried)
         worse, best, size = (best, tried, tried_size) if tried_size < size else (tried, best, size)
         low, high = (low, worse) if worse > best else (worse, high)
-    found = least_oscillating(motion, limits, arm, opposite, best)
-    assert found is not None
-    return found
+    least_there = least_oscillating(motion, limits, arm, opposite, best)
+    assert least_there is not None
+    return least_there
 
 
 def least_flat(cam: Cam, rho: float) -> float:

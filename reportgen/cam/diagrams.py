@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
+from reportgen.cam import cam_ids
 from reportgen.cam.laws import PHASES, Floats
 from reportgen.cam.solution import HEIGHT, LEAST_POLE, TURN_ON_PAPER
 from reportgen.cam.solved import SolvedCam
@@ -30,7 +31,7 @@ from reportgen.drawing.charts import Area, Plotted, plotted
 from reportgen.drawing.geometry import box
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.vocabulary import KINDS
 
 STEPS = 6
@@ -86,9 +87,9 @@ class LawScales:
 
 def usual_scales(case: SolvedCam) -> LawScales:
     """Those of a report."""
-    ids_of = (ids.cam_scale(id.removeprefix("cam.")) for id in case.solution.moved)
+    ids_of = (cam_ids.scale(id.removeprefix("cam.")) for id in case.solution.moved)
     first, second, third = (float(case.printed[id].values[0]) / MM for id in ids_of)
-    turn, *poles = (float(case.printed[ids.cam_diagram(name)].values[0]) * MM for name in ("L", 1, 2))
+    turn, *poles = (float(case.printed[cam_ids.diagram(name)].values[0]) * MM for name in ("L", 1, 2))
     return LawScales(turn, (first, second, third), (poles[0], poles[1]))
 
 
@@ -131,7 +132,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
         half = box(str(k), style.SMALL).width / 2
         # Of positions close to each other not every one has room for its number.
         if x - half > taken:
-            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL))
+            items.append(Label(complex(x, graphs[0].zero - 2.6), str(k), size=style.SMALL, background=True))
             taken = x + half + BESIDE
     items += _integrated(case, graphs, scales)
     for number, graph in enumerate(graphs):
@@ -145,7 +146,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
         items += [Arrow(complex((start + stop) / 2, y), complex(end, y), style.DIMENSION, 1.6) for end in (start, stop)]
         requests.append(
             label(
-                complex((start + stop) / 2, y), case.ledger.symbol(ids.cam_phase(name)), gap=0.8, prefer=(math.pi / 2,)
+                complex((start + stop) / 2, y), case.ledger.symbol(cam_ids.phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
     return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
@@ -153,7 +154,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 
 def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Content]:
     """The scales, on a sheet with those of the report and the pole distances."""
-    phi = ids.cam_scale("phi")
+    phi = cam_ids.scale("phi")
     shown = _shown(case, phi, 2 * math.pi / scales.turn)
     note = size.told(case.printed.symbol(phi), shown, case.printed.number(phi))
     if size.beside:
@@ -161,11 +162,11 @@ def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Con
         note = replace(note, parts=(note.parts[0], degrees, shown))
     yield note
     for id, per_mm in zip(case.solution.moved, scales.per_mm, strict=True):
-        of = ids.cam_scale(id.removeprefix("cam."))
+        of = cam_ids.scale(id.removeprefix("cam."))
         yield size.told(case.printed.symbol(of), _shown(case, of, per_mm), case.printed.number(of))
     if size.beside:
         for number, pole in enumerate(scales.poles, start=1):
-            K = ids.cam_diagram(number)
+            K = cam_ids.diagram(number)
             yield size.told(case.printed.symbol(K), Number(pole, 2, "mm"), case.printed.number(K))
 
 
@@ -245,7 +246,7 @@ def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None
     levels = [
         (
             sign * math.degrees(limit),
-            case.ledger.symbol(ids.cam_limit(phase)) if sign > 0 else -case.ledger.symbol(ids.cam_limit(phase)),
+            case.ledger.symbol(cam_ids.limit(phase)) if sign > 0 else -case.ledger.symbol(cam_ids.limit(phase)),
         )
         for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1))
         if limit is not None

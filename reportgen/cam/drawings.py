@@ -10,13 +10,14 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.cam import cam_ids
 from reportgen.cam.profile import Cam, CamProfile
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.formula import Symbol, ids
+from reportgen.formula import Symbol
 
 DIAGRAM_ROOM = 118 + 128j
 """What the S–S′ diagram may fill on a page (mm)."""
@@ -107,7 +108,7 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
         requests.append(
             label(
                 plane.at + 20 * np.exp(1j * (turn - side * limit / 2)),
-                case.ledger.symbol(ids.cam_limit(phase)),
+                case.ledger.symbol(cam_ids.limit(phase)),
                 gap=0.4,
                 prefer=(turn - side * limit / 2,),
             )

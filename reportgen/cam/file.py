@@ -159,8 +159,8 @@ class Parameters(Part):
 
     def seeks(self, key: str) -> bool:
         """Whether a length is to be found, as the radius of a roller is that is not given."""
-        told = key in self.model_fields_set or (key == "roller" and self.end == "roller")
-        return told and getattr(self, key) is None
+        named = key in self.model_fields_set or (key == "roller" and self.end == "roller")
+        return named and getattr(self, key) is None
 
     @property
     def finds(self) -> tuple[str, ...]:
@@ -221,8 +221,8 @@ def designed(given: Parameters) -> Designed:
     motion, limits = motion_of(given), limits_of(given)
 
     def size(name: str) -> float:
-        found: Given | None = getattr(given, name)
-        return 0.0 if found is None else found.si
+        length: Given | None = getattr(given, name)
+        return 0.0 if length is None else length.si
 
     cam = Cam(
         motion,
@@ -288,13 +288,13 @@ def _within(given: Parameters, cam: Cam, limits: CamLimits) -> tuple[Least | Non
     if given.seeks("a"):
         best = design.best_distance(motion, limits, cam.arm, cam.opposite).a
         cam = replace(cam, a=next(a for a in design.round_ups(best) if at(a) is not None))
-    found = at(cam.a)
+    least_cam = at(cam.a)
     if not given.seeks("r0"):
-        return found, cam
-    if found is None:
+        return least_cam, cam
+    if least_cam is None:
         raise NoCamError("cam-no-centre", "limits")
-    chosen = (replace(cam, r0=r0) for r0 in design.round_ups(found.r0))
-    return found, next(one for one in chosen if one.psi0 <= found.most + ALLOWED)
+    chosen = (replace(cam, r0=r0) for r0 in design.round_ups(least_cam.r0))
+    return least_cam, next(one for one in chosen if one.psi0 <= least_cam.most + ALLOWED)
 
 
 def positions_of(given: Parameters) -> tuple[float, ...]:
@@ -302,8 +302,8 @@ def positions_of(given: Parameters) -> tuple[float, ...]:
     phases = given.phase_degrees
     ends = [sum(phases[:number]) for number in range(4)]
     match given.positions:
-        case PerPhase(told):
-            counts = dict(told)
+        case PerPhase(per_phase):
+            counts = dict(per_phase)
             even = [
                 start + angle * step / counts.get(phase, 1)
                 for phase, start, angle in zip(PHASES, ends, phases, strict=True)
@@ -319,9 +319,9 @@ def positions_of(given: Parameters) -> tuple[float, ...]:
 # --- what is judged of it -------------------------------------------------------------------------
 
 
-def exceeded(found: Designed) -> Iterator[tuple[str, float, float]]:
+def exceeded(design_found: Designed) -> Iterator[tuple[str, float, float]]:
     """The phases in which the pressure angle passes its limit: its largest value, and at which angle of the cam."""
-    cam, limits = found.cam, found.limits
+    cam, limits = design_found.cam, design_found.limits
     for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1)):
         if limit is None or cam.flat:
             continue
@@ -330,13 +330,13 @@ def exceeded(found: Designed) -> Iterator[tuple[str, float, float]]:
             yield phase, angle, at
 
 
-def steep(found: Designed) -> Iterator[tuple[float, float, float]]:
+def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
     """Where no limits are given: pressure angles beyond what is usual, by their size, with where and what is usual."""
-    cam = found.cam
+    cam = design_found.cam
     if cam.flat:
         return
     rise = design.USUAL_RISE[cam.translating]
-    for phase, usual in (("rise", rise), ("return", rise if found.by_form else design.USUAL_BY_SPRING)):
+    for phase, usual in (("rise", rise), ("return", rise if design_found.by_form else design.USUAL_BY_SPRING)):
         at, angle = max((extreme(cam, phase, sign) for sign in (1, -1)), key=lambda one: one[1])
         if angle > usual + ALLOWED:
             yield angle, at, usual
@@ -366,14 +366,14 @@ def judged(cam: Cam) -> Judged:
     every = range(len(cam.motion.intervals))
 
     def least(of: str) -> tuple[float, float]:
-        found = []
+        minima = []
         for number in every:
             if of == "working":
                 φ, value = cam.worst(number, lambda one: -one.effective)
             else:
                 φ, value = cam.worst(number, lambda one: np.where(one.rho > 0, -one.rho, -np.inf))
-            found.append((φ, -value))
-        return min(found, key=lambda one: one[1])
+            minima.append((φ, -value))
+        return min(minima, key=lambda one: one[1])
 
     profile = cam.sampled()
     aside = (float(profile.ds.max()), float(-profile.ds.min()))

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from reportgen.formula import Expression, acos, asin, atan, cos, ids, signed, sin, sqrt
+from reportgen.cam import cam_ids
+from reportgen.formula import Expression, acos, asin, atan, cos, signed, sin, sqrt
 from reportgen.formula.sheet import Sheet
 
 
@@ -93,13 +94,13 @@ def _enter_under_tip(q: Sheet, kind: CamKind) -> None:
         turn = q.define("cam.m.2", a - arm * (k**2 * cos(at) + ddψ * sin(at)))
         ρ = sqrt(u**2 + w**2) ** 3 / (u * bend + w * turn)
         lean = φ + at - α if kind.opposite > 0 else φ - at - α
-    x_B = q.define(ids.cam_pitch("x"), signed(kind.turn, x), scale=r0)
-    y_B = q.define(ids.cam_pitch("y"), y, scale=r0)
+    x_B = q.define(cam_ids.pitch("x"), signed(kind.turn, x), scale=r0)
+    y_B = q.define(cam_ids.pitch("y"), y, scale=r0)
     ρ_B = q.define("cam.rho", ρ)
     if kind.roller:
         roller = q["cam.roller"]
-        q.define(ids.cam_profile("x"), x_B - signed(kind.turn, roller * sin(lean)), scale=r0)
-        q.define(ids.cam_profile("y"), y_B - roller * cos(lean), scale=r0)
+        q.define(cam_ids.profile("x"), x_B - signed(kind.turn, roller * sin(lean)), scale=r0)
+        q.define(cam_ids.profile("y"), y_B - roller * cos(lean), scale=r0)
         q.define("cam.rho.working", ρ_B - roller)
 
 
@@ -121,8 +122,8 @@ def _enter_under_face(q: Sheet, kind: CamKind) -> None:
         bend = q.define("cam.m.1", cos(at) * dds - sin(at) * ds**2, kind="ratio")
         turn = q.define("cam.m.2", cos(at) * ds * dds / k, kind="ratio")
         ρ = a * sin(at) + a * (bend - turn if kind.opposite > 0 else bend + turn) / k**2
-    q.define(ids.cam_profile("x"), signed(kind.turn, x), scale=q.si(r0))
-    q.define(ids.cam_profile("y"), y, scale=q.si(r0))
+    q.define(cam_ids.profile("x"), signed(kind.turn, x), scale=q.si(r0))
+    q.define(cam_ids.profile("y"), y, scale=q.si(r0))
     q.define("cam.rho", ρ)
 
 

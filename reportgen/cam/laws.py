@@ -83,25 +83,25 @@ class AccelerationGraph:
         A, V, S = self.nodes
         values = {"A": A, "V": V, "S": S, "J": self.slopes}
         at = named or (lambda what, i: float(values[what][i]))
-        way = beyond or (lambda x, i: x - float(self.x[i]))
+        from_node = beyond or (lambda x, i: x - float(self.x[i]))
         return tuple(
-            _cubic(i, float(self.x[i]), float(self.x[i + 1]), at, way)
+            _cubic(i, float(self.x[i]), float(self.x[i + 1]), at, from_node)
             for i in range(len(self.x) - 1)
             if self.x[i + 1] - self.x[i] > NODE
         )
 
 
-def _crossing(one: tuple[float, float], other: tuple[float, float]) -> Floats:
+def _crossing(start: tuple[float, float], end: tuple[float, float]) -> Floats:
     """Where a straight piece of a graph crosses the axis."""
-    (x0, a0), (x1, a1) = one, other
+    (x0, a0), (x1, a1) = start, end
     return np.array([x0 + (x1 - x0) * a0 / (a0 - a1)] if a0 * a1 < 0 and x1 > x0 else [])
 
 
 def _areas(x: Floats, a: Floats) -> Floats:
     """Areas below a graph with jumps, each straight piece split where it crosses the axis."""
     parts: list[float] = []
-    for one, other in pairwise(zip(x, a, strict=True)):
-        corners = [one, *((float(at), 0.0) for at in _crossing(one, other)), other]
+    for start, end in pairwise(zip(x, a, strict=True)):
+        corners = [start, *((float(at), 0.0) for at in _crossing(start, end)), end]
         parts += [(q[0] - p[0]) * (p[1] + q[1]) / 2 for p, q in pairwise(corners)]
     return np.array(parts)
 
@@ -186,13 +186,13 @@ class FollowerLaw:
 
     def __call__(self, x: Floats) -> tuple[Floats, Floats, Floats]:
         """S, V and A over x [N]; at a corner those behind it."""
-        found = np.empty((3, x.size))
+        SVA = np.empty((3, x.size))
         stops = [piece.stop for piece in self.pieces[:-1]]
         inside = np.searchsorted(stops, x, side="right")
         for number, piece in enumerate(self.pieces):
             here = inside == number
-            found[:, here] = [evaluated(of, x[here]) for of in (piece.S, piece.V, piece.A)]
-        return found[0], found[1], found[2]
+            SVA[:, here] = [evaluated(of, x[here]) for of in (piece.S, piece.V, piece.A)]
+        return SVA[0], SVA[1], SVA[2]
 
 
 def evaluated(of: Formula, x: Floats) -> Floats:
@@ -299,30 +299,30 @@ class FollowerMotion:
         """The number of the interval that each angle [N] lies in; the ends of a moving phase belong to it."""
         φ = np.mod(φ, 2 * math.pi)
         starts = np.array([one.start for one in self.intervals])
-        found = np.searchsorted(starts - NODE, φ, side="right") - 1
+        number = np.searchsorted(starts - NODE, φ, side="right") - 1
         still = np.array([one.piece is None for one in self.intervals])
-        at_start = np.abs(φ - starts[found]) <= NODE
-        before = found - 1
-        corner = at_start & (found > 0) & still[found] & ~still[before]
-        return np.where(corner, before, found)
+        at_start = np.abs(φ - starts[number]) <= NODE
+        before = number - 1
+        corner = at_start & (number > 0) & still[number] & ~still[before]
+        return np.where(corner, before, number)
 
     def __call__(self, φ: Floats, of: NDArray[np.intp] | None = None) -> tuple[Floats, Floats, Floats]:
         """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be."""
         numbers = self.of(φ) if of is None else of
         turned = φ if of is not None else np.mod(φ, 2 * math.pi)
-        found = np.zeros((3, φ.size))
-        for number, one in enumerate(self.intervals):
+        motion = np.zeros((3, φ.size))
+        for number, interval in enumerate(self.intervals):
             here = numbers == number
             if here.any():
-                values = {"x": one.x(turned[here]), "Φ": one.angle, "h": self.stroke}
-                for row, formula in zip(found, one.own, strict=True):
+                values = {"x": interval.x(turned[here]), "Φ": interval.angle, "h": self.stroke}
+                for row, formula in zip(motion, interval.own, strict=True):
                     row[here] = evaluate(formula, values)
-        return found[0], found[1], found[2]
+        return motion[0], motion[1], motion[2]
 
     @cached_property
     def impacts(self) -> tuple[Impact, ...]:
         """Where the velocity or the acceleration jumps."""
-        found = []
+        impacts = []
         numbers = np.arange(len(self.intervals))
         stops = np.array([one.stop for one in self.intervals])
         starts = np.array([one.start for one in self.intervals])
@@ -334,6 +334,6 @@ class FollowerMotion:
             for kind, end, begin in (("rigid", V_end, V_begin), ("soft", A_end, A_begin)):
                 jump = float(begin[behind] - end[number])
                 if abs(jump) > JUMP * self.stroke:
-                    found.append(Impact(kind, 0.0 if 2 * math.pi - angle < NODE else angle, jump))
+                    impacts.append(Impact(kind, 0.0 if 2 * math.pi - angle < NODE else angle, jump))
                     break
-        return tuple(sorted(found, key=lambda one: one.angle))
+        return tuple(sorted(impacts, key=lambda one: one.angle))

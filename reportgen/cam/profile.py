@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.laws import NODE, Floats, FollowerMotion
-from reportgen.formula import ids
 from reportgen.formula.model import model
 from reportgen.formula.sheet import Sheet
 
@@ -188,7 +188,7 @@ class CamProfile:
     @cached_property
     def pitch(self) -> Complexes:
         """The follower's point (m)."""
-        x, y = self._of(*map(ids.cam_profile if self.cam.flat else ids.cam_pitch, "xy"))
+        x, y = self._of(*map(cam_ids.profile if self.cam.flat else cam_ids.pitch, "xy"))
         return x + 1j * y
 
     @cached_property
@@ -196,7 +196,7 @@ class CamProfile:
         """The point of the profile (m)."""
         if not self.cam.roller:
             return self.pitch
-        x, y = self._of(*map(ids.cam_profile, "xy"))
+        x, y = self._of(*map(cam_ids.profile, "xy"))
         return x + 1j * y
 
     @property

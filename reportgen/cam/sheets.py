@@ -34,7 +34,7 @@ AXES = Pen(0.18, "#6b6b6b", (5.0, 1.0, 0.8, 1.0))
 
 def plates(case: SolvedCam) -> Iterator[DrawingPlate]:
     """Diagrams of the motion, of the limits and of the pressure angle, the construction of the profile, the cam."""
-    found = case.solution.designed
+    design = case.solution.designed
 
     def pressure(case: SolvedCam, size: FigureSize) -> Scene:
         return pressure_chart(case, area=Area(*AREAS[size.steps], size.enlarged)).scene
@@ -46,7 +46,7 @@ def plates(case: SolvedCam) -> Iterator[DrawingPlate]:
         ("profile", "profile", lambda case, size: inversion(case, "cam", size), MOST_STEPS),
         ("pressure", "curves", pressure, len(AREAS) - 1),
     ]
-    left_out = {"limits", "pressure"} if found.cam.flat else {"limits"} if found.least is None else set()
+    left_out = {"limits", "pressure"} if design.cam.flat else {"limits"} if design.least is None else set()
     for name, layer, draw, most in drawn:
         if name not in left_out:
             yield enlargeable(partial(_plate, case, name, layer, draw), most)

@@ -14,26 +14,13 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
+from reportgen.cam import cam_ids
 from reportgen.cam.design import Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
 from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
 from reportgen.cam.profile import Cam, CamProfile
-from reportgen.formula import (
-    PI,
-    Expression,
-    Number,
-    Operand,
-    Ref,
-    Symbol,
-    acos,
-    as_expression,
-    branch,
-    cos,
-    ids,
-    sqrt,
-    tan,
-)
+from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, cos, sqrt, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.report.case import Misconceptions, with_another
@@ -141,8 +128,8 @@ class CamSolution:
             if id in families and (definition := families[id].definition) is not None:
                 also("cam-degrees", [(id, definition * (math.pi / 180) ** power)])
         begun = {id: one for id, one in families.items() if id in ("cam.x", "cam.start.return")}
-        also("cam-phase-sum", with_another({"cam.x": begun["cam.x"]}, {"cam.start.return": Ref(ids.cam_phase("rise"))}))
-        also("cam-phase-sum", with_another(begun, {ids.cam_phase("far"): 0.0}))
+        also("cam-phase-sum", with_another({"cam.x": begun["cam.x"]}, {"cam.start.return": Ref(cam_ids.phase("rise"))}))
+        also("cam-phase-sum", with_another(begun, {cam_ids.phase("far"): 0.0}))
         also("cam-offset-side", with_another(families, {"cam.e": -Ref("cam.e")}))
         if "cam.k" in families:
             turned = -Ref(self.moved[1])
@@ -174,11 +161,11 @@ class CamSheet:
         with q.within(Chapter.data):
             self.stroke = q.give("cam.h" if cam.translating else "cam.swing", cam.motion.stroke)
             for phase, degrees in zip(("rise", "far", "return", "near"), given.phase_degrees, strict=True):
-                q.give(ids.cam_phase(phase), math.radians(degrees))
+                q.give(cam_ids.phase(phase), math.radians(degrees))
             limits = self.of.designed.limits
             for phase, limit in (("rise", limits.rise), ("return", limits.back)):
                 if limit is not None and not cam.flat:
-                    q.give(ids.cam_limit(phase), limit)
+                    q.give(cam_ids.limit(phase), limit)
             q.give("cam.limit.rho", limits.rho)
             if given.n is not None:
                 n = q.give("cam.n", given.n.value)
@@ -190,9 +177,9 @@ class CamSheet:
     def enter_motion(self) -> None:
         q, motion = self.q, self.cam.motion
         for phase in MOVING:
-            q.define(ids.cam_arc(phase), q[ids.cam_phase(phase)])
-        self.arc = self.stroke if self.cam.translating else q.define(ids.cam_arc("swing"), self.stroke)
-        q.define("cam.start.return", q[ids.cam_phase("rise")] + q[ids.cam_phase("far")])
+            q.define(cam_ids.arc(phase), q[cam_ids.phase(phase)])
+        self.arc = self.stroke if self.cam.translating else q.define(cam_ids.arc("swing"), self.stroke)
+        q.define("cam.start.return", q[cam_ids.phase("rise")] + q[cam_ids.phase("far")])
         laws = {"rise": motion.rise, "return": motion.back}
         for phase, law in laws.items():
             if law.table is not None:
@@ -201,8 +188,8 @@ class CamSheet:
         intervals = motion.intervals
         number = q.give("cam.stretch", motion.of(self.of.φ), "stretch", "count", hidden=True)
         places = {
-            "rise": φ / q[ids.cam_phase("rise")],
-            "return": (φ - q["cam.start.return"]) / q[ids.cam_phase("return")],
+            "rise": φ / q[cam_ids.phase("rise")],
+            "return": (φ - q["cam.start.return"]) / q[cam_ids.phase("return")],
         }
         x = q.define("cam.x", branch(number, *(places.get(one.phase, STILL) for one in intervals)), scale=1.0)
         if any(law.table is not None for law in laws.values()):
@@ -227,22 +214,22 @@ class CamSheet:
         kinds = ("angle on paper", "rate on paper", "rate on paper") if turned else KINDS_ON_PAPER
         profile = self.cam.sampled()
         first, second, third = (float(np.ptp(part)) for part in (profile.s, profile.ds, profile.dds))
-        L = q.give(ids.cam_diagram("L"), TURN_ON_PAPER, optional=True)
-        μ_φ = q.define(ids.cam_scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
+        L = q.give(cam_ids.diagram("L"), TURN_ON_PAPER, optional=True)
+        μ_φ = q.define(cam_ids.scale("phi"), 2 * PI / L, Symbol("μ", "φ"), "angle on paper", optional=True)
         chosen = nice_up(third / HEIGHT) if third else nice_up(second / HEIGHT / q.si(μ_φ) / HEIGHT)
-        above = q.give(ids.cam_scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
+        above = q.give(cam_ids.scale(names[2]), chosen, Symbol("μ", symbols[2]), kinds[2], optional=True)
         for number, (name, shown, kind, range_) in enumerate(
             ((names[1], symbols[1], kinds[1], second), (names[0], symbols[0], kinds[0], first)), start=1
         ):
             wanted = range_ / HEIGHT / (q.si(above) * q.si(μ_φ)) * MM
             pole = min(max(round(wanted), LEAST_POLE), MOST_POLE) / MM
-            K = q.give(ids.cam_diagram(number), pole, Symbol("K", str(number)), optional=True)
-            above = q.define(ids.cam_scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
+            K = q.give(cam_ids.diagram(number), pole, Symbol("K", str(number)), optional=True)
+            above = q.define(cam_ids.scale(name), above * μ_φ * K, Symbol("μ", shown), kind, optional=True)
 
     def _formulas(self, one: LawInterval, x: Ref) -> tuple[Operand, ...]:
         if one.piece is None:
             return one.formulas(x, 1.0, self.stroke, self.stroke)
-        arc = self.q[ids.cam_arc(one.phase)]
+        arc = self.q[cam_ids.arc(one.phase)]
         piece = one.piece
         if piece.node >= 0:
             z = self.q["cam.z"]
@@ -264,32 +251,32 @@ class CamSheet:
         return x - self._node(MOVING[one.phase], one.piece.node, "x")
 
     def _node(self, phase: int, number: int, what: str) -> Ref:
-        return self.q[ids.cam_node(phase, number, what)]
+        return self.q[cam_ids.node(phase, number, what)]
 
     def _enter_nodes(self, phase: int, A: Floats, x: Floats) -> None:
         """The graph of the acceleration, integrated from node to node."""
         q = self.q
         for i, (at, value) in enumerate(zip(x, A, strict=True)):
-            here = q.give(ids.cam_node(phase, i, "x"), float(at))
-            now = q.give(ids.cam_node(phase, i, "A"), float(value), exact=False)
+            here = q.give(cam_ids.node(phase, i, "x"), float(at))
+            now = q.give(cam_ids.node(phase, i, "A"), float(value), exact=False)
             if not i:
-                q.give(ids.cam_node(phase, i, "V"), 0.0)
-                q.give(ids.cam_node(phase, i, "S"), 0.0)
+                q.give(cam_ids.node(phase, i, "V"), 0.0)
+                q.give(cam_ids.node(phase, i, "S"), 0.0)
                 continue
             last, before, V, S = (self._node(phase, i - 1, what) for what in ("x", "A", "V", "S"))
             if abs(at - x[i - 1]) == 0:
-                q.define(ids.cam_node(phase, i, "V"), V)
-                q.define(ids.cam_node(phase, i, "S"), S)
+                q.define(cam_ids.node(phase, i, "V"), V)
+                q.define(cam_ids.node(phase, i, "S"), S)
                 continue
             Δ = here - last
-            q.define(ids.cam_node(phase, i - 1, "J"), (now - before) / Δ, scale=1.0)
+            q.define(cam_ids.node(phase, i - 1, "J"), (now - before) / Δ, scale=1.0)
             if i == len(x) - 1:
                 # The follower comes to rest at the end of its stroke.
-                q.give(ids.cam_node(phase, i, "V"), 0.0)
-                q.give(ids.cam_node(phase, i, "S"), 1.0)
+                q.give(cam_ids.node(phase, i, "V"), 0.0)
+                q.give(cam_ids.node(phase, i, "S"), 1.0)
                 continue
-            q.define(ids.cam_node(phase, i, "V"), V + (before + now) * Δ / 2, scale=1.0)
-            q.define(ids.cam_node(phase, i, "S"), S + V * Δ + (2 * before + now) * Δ**2 / 6, scale=1.0)
+            q.define(cam_ids.node(phase, i, "V"), V + (before + now) * Δ / 2, scale=1.0)
+            q.define(cam_ids.node(phase, i, "S"), S + V * Δ + (2 * before + now) * Δ**2 / 6, scale=1.0)
 
     # --- the least cam
 
@@ -318,9 +305,9 @@ class CamSheet:
         """Where a limit line touches, as it is read off the diagram."""
         q, number = self.q, MOVING[phase]
         names = ("s", "ds") if self.cam.translating else ("psi", "dpsi")
-        q.give(ids.cam_touch(number, "phi"), touch.phi, exact=False)
-        s = q.give(ids.cam_touch(number, names[0]), touch.s, exact=False)
-        return s, q.give(ids.cam_touch(number, names[1]), touch.ds, exact=False)
+        q.give(cam_ids.touch(number, "phi"), touch.phi, exact=False)
+        s = q.give(cam_ids.touch(number, names[0]), touch.s, exact=False)
+        return s, q.give(cam_ids.touch(number, names[1]), touch.ds, exact=False)
 
     def _translating(self) -> None:
         q, least = self.q, self.of.designed.least
@@ -328,12 +315,12 @@ class CamSheet:
         assert least.rise is not None
         s, ds = self._touch("rise", least.rise)
         t1 = tan(q["cam.limit.rise"])
-        c1 = q.define(ids.cam_intercept(1), ds - s * t1)
+        c1 = q.define(cam_ids.intercept(1), ds - s * t1)
         c2, t2 = None, None
         if least.back is not None:
             s, ds = self._touch("return", least.back)
             t2 = tan(q["cam.limit.return"])
-            c2 = q.define(ids.cam_intercept(2), -ds - s * t2)
+            c2 = q.define(cam_ids.intercept(2), -ds - s * t2)
         if not self.given.seeks("e"):
             top = c1 if least.rule == "rise" else c2
             assert top is not None
@@ -371,7 +358,7 @@ class CamSheet:
             if touch is None:
                 continue
             ψ, dψ = self._touch(phase, touch)
-            limit = q[ids.cam_limit(phase)]
+            limit = q[cam_ids.limit(phase)]
             aside = acos(arm * factor(dψ, self.σ) * cos(limit) / a)
             found[phase] = limit - aside - ψ if side > 0 else aside - limit - ψ
         ψ0 = q.define("cam.least.psi0", found[least.rule])

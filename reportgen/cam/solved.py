@@ -9,13 +9,12 @@ import numpy as np
 
 from reportgen.cam.file import Parameters
 from reportgen.cam.solution import CamSolution
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
-from reportgen.report.case import LoadedAssignment
+from reportgen.formula.sheet import Sheet
+from reportgen.report.design import DesignCase
 
 
 @dataclass(frozen=True)
-class SolvedCam(LoadedAssignment):
+class SolvedCam(DesignCase):
     """An assignment of a cam with its ledger; each part is computed when it is first asked for."""
 
     @cached_property
@@ -23,20 +22,9 @@ class SolvedCam(LoadedAssignment):
         given: Parameters = self.assignment.parameters
         return CamSolution(given)
 
-    @cached_property
-    def ledger(self) -> Ledger:
-        sheet = self.solution.sheet
-        made = Ledger(sheet.families, sheet.positions, units=self.words["units"], lines=sheet.lines)
-        return made.in_language(self.words["symbols"])
-
-    @cached_property
-    def printed(self) -> Ledger:
-        return carried(self.ledger)
-
     @property
-    def count(self) -> int:
-        """Its positions."""
-        return len(self.solution.degrees)
+    def sheet(self) -> Sheet:
+        return self.solution.sheet
 
     @property
     def speed(self) -> float | None:

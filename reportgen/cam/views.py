@@ -10,6 +10,7 @@ from typing import Any
 
 from reportgen.base.shown import view
 from reportgen.base.units import MM
+from reportgen.cam import cam_ids
 from reportgen.cam.diagrams import curvature_chart, law_diagrams, pressure_chart
 from reportgen.cam.drawings import inversion, limit_diagram
 from reportgen.cam.file import ALLOWED, Judged, exceeded, judged
@@ -17,11 +18,11 @@ from reportgen.cam.laws import FollowerLaw, Piece
 from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
-from reportgen.formula import Call, Chain, Expression, Number, Symbol, ids, substitute, vocabulary
+from reportgen.formula import Call, Chain, Expression, Number, Symbol, substitute, vocabulary
 from reportgen.formula.plain import formula
 from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report.case import AskedFor
 from reportgen.report.design import DesignPage
-from reportgen.report.key import Key
 from reportgen.report.prose import Prose
 
 DATA = (95.0, 25.0, 40.0)
@@ -84,9 +85,8 @@ class CamPage(DesignPage[SolvedCam]):
         cam, least = self.case.solution.cam, self.case.solution.designed.least
         return {"cam-limits": least is not None or cam.flat, "cam-pressure": not cam.flat}.get(section, True)
 
-    def asked(self, key: Key) -> dict[str, Any]:
-        positions = sorted({k for row in key.asked for k in row.positions if k})
-        return {"asked": listed(Text(key.label(k)) for k in positions)}
+    def asked(self, asked: AskedFor) -> dict[str, Any]:
+        return {"asked": listed(map(Text, asked.positions))}
 
     def names(self) -> dict[str, Any]:
         case, cam, given = self.case, self.case.solution.cam, self.case.solution.given
@@ -159,7 +159,7 @@ class CamPage(DesignPage[SolvedCam]):
         if least is None:
             return {}
         rule = "return" if least.rule == "return" else "rise"
-        read = {name: ids.cam_touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
+        read = {name: cam_ids.touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
         return {"phase": str(self.words["phases"][rule]), **read}
 
     # --- symbols and lines
@@ -187,7 +187,7 @@ class CamPage(DesignPage[SolvedCam]):
         case, heads, finds = self.case, self.case.words["table"], self.case.solution.given.finds
         hidden = {_id(key) for key in finds}
         if case.solution.designed.usual:
-            hidden.add(ids.cam_limit("return"))
+            hidden.add(cam_ids.limit("return"))
         rows = []
         for id, name in case.words["given"].items():
             if id in case.printed and id not in hidden:
@@ -264,7 +264,7 @@ class CamPage(DesignPage[SolvedCam]):
         columns = ("x", "A", "V", "S", "J")
         head = (Cell((InlineMath(Symbol("i")),)), *(Cell((InlineMath(Symbol(one)),)) for one in columns))
         rows = [
-            (Cell((Text(str(i)),)), *(Cell(self._at_node(ids.cam_node(number, i, one))) for one in columns))
+            (Cell((Text(str(i)),)), *(Cell(self._at_node(cam_ids.node(number, i, one))) for one in columns))
             for i in range(len(law.table.x))
         ]
         caption = Prose(self.case.places).inlines(

@@ -68,12 +68,12 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
-    way = (
+    driven_through = (
         assembly.Way(machine.start, machine.start + machine.turn * machine.span, False)
         if machine.span
         else assembly.Way()
     )
-    yield from assembly.near_dead_point(machine.linkage, way, ("parameters",))
+    yield from assembly.near_dead_point(machine.linkage, driven_through, ("parameters",))
     if machine.drawn:
         yield from assembly.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
@@ -103,15 +103,15 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
     except AssignmentError as error:
         return list(error.problems)
     warnings = getattr(module(assignment.kind), "WARNINGS", ())
-    told: dict[Level, list[Finding]] = {
+    by_level: dict[Level, list[Finding]] = {
         "warning": [finding for warning in warnings for finding in warning(assignment)],
         "note": list(_understood_positions(assignment)),
     }
     source, spoken = read_source(Path(path)), assignment.language
-    found = [as_problem(one, spoken, level) for level in told for one in reading.placed(source, told[level])]
+    problems = [as_problem(one, spoken, level) for level in by_level for one in reading.placed(source, by_level[level])]
     doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, Path(path)))
-    found += [as_problem(one, spoken, "warning") for one in doubtful]
-    return sorted(found, key=lambda problem: problem.mark)
+    problems += [as_problem(one, spoken, "warning") for one in doubtful]
+    return sorted(problems, key=lambda problem: problem.mark)
 
 
 def examples(name: str) -> dict[str, Path]:
@@ -152,8 +152,8 @@ def schema() -> dict[str, Any]:
 
     # All at once: models of one name in different kinds get names of their own.
     models: list[tuple[type[BaseModel], JsonSchemaMode]] = [(file_model(kind(name)), "validation") for name in kinds()]
-    found, definitions = models_json_schema(models, by_alias=True)
-    modern = {"title": "reportgen assignment", "oneOf": [found[model] for model in models], **definitions}
+    references, definitions = models_json_schema(models, by_alias=True)
+    modern = {"title": "reportgen assignment", "oneOf": [references[model] for model in models], **definitions}
     return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
 
 

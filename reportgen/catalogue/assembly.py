@@ -14,7 +14,8 @@ import numpy as np
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import MM, nice_down
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Linkage
-from reportgen.machine.loads import FULL_TURN, STEPS, Flags, MotionAt, NotToAndFro, course, halved
+from reportgen.machine.laws import FULL_TURN, STEPS, Flags, MotionAt, halved
+from reportgen.machine.loads import turning_points
 from reportgen.machine.motion import SINGULAR, Complexes, Floats, Motion, cross, solve_motion, unit
 
 HALVINGS = 40
@@ -60,56 +61,58 @@ class Way:
 WHOLE_TURN = Way()
 
 
-def findings(linkage: Linkage, members: Mapping[tuple[int, int], Member], way: Way = WHOLE_TURN) -> Iterator[Finding]:
+def findings(
+    linkage: Linkage, members: Mapping[tuple[int, int], Member], driven: Way = WHOLE_TURN
+) -> Iterator[Finding]:
     """The first group that the driver cannot carry through all its way: with its links and the driver's places."""
-    places = np.linspace(way.start, way.end, STEPS + 1)
+    places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
     size = _size(motion)
-    of_slide = "" if way.turning else "-slide"
+    of_slide = "" if driven.turning else "-slide"
     for dyad in linkage.dyads:
         member = members[dyad.links]
         about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "rods": member.rods}
-        found = clearance(dyad, motion, size)
-        inside = found >= -ROUND_OF_CLEARANCE
+        clearances = clearance(dyad, motion, size)
+        inside = clearances >= -ROUND_OF_CLEARANCE
 
         def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
             return clearance(dyad, solve_motion(linkage, at, 1.0), size)
 
-        if way.turning and not inside.any():
+        if driven.turning and not inside.any():
             yield Finding("never-assembled", member.where, about)
             return
-        gap = None if inside.all() else _first_gap(clear, way, places, inside)
-        place, least = _least(clear, way, places, found) if gap is None else (0.0, 0.0)
+        gap = None if inside.all() else _first_gap(clear, driven, places, inside)
+        place, least = _least(clear, driven, places, clearances) if gap is None else (0.0, 0.0)
         if least < -ROUND_OF_CLEARANCE:
-            step = (way.end - way.start) / STEPS
+            step = (driven.end - driven.start) / STEPS
             around = np.array([place - step, place, place + step])
             gap = _gap(clear, around, np.array([True, False, True]))
         if gap is not None:
-            ends = dict(zip(("first", "last"), map(way.shown, gap), strict=True))
+            ends = dict(zip(("first", "last"), map(driven.shown, gap), strict=True))
             yield Finding(f"no-assembly{of_slide}", member.where, {**about, **ends})
             return
         if least < SINGULAR**2:
-            at = {"angle" if way.turning else "first": way.shown(place)}
+            at = {"angle" if driven.turning else "first": driven.shown(place)}
             yield Finding(f"dead-point{of_slide}", member.where, {**about, **at})
             return
 
 
-def near_dead_point(linkage: Linkage, way: Way, where: Where) -> Iterator[Finding]:
+def near_dead_point(linkage: Linkage, driven: Way, where: Where) -> Iterator[Finding]:
     """The first group that comes so near to a dead point that its accelerations and forces are mere rounding."""
-    places = np.linspace(way.start, way.end, STEPS + 1)
+    places = np.linspace(driven.start, driven.end, STEPS + 1)
     motion = solve_motion(linkage, places, 1.0)
-    size, of_slide = _size(motion), "" if way.turning else "-slide"
+    size, of_slide = _size(motion), "" if driven.turning else "-slide"
     limit = np.sin(np.radians(LEAST_ANGLE))
     for dyad in linkage.dyads:
 
         def clear(at: Floats, dyad: Dyad = dyad) -> Floats:
             return clearance(dyad, solve_motion(linkage, at, 1.0), size)
 
-        place, least = _least(clear, way, places, clearance(dyad, motion, size))
+        place, least = _least(clear, driven, places, clearance(dyad, motion, size))
         if not least < limit**2:
             continue
         sine = float(np.sqrt(max(least, 0.0)))
-        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": way.shown(place)}
+        about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": driven.shown(place)}
         if dyad.kind == "RPR" and not dyad.lengths[1]:
             about |= {"near": f"{sine * size * 1e3:.3g}", "least": f"{limit * size * 1e3:.3g}"}
             yield Finding(f"near-pivot{of_slide}", where, about, at="key")
@@ -137,11 +140,10 @@ def too_large(linkage: Linkage, drawn: float, where: Where) -> Iterator[Finding]
 
 
 def to_and_fro(linkage: Linkage, slider: int, motion_at: MotionAt, where: Where) -> Iterator[Finding]:
-    """A slider that has dead centres goes once to and fro in a turn."""
-    try:
-        course(linkage, slider, motion_at)
-    except NotToAndFro as fault:
-        yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(fault.reversals)})
+    """A slider that has dead centres goes once to and fro in a turn, so that it turns back twice."""
+    count = len(turning_points(linkage, slider, motion_at))
+    if count != 2:
+        yield Finding("not-to-and-fro", where, {"text": str(slider), "count": str(count)})
 
 
 def turns_fully(linkage: Linkage, link: int) -> bool:
@@ -157,14 +159,14 @@ def clearance(dyad: Dyad, motion: Motion, size: float) -> Floats:
     (RPR with an offset, else the square of the pin's distance from the pivot over the linkage's `size` in m), of
     the two slides (PRP, RPP).
     """
-    one, two = dyad.lengths
+    l1, two = dyad.lengths
     match dyad.kind, dyad.start, dyad.end:
         case "RRR", str(p), str(t):
             span = np.abs(motion.points[p].p - motion.points[t].p)
-            return np.asarray(1 - ((one**2 + two**2 - span**2) / (2 * one * two)) ** 2)
+            return np.asarray(1 - ((l1**2 + two**2 - span**2) / (2 * l1 * two)) ** 2)
         case "RRP", str(p), Guide() as guide:
             at, along = _rail(guide, motion)
-            return np.asarray(1 - (cross(motion.points[p].p - at, along) / one) ** 2)
+            return np.asarray(1 - (cross(motion.points[p].p - at, along) / l1) ** 2)
         case "RPR", str(p), str(t):
             reach = np.abs(motion.points[p].p - motion.points[t].p)
             if two:
@@ -191,10 +193,10 @@ def _size(motion: Motion) -> float:
     return max(float(np.ptp(places.real)), float(np.ptp(places.imag)))
 
 
-def _first_gap(clear: Clear, way: Way, places: Floats, inside: np.ndarray) -> tuple[float, float]:
+def _first_gap(clear: Clear, driven: Way, places: Floats, inside: np.ndarray) -> tuple[float, float]:
     """The ends of the first range where the group does not assemble; of a turn, the first after it assembles."""
-    if way.turning:
-        places = places + places[int(np.flatnonzero(inside)[0])] - way.start
+    if driven.turning:
+        places = places + places[int(np.flatnonzero(inside)[0])] - driven.start
         inside = clear(places) >= -ROUND_OF_CLEARANCE
     return _gap(clear, places, inside)
 
@@ -222,19 +224,19 @@ def _edge(clear: Clear, inside: float, outside: float) -> float:
     return float(reached[0])
 
 
-def _least(clear: Clear, way: Way, places: Floats, found: Floats) -> tuple[float, float]:
+def _least(clear: Clear, driven: Way, places: Floats, clearances: Floats) -> tuple[float, float]:
     """Where the group's clearance is least and how much it is there; looked at closer where it is small."""
-    best = float(places[np.argmin(found)]), float(found.min())
-    before, after = np.roll(found[:-1], 1), np.roll(found[:-1], -1)
-    if not way.turning:
-        before[0], after[-1] = np.inf, found[-1]
-    low = (found[:-1] < before) & (found[:-1] <= after) & (found[:-1] < SMALL_TRANSMISSION**2)
+    best = float(places[np.argmin(clearances)]), float(clearances.min())
+    before, after = np.roll(clearances[:-1], 1), np.roll(clearances[:-1], -1)
+    if not driven.turning:
+        before[0], after[-1] = np.inf, clearances[-1]
+    low = (clearances[:-1] < before) & (clearances[:-1] <= after) & (clearances[:-1] < SMALL_TRANSMISSION**2)
     for k in np.flatnonzero(low):
-        place, half = float(places[k]), abs(way.end - way.start) / STEPS
+        place, half = float(places[k]), abs(driven.end - driven.start) / STEPS
         for _ in range(ZOOMS):
             near = np.linspace(place - half, place + half, NODES)
-            if not way.turning:
-                near = np.clip(near, min(way.start, way.end), max(way.start, way.end))
+            if not driven.turning:
+                near = np.clip(near, min(driven.start, driven.end), max(driven.start, driven.end))
             there = clear(near)
             place, half = float(near[np.argmin(there)]), 2 * half / (NODES - 1)
             best = min(best, (place, float(there.min())), key=lambda pair: pair[1])

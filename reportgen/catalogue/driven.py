@@ -31,7 +31,8 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Inertia, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import FULL_TURN, Applied, Torque
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import LoadsByKind
 
 OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "structure", "motion")
 CLOSING = ("conclusion", "references", "checks")
@@ -332,19 +333,15 @@ def driven(
     are left out.
     """
     given, positions = assignment.parameters, assignment.positions
-    declared = [load for kind in ("applied", "torques") for load in own.get(kind, ())]
-    acting = [load for load in declared if load.law.acts]
+    loads = LoadsByKind.of((*own.pop("applied", ()), *own.pop("torques", ())))
     parts = dict(sections or {})
-    if parts.get("load") == "cycle" and not acting:
+    if parts.get("load") == "cycle" and not loads.act:
         parts["load"] = "no-gas"
     fields: dict[str, Any] = {
         "count": positions.count,
         "turns": assignment.turns,
-        "outline": outline(bool(linkage.inertias), bool(acting), given.flywheel, **parts),
+        "outline": outline(bool(linkage.inertias), loads.act, given.flywheel, **parts),
     }
-    own["applied"] = tuple(load for load in acting if isinstance(load, Applied))
-    own["torques"] = tuple(load for load in acting if isinstance(load, Torque))
-    own["idle"] = tuple(load.name for load in declared if not load.law.acts)
     return Machine(
         kind=assignment.kind,
         linkage=linkage,
@@ -353,5 +350,8 @@ def driven(
         speed=given.speed,
         sheet=q,
         unevenness=given.unevenness,
+        applied=loads.applied,
+        torques=loads.torques,
+        idle=loads.idle,
         **(fields | own),
     )

@@ -114,9 +114,9 @@ def _cannot_turn(given: Parameters) -> Finding | None:
 
 @of_parameters
 def _check_turning(given: Parameters) -> Iterator[Finding]:
-    found = _cannot_turn(given)
-    if found is not None:
-        yield found
+    obstacle = _cannot_turn(given)
+    if obstacle is not None:
+        yield obstacle
 
 
 CHECKS = (

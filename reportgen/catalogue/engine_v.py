@@ -24,7 +24,8 @@ from reportgen.formula import PI, Symbol, cis, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine, lettered
-from reportgen.machine.loads import Applied, ConstantLaw, Piston, course, crank_motion, gas_forces
+from reportgen.machine.laws import ConstantLaw
+from reportgen.machine.loads import Applied, Piston, course, crank_motion, fixed, gas_forces
 
 TURNS = 1
 """Four strokes take two, where there is an indicator diagram."""
@@ -80,8 +81,8 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
         return
     bore, diagram = raw.get("D") is not None, draft.raw.get("indicator") is not None
     for key in (key for key in ("PC", "PE") if raw.get(key) is not None and (bore or diagram)):
-        other = "D" if bore else "indicator"
-        yield Finding("both-given", ("parameters", key), {"first": other, "second": key}, at="key")
+        instead = "D" if bore else "indicator"
+        yield Finding("both-given", ("parameters", key), {"first": instead, "second": key}, at="key")
     if bore and not diagram:
         yield Finding("missing-key", ("indicator",), {"key": "indicator"})
     if diagram and not bore:
@@ -90,13 +91,19 @@ def _check_loads(draft: Draft) -> Iterator[Finding]:
 
 @of_parameters
 def _check_assembly(given: Parameters) -> Iterator[Finding]:
-    """Both pistons follow the crank through a whole turn; the articulation lies on the main rod."""
+    """Both pistons follow the crank through a whole turn and turn back twice; the articulation is on the main rod."""
     if given.BD.si >= given.BC.si:
         most = f"< BC = {given.BC.si * 1e3:g} mm"
         yield Finding("out-of-range", ("parameters", "BD"), {"text": given.BD.text, "range": most})
         return
     members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
-    yield from assembly.findings(_linkage(given, _sheet(given)), members)
+    linkage = _linkage(given, _sheet(given))
+    if found := list(assembly.findings(linkage, members)):
+        yield from found
+        return
+    motion_at = crank_motion(linkage, Positions(), 0.0)
+    for slider, key in ((3, "BC"), (5, "DE")):
+        yield from assembly.to_and_fro(linkage, slider, motion_at, ("parameters", key))
 
 
 CHECKS = (*given_loads.DIAGRAM_CHECKS, _check_loads, _check_assembly)
@@ -207,7 +214,7 @@ def _constant(given: Parameters) -> tuple[Applied, ...]:
     """Constant forces that push the pistons towards the crank."""
     ends = ((3, "C", given.PC, given.alpha), (5, "E", given.PE, given.beta))
     return tuple(
-        Applied(ids.applied_force(link), link, pin, -cmath.exp(1j * axis.si), ConstantLaw(force.si))
+        Applied(ids.applied_force(link), link, pin, fixed(-cmath.exp(1j * axis.si)), ConstantLaw(force.si))
         for link, pin, force, axis in ends
         if force is not None
     )

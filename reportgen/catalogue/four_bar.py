@@ -44,7 +44,8 @@ from reportgen.formula import (
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, ConstantLaw, Floats
+from reportgen.machine.laws import ConstantLaw, Floats
+from reportgen.machine.loads import Applied, fixed
 
 FLAT = 0.01
 """A coupler point this share of its distance beside the rod makes a triangle too flat to be drawn from its sides."""
@@ -56,9 +57,9 @@ def _rocks(q: Sheet) -> bool:
     return q.si("l.AB") < q.si("l.AD")
 
 
-def cosine(one: Expression, other: Expression, opposite: Expression) -> Expression:
+def cosine(a: Expression, b: Expression, opposite: Expression) -> Expression:
     """The law of cosines for the angle between two sides."""
-    return (one**2 + other**2 - opposite**2) / (2 * one * other)
+    return (a**2 + b**2 - opposite**2) / (2 * a * b)
 
 
 # --- proportions ----------------------------------------------------------------------------------
@@ -67,9 +68,9 @@ def cosine(one: Expression, other: Expression, opposite: Expression) -> Expressi
 def proportions(q: Sheet) -> None:
     """Grashof's two sums; for a rocker the extreme positions C₁, C₂, its swing ψ and the ratio of times K."""
     AB, BC, CD, AD = sides = tuple(q[ids.length(id)] for id in ("AB", "BC", "DC", "AD"))
-    first, one, other, last = sorted(sides, key=q.si)
+    first, second, third, last = sorted(sides, key=q.si)
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
-    q.set_out("sums", ends, q.define("sum.others", one + other, Symbol("l", "", "″"), "length"))
+    q.set_out("sums", ends, q.define("sum.others", second + third, Symbol("l", "", "″"), "length"))
     q.set_out("swing")
     if not _rocks(q):
         return
@@ -322,9 +323,9 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and link 3 does what the file says of it."""
     linkage = _linkage(given, _sheet(given))
-    found = list(assembly.findings(linkage, {(2, 3): assembly.Member("BC, CD", ("parameters", "BC"))}))
-    yield from found
-    if not found and given.link3 is not None:
+    obstacles = list(assembly.findings(linkage, {(2, 3): assembly.Member("BC, CD", ("parameters", "BC"))}))
+    yield from obstacles
+    if not obstacles and given.link3 is not None:
         fully = assembly.turns_fully(linkage, 3)
         if fully != (given.link3 == "crank"):
             code = "not-a-rocker" if fully else "not-a-crank"
@@ -354,7 +355,7 @@ def machine(assignment: Assignment) -> Machine:
         formulas=lambda q: analytic_method(q, φ1, points, turn, turn * given.side),
         applied=()
         if force is None
-        else (Applied("P3", 3, "C", cmath.rect(1.0, force.angle.si), ConstantLaw(force.P.si)),),
+        else (Applied("P3", 3, "C", fixed(cmath.rect(1.0, force.angle.si)), ConstantLaw(force.P.si)),),
         torques=torque_on(given.torque, 3, linkage, positions, start),
         paths=tuple(names),
         compared=compared(plans),

@@ -22,7 +22,8 @@ from reportgen.base.units import Given
 from reportgen.formula import ids
 from reportgen.machine import Linkage
 from reportgen.machine.gas import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.machine.loads import ConstantLaw, Law, Torque, by_angle, by_stroke, crank_motion, opposing
+from reportgen.machine.laws import ConstantLaw, Law, by_angle, by_stroke, opposing
+from reportgen.machine.loads import Torque, crank_motion
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
 
@@ -33,10 +34,10 @@ class _Diagram(Part):
     reference: Literal["gauge", "absolute"] = "gauge"
     ambient: Pressure = Given(101325.0, 10.1325, "N/cm2", "10.1325 N/cm2")
 
-    def gauge(self, row: tuple[float, ...], one: Given) -> tuple[float, ...]:
-        """Values of the table as gauge pressures (Pa), `one` being what 1 stands for."""
+    def gauge(self, row: tuple[float, ...], unit: Given) -> tuple[float, ...]:
+        """Values of the table as gauge pressures (Pa), `unit` being what 1 stands for."""
         below = self.ambient.si if self.reference == "absolute" else 0.0
-        return tuple(value * one.si - below for value in row)
+        return tuple(value * unit.si - below for value in row)
 
 
 class ByStroke(_Diagram):

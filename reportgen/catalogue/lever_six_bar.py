@@ -23,7 +23,8 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, ConstantLaw, Law, NotToAndFro, Stroke, course, crank_motion, opposing
+from reportgen.machine.laws import ConstantLaw, Law, Stroke, opposing
+from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_points
 
 TURNS = 1
 TURN = Number(360.0, unit="°")
@@ -176,9 +177,9 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         (2, 3): assembly.Member("AC, CD", ("parameters", "CD")),
         (4, 5): assembly.Member("EF", ("parameters", "EF")),
     }
-    found = list(assembly.findings(linkage, members))
-    yield from found
-    if not found and assembly.turns_fully(linkage, 3):
+    obstacles = list(assembly.findings(linkage, members))
+    yield from obstacles
+    if not obstacles and assembly.turns_fully(linkage, 3):
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
@@ -208,10 +209,8 @@ def machine(assignment: Assignment) -> Machine:
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
     motion_at = crank_motion(linkage, positions, start)
-    try:
-        sliders: tuple[Stroke, ...] = (course(linkage, 5, motion_at),)
-    except NotToAndFro:
-        sliders = ()
+    to_and_fro = len(turning_points(linkage, 5, motion_at)) == 2
+    sliders = (course(linkage, 5, motion_at),) if to_and_fro else ()
     fixed = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")})
 
@@ -266,4 +265,4 @@ def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: f
         law: Law = opposing(size, lambda angle: motion_at(angle).points["F"].v.real)
     else:
         law = ConstantLaw(size if sense == "right" else -size)
-    return (Applied("P5", 5, "F", 1 + 0j, law),)
+    return (Applied("P5", 5, "F", fixed(1 + 0j), law),)

@@ -7,8 +7,8 @@ loads; `linkage_file` says what each key means.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -27,22 +27,21 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Linkage
 from reportgen.machine.analysis import Machine, lettered
-from reportgen.machine.loads import (
+from reportgen.machine.laws import (
     FULL_TURN,
     AngleLaw,
-    Applied,
     ConstantLaw,
     Floats,
+    GasLaw,
     Law,
     MotionAt,
+    Resistance,
     TableLaw,
-    Torque,
     WayLaw,
     by_stroke,
-    course,
     opposing,
-    rails,
 )
+from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 from reportgen.machine.motion import Motion, solve_motion
 
 TURNS = 1
@@ -115,11 +114,12 @@ def machine(assignment: Assignment) -> Machine:
         labels=labels,
     )
     declared = _loads(given, linkage, _motion_at(built))
-    loads = tuple(load for load in declared if load.law.acts)
+    loads = LoadsByKind.of(declared)
+    acting = tuple(load.name for load in declared if load.name not in loads.idle)
     drawn = assignment.drawing.crank
     q = _sheet(given, linkage, built, drawn.si if drawn else None)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
-    q.set_out("loads", *(load.name for load in loads))
+    q.set_out("loads", *acting)
     loops = ClosedLoops(linkage, turn, {name: q.coordinates(name) for name in linkage.ground})
     return replace(
         built,
@@ -127,12 +127,12 @@ def machine(assignment: Assignment) -> Machine:
         formulas=loops.write,
         compared=tuple(loops.compared),
         equations=loops.equations,
-        applied=tuple(load for load in loads if isinstance(load, Applied)),
-        torques=tuple(load for load in loads if isinstance(load, Torque)),
-        outline=outline(bool(linkage.inertias), bool(loads), given.flywheel, driver="crank" if crank else "slide"),
+        applied=loads.applied,
+        torques=loads.torques,
+        idle=loads.idle,
+        outline=outline(bool(linkage.inertias), loads.act, given.flywheel, driver="crank" if crank else "slide"),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
-        idle=tuple(load.name for load in declared if load not in loads),
-        facts=facts(given, tuple(load.name for load in declared), {load.name for load in loads}),
+        facts=facts(given, tuple(load.name for load in declared), acting),
     )
 
 
@@ -188,40 +188,21 @@ def _drawn(built: Machine, crank: float) -> float:
 # --- loads ----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Resistance:
-    """−`size`·sgn(rate) over the way of a sliding driver, which does not come back to its start."""
-
-    size: float
-    rate: Callable[[Motion], Floats]
-    reversals: tuple[float, ...]
-
-    def value(self, angle: Floats, motion: Motion) -> Floats:
-        return -self.size * np.sign(self.rate(motion))
-
-    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        return self.reversals
-
-    @property
-    def acts(self) -> bool:
-        return self.size != 0
-
-
 def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tuple[Applied | Torque, ...]:
     """The loads in the order of the file, named P (forces) and M (torques) with their link's number."""
-    found: list[Applied | Torque] = []
+    loads: list[Applied | Torque] = []
     for load in given.loads:
         link = load.link
         if isinstance(load, file.OverStroke | file.Gas):
-            found.append(_on_slider(load, given, linkage, motion_at, _name(ids.applied_force, link, found)))
+            loads.append(_on_slider(load, given, linkage, motion_at, _name(ids.applied_force, link, loads)))
             continue
         direction = cmath.exp(1j * load.direction.si)
         law = _law(load, direction, given.driver, motion_at)
         if load.at is None:
-            found.append(Torque(_name(ids.applied_torque, link, found), link, law))
+            loads.append(Torque(_name(ids.applied_torque, link, loads), link, law))
         else:
-            found.append(Applied(_name(ids.applied_force, link, found), link, load.at, direction, law))
-    return tuple(found)
+            loads.append(Applied(_name(ids.applied_force, link, loads), link, load.at, fixed(direction), law))
+    return tuple(loads)
 
 
 def _name(family: Name, link: int, others: Iterable[Applied | Torque]) -> str:
@@ -236,13 +217,15 @@ def _on_slider(
     dyad, guide = rails(linkage)[load.link]
     if isinstance(load, file.Gas):
         top = 1 if load.intake == "first top" else 2
-        way = course(linkage, load.link, motion_at, given.turns, top)
+        stroke = course(linkage, load.link, motion_at, given.turns, top)
         area = float(np.pi * load.D.si**2 / 4)
-        return Applied(name, load.link, dyad.middle, way.inward, TableLaw(way, load.diagram.table, area))
-    one = load.unit.si
-    table = by_stroke(load.s, *(tuple(value * one for value in row) for row in (load.inward, load.outward)))
-    way = course(linkage, load.link, motion_at)
-    return Applied(name, load.link, dyad.middle, cmath.exp(1j * guide.angle), TableLaw(way, table, turns=1))
+        return Applied(
+            name, load.link, dyad.middle, fixed(stroke.inward), GasLaw(stroke, load.diagram.table, area=area)
+        )
+    unit = load.unit.si
+    table = by_stroke(load.s, *(tuple(value * unit for value in row) for row in (load.inward, load.outward)))
+    stroke = course(linkage, load.link, motion_at)
+    return Applied(name, load.link, dyad.middle, fixed(cmath.exp(1j * guide.angle)), TableLaw(stroke, table, turns=1))
 
 
 def _law(
@@ -267,7 +250,7 @@ def _law(
             return motion.links[load.link].omega
         return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
 
-    found = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
+    resistance = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
     # A crank has an angular velocity of its own, a slide has none.
     turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
-    return found if turns else Resistance(abs(size.si), rate, found.reversals)
+    return resistance if turns else Resistance(abs(size.si), rate, resistance.reversals)

@@ -17,7 +17,8 @@ from reportgen.catalogue import assembly
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.assembly import Member
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.machine.loads import STEPS, crank_motion
+from reportgen.machine.laws import STEPS
+from reportgen.machine.loads import crank_motion
 from reportgen.machine.motion import Motion, solve_motion
 
 TOP: Where = ("parameters",)
@@ -34,10 +35,10 @@ def check(draft: Draft) -> Iterator[Finding]:
     given: file.Parameters | None = draft.sections.get("parameters")
     if given is None:
         return
-    found = [*_structure(given), *_bodies(given), *_loads(given), *_of_a_crank(draft, given)]
-    found += [] if found else _declared(given)
-    yield from found
-    if found:
+    faults = [*_structure(given), *_bodies(given), *_loads(given), *_of_a_crank(draft, given)]
+    faults += [] if faults else _declared(given)
+    yield from faults
+    if faults:
         return
     positions = draft.sections.get("positions") or Positions()
     yield from _assembly(given, positions)
@@ -145,18 +146,18 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
 def _pins(given: file.Parameters) -> dict[int, set[str]]:
     """The points of every moving link: its joints and what is fixed to it."""
     driver = given.driver
-    found = {DRIVER: {driver.pin}}
+    pins = {DRIVER: {driver.pin}}
     if isinstance(driver, file.CrankDriver):
-        found[DRIVER].add(driver.centre)
+        pins[DRIVER].add(driver.centre)
     for group in given.groups:
         dyad = group.dyad
         pinned = {"RPR": (), "RPP": dyad.links[1:]}.get(dyad.kind, dyad.links)
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
-            found[link] = {end} if isinstance(end, str) else set()
-            found[link] |= {dyad.middle} if link in pinned else set()
+            pins[link] = {end} if isinstance(end, str) else set()
+            pins[link] |= {dyad.middle} if link in pinned else set()
     for name, point in given.points.items():
-        found.setdefault(point.link, set()).add(name)
-    return found
+        pins.setdefault(point.link, set()).add(name)
+    return pins
 
 
 def _on_link(pins: dict[int, set[str]], link: int, name: str | None, at: Where) -> Iterator[Finding]:
@@ -216,17 +217,17 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
                 assert isinstance(given.driver, file.SlideDriver)
                 ways = tuple(way.si * 1e3 for way in load.way)
                 yield from _table(at, "way", ways, given.driver.span * 1e3, " mm", values=load.values)
-            key, other = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
+            key, forbidden = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
             if getattr(load, key) is None:
                 yield Finding("missing-key", at, {"key": key})
-            if getattr(load, other) is not None:
-                yield Finding("force-or-torque", (*at, other), at="key")
+            if getattr(load, forbidden) is not None:
+                yield Finding("force-or-torque", (*at, forbidden), at="key")
         else:
-            wanted, other = ("F", "M") if load.at else ("M", "F")
+            wanted, forbidden = ("F", "M") if load.at else ("M", "F")
             if getattr(load, wanted) is None:
                 yield Finding("missing-key", at, {"key": wanted if load.at or load.F is None else "at"})
-            if getattr(load, other) is not None and getattr(load, wanted) is not None:
-                yield Finding("force-or-torque", (*at, other), at="key")
+            if getattr(load, forbidden) is not None and getattr(load, wanted) is not None:
+                yield Finding("force-or-torque", (*at, forbidden), at="key")
 
 
 def _table(
@@ -253,15 +254,15 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
     """Degree of freedom, class and groups as the author holds them for."""
     declared, at = given.declared, (*TOP, "declared")
     try:
-        found = mobility(given.linkage)
+        actual = mobility(given.linkage)
     except (KeyError, ValueError):
         return
-    for key, said, is_so in (("W", declared.W, found.W), ("class", declared.class_, found.mechanism_class)):
+    for key, said, is_so in (("W", declared.W, actual.W), ("class", declared.class_, actual.mechanism_class)):
         if said is not None and said != is_so:
             yield Finding("not-as-declared", (*at, key), {"text": str(said), "found": str(is_so)})
     if declared.groups is not None:
         said_groups = {tuple(sorted(pair)) for pair in declared.groups}
-        is_groups = [tuple(sorted(dyad.links)) for dyad in found.groups]
+        is_groups = [tuple(sorted(dyad.links)) for dyad in actual.groups]
         if said_groups != set(is_groups):
             text = ", ".join(map(str, declared.groups))
             yield Finding("not-as-declared", (*at, "groups"), {"text": text, "found": ", ".join(map(str, is_groups))})
@@ -280,9 +281,9 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
     if isinstance(given.driver, file.SlideDriver):
         yield from _along_the_way(given, given.driver, made, members)
         return
-    found = list(assembly.findings(made, members))
-    yield from found
-    if found:
+    obstacles = list(assembly.findings(made, members))
+    yield from obstacles
+    if obstacles:
         return
     motion_at = crank_motion(made, positions, positions.start_or())
     yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
@@ -300,9 +301,9 @@ def _along_the_way(
         if slot is not None and not slot[0].si - AT_SLOT_END <= at.si <= slot[1].si + AT_SLOT_END:
             words = {"text": at.text, "slot": f"{slot[0].text} … {slot[1].text}"}
             yield Finding("driver-out-of-slot", (*TOP, "driver", key), words)
-    found = list(assembly.findings(made, members, assembly.Way(start.si, end.si, turning=False)))
-    yield from found
-    if not found:
+    obstacles = list(assembly.findings(made, members, assembly.Way(start.si, end.si, turning=False)))
+    yield from obstacles
+    if not obstacles:
         yield from _slots(given, made, solve_motion(made, np.linspace(start.si, end.si, STEPS + 1), driver.rate))
 
 
@@ -336,8 +337,8 @@ def _slots(given: file.Parameters, made: Linkage, motion: Motion) -> Iterator[Fi
 def _stays(
     slot: tuple[Given, ...], where: Where, key: tuple[int, int], motion: Motion, group: str, turns: bool
 ) -> Iterator[Finding]:
-    way = motion.slides[key].s
-    beyond = np.maximum(slot[0].si - way, way - slot[1].si)
+    s = motion.slides[key].s
+    beyond = np.maximum(slot[0].si - s, s - slot[1].si)
     worst = int(np.argmax(beyond))
     if beyond[worst] > AT_SLOT_END:
         driver = float(motion.driver[worst])
@@ -346,6 +347,6 @@ def _stays(
             "link": str(key[0]),
             "group": group,
             "at": f"{math.degrees(cmath.phase(cmath.exp(1j * driver))) if turns else driver * 1e3:.4g}",
-            "way": f"{way[worst] * 1e3:.4g}",
+            "way": f"{s[worst] * 1e3:.4g}",
         }
         yield Finding("out-of-slot" if turns else "out-of-slot-slide", where, words)

@@ -120,7 +120,8 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "groups": rows,
         "guides": tuple(_guides(given)),
         "points": tuple(
-            PointRow(name, one.link, *axes[one.link], *map(as_typed, one.at)) for name, one in given.points.items()
+            PointRow(name, point.link, *axes[point.link], *map(as_typed, point.at))
+            for name, point in given.points.items()
         ),
         "motions": tuple(_motions(given)),
         "listed": "given" if given.masses else "massless",
@@ -162,7 +163,7 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
 def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
     """Where each link's own axes start, and the joint they point to or what they are parallel to: "guide", "slot"."""
     driver = given.driver
-    found = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
+    axes = {1: (driver.centre, driver.pin) if isinstance(driver, file.CrankDriver) else (driver.pin, "guide")}
     for group in given.groups:
         first, last = group.joints[0], group.joints[-1]
         match group:
@@ -174,8 +175,8 @@ def _axes(given: file.Parameters) -> dict[int, tuple[str, str]]:
                 ways = "slot", "slot"
             case _:
                 ways = "guide", "guide"
-        found |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
-    return found
+        axes |= dict(zip(group.links, zip((first, last), ways, strict=True), strict=True))
+    return axes
 
 
 def _motions(given: file.Parameters) -> Iterator[MotionRow]:
@@ -229,7 +230,7 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
             return LoadRow(name, load.link, "gas", False, bore=as_typed(load.D), intake=load.intake)
-    torque, way = load.at is None, as_typed(load.direction)
+    torque, direction = load.at is None, as_typed(load.direction)
     if isinstance(load, file.Constant):
         size = load.F or load.M
         assert size is not None
@@ -239,9 +240,9 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             by=load.by,
             torque=torque,
             point=load.at or "",
-            direction=way,
+            direction=direction,
             size=as_typed(size),
             against=load.against is not None,
         )
     nodes = tuple(node.value for node in (load.angle if isinstance(load, file.OverAngle) else load.way))
-    return LoadRow(name, load.link, load.by, torque, load.at or "", way, nodes=nodes, rows=(load.values,))
+    return LoadRow(name, load.link, load.by, torque, load.at or "", direction, nodes=nodes, rows=(load.values,))

@@ -18,10 +18,10 @@ RPP  r_G + s e_j + t e_k = r_P, e_k the slide's direction on link j         v = 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
+from reportgen.catalogue.components import STILL, Pair, across, add, along, degrees, less, on, scaled, turned, typed
 from reportgen.catalogue.driven import natural_sizes
 from reportgen.formula import (
     MINUS_ONE,
@@ -58,59 +58,6 @@ from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Guide, Link
 
 TWO = Number(2.0)
 STRAIGHT = Number(180.0, unit="°")
-Pair = tuple[Expression, Expression]
-"""A vector by its components."""
-STILL: Pair = (NOTHING, NOTHING)
-
-
-# --- vectors by their components ------------------------------------------------------------------
-
-
-def add(*vectors: Pair) -> Pair:
-    return plus(*(x for x, _ in vectors)), plus(*(y for _, y in vectors))
-
-
-def less(one: Pair, other: Pair) -> Pair:
-    return add(one, (minus(other[0]), minus(other[1])))
-
-
-def scaled(factor: Expression, vector: Pair) -> Pair:
-    return times(factor, vector[0]), times(factor, vector[1])
-
-
-def turned(vector: Pair) -> Pair:
-    """The vector turned by 90° anticlockwise."""
-    return minus(vector[1]), vector[0]
-
-
-# --- directions -----------------------------------------------------------------------------------
-
-
-def degrees(angle: float) -> Number:
-    """A typed angle (rad) as it stands in a formula."""
-    return Number(as_typed(math.degrees(angle)), unit="°")
-
-
-def as_typed(value: float) -> float:
-    """A number without the dust of its conversion to SI."""
-    return float(f"{value:.13g}") + 0.0
-
-
-def along(angle: Expression) -> Pair:
-    """The unit vector e at an angle."""
-    return cosine(angle), sine(angle)
-
-
-def on(vector: Pair, angle: Expression) -> Expression:
-    """The projection on e at an angle."""
-    e = along(angle)
-    return plus(times(vector[0], e[0]), times(vector[1], e[1]))
-
-
-def across(vector: Pair, angle: Expression) -> Expression:
-    """The projection on n, square to e at an angle."""
-    e = along(angle)
-    return plus(times(vector[1], e[0]), minus(times(vector[0], e[1])))
 
 
 # --- what moves -----------------------------------------------------------------------------------
@@ -175,11 +122,6 @@ class LoopLine:
 Sides = tuple[Expression, Expression, Pair]
 """Both unknown rates and the right-hand side of their equations."""
 RATES = {"v": "velocity", "a": "acceleration"}
-
-
-def typed(place: complex) -> Pair:
-    """A typed place (m) as it stands in formulas."""
-    return Number(as_typed(place.real)), Number(as_typed(place.imag))
 
 
 # --- the loops ------------------------------------------------------------------------------------
@@ -264,9 +206,9 @@ class ClosedLoops:
 
     def known(self, part: str, plan: str, formula: Expression) -> Ref:
         """Write down what a plan gives, too."""
-        found = self.line(part, ids.formula(plan), formula)
-        self.compared.append((plan, found.id))
-        return found
+        written = self.line(part, ids.formula(plan), formula)
+        self.compared.append((plan, written.id))
+        return written
 
     def omega(self, link: int, formula: Expression) -> Ref:
         return self.known("velocity", ids.angular_velocity(link), formula)
@@ -280,8 +222,8 @@ class ClosedLoops:
         for what, (first, second, b) in zip(RATES.values(), (velocity, acceleration), strict=True):
             self.equations[f"{what}-{self.group}"] = (Chain((A * column(first, second), column(*b))),)
 
-    def closure(self, one: Pair, other: Pair) -> None:
-        self.equations[f"closure-{self.group}"] = tuple(Chain(sides) for sides in zip(one, other, strict=True))
+    def closure(self, outward: Pair, back: Pair) -> None:
+        self.equations[f"closure-{self.group}"] = tuple(Chain(sides) for sides in zip(outward, back, strict=True))
 
     # --- ends of a group
 
@@ -292,15 +234,15 @@ class ClosedLoops:
         if end.link == GROUND:
             return LoopRail(self.guides.get(slider) or typed(end.at), degrees(end.angle), body, GROUND)
         angle = plus(body.angle, *((degrees(end.angle),) if end.angle else ()))
-        found = angle if isinstance(angle, Ref) else self.line("place", ids.formula_angle(slider), angle)
-        return LoopRail(body.place(end.at), found, body, end.link)
+        turned_angle = angle if isinstance(angle, Ref) else self.line("place", ids.formula_angle(slider), angle)
+        return LoopRail(body.place(end.at), turned_angle, body, end.link)
 
     def beneath(self, name: str, rail: LoopRail, at: Pair, plan: bool = True) -> Moving:
         """The point of a guide's link that lies under a point."""
         if rail.link == GROUND:
             return Moving(at)
-        found = under(name, rail.link, self.owner)
-        return self.points.get(found) or self.point(found, rail.carrier.carried(at), plan)
+        point_beneath = under(name, rail.link, self.owner)
+        return self.points.get(point_beneath) or self.point(point_beneath, rail.carrier.carried(at), plan)
 
     def put(self, link: int, body: LoopBody) -> None:
         """Place a link with its points."""
@@ -326,9 +268,9 @@ class ClosedLoops:
             reach = scaled(Ref(ids.length(driver.centre, driver.pin)), along(body.angle))
             self.point(driver.pin, body.carried(self.coordinates(driver.pin, add(body.origin.p, reach))))
         else:
-            way = along(degrees(driver.guide.angle))
-            at = self.coordinates(driver.pin, add(typed(driver.guide.at), scaled(Ref("s.1"), way)))
-            speed = scaled(signed(self.turn, Ref(ids.velocity(driver.pin))), way)
+            direction = along(degrees(driver.guide.angle))
+            at = self.coordinates(driver.pin, add(typed(driver.guide.at), scaled(Ref("s.1"), direction)))
+            speed = scaled(signed(self.turn, Ref(ids.velocity(driver.pin))), direction)
             self.points[driver.pin] = Moving(at, self.components("v", driver.pin, speed, plan=False))
             body = LoopBody(driver.pin, self.points[driver.pin], degrees(driver.guide.angle))
         self.put(DRIVER, body)
@@ -437,29 +379,30 @@ def _rpr(k: ClosedLoops, dyad: Dyad) -> None:
 
 
 def _prp(k: ClosedLoops, dyad: Dyad) -> None:
-    (i, j), Q, one, two = dyad.links, dyad.middle, k.rail(dyad.links[0], dyad.start), k.rail(dyad.links[1], dyad.end)
-    first, second = ids.joint(one.link, i), ids.joint(two.link, j)
-    α, β, apart = one.angle, two.angle, between(two.angle, one.angle)
-    s = k.line("place", ids.slide_way(first), over(minus(across(less(two.at, one.at), β)), sine(apart)))
-    place = add(one.at, scaled(s, along(α)))
+    (i, j), Q = dyad.links, dyad.middle
+    rail1, rail2 = k.rail(i, dyad.start), k.rail(j, dyad.end)
+    first, second = ids.joint(rail1.link, i), ids.joint(rail2.link, j)
+    α, β, apart = rail1.angle, rail2.angle, between(rail2.angle, rail1.angle)
+    s = k.line("place", ids.slide_way(first), over(minus(across(less(rail2.at, rail1.at), β)), sine(apart)))
+    place = add(rail1.at, scaled(s, along(α)))
     at = k.coordinates(Q, place)
-    bases = k.beneath(Q, one, at), k.beneath(Q, two, at)
+    bases = k.beneath(Q, rail1, at), k.beneath(Q, rail2, at)
 
     v, a = less(bases[1].v, bases[0].v), less(bases[1].a, bases[0].a)
     rate = k.line("velocity", ids.slide_velocity(first), over(minus(across(v, β)), sine(apart)))
-    other = k.line("velocity", ids.slide_velocity(second), over(minus(across(v, α)), sine(apart)))
-    c, c_other = times(TWO, one.carrier.omega, rate), times(TWO, two.carrier.omega, other)
+    second_rate = k.line("velocity", ids.slide_velocity(second), over(minus(across(v, α)), sine(apart)))
+    c, c_other = times(TWO, rail1.carrier.omega, rate), times(TWO, rail2.carrier.omega, second_rate)
     top = plus(minus(across(a, β)), times(c, cosine(apart)), minus(c_other))
     rate2 = k.line("acceleration", ids.slide_acceleration(first), over(top, sine(apart)))
     top = plus(minus(across(a, α)), c, minus(times(c_other, cosine(apart))))
     other2 = k.line("acceleration", ids.slide_acceleration(second), over(top, sine(apart)))
 
     e, e_other = along(α), along(β)
-    k.closure(place, add(two.at, scaled(Symbol("s", second), e_other)))
+    k.closure(place, add(rail2.at, scaled(Symbol("s", second), e_other)))
     right = add(a, scaled(c_other, turned(e_other)), scaled(minus(c), turned(e)))
-    k.shown(e, scaled(MINUS_ONE, e_other), (rate, other, v), (rate2, other2, right))
+    k.shown(e, scaled(MINUS_ONE, e_other), (rate, second_rate, v), (rate2, other2, right))
     k.point(Q, Moving(at, add(bases[0].v, scaled(rate, e)), add(bases[0].a, scaled(c, turned(e)), scaled(rate2, e))))
-    for link, rail in ((i, one), (j, two)):
+    for link, rail in ((i, rail1), (j, rail2)):
         k.put(link, LoopBody(Q, k.points[Q], rail.angle, rail.carrier.omega, rail.carrier.eps))
 
 
@@ -475,16 +418,16 @@ def _rpp(k: ClosedLoops, dyad: Dyad) -> None:
 
     v, a = less(P.v, base.v), less(P.a, base.a)
     rate = k.line("velocity", ids.slide_velocity(on_guide), over(minus(across(v, β)), sine(ψ)))
-    other = k.line("velocity", ids.slide_velocity(in_slot), over(across(v, α), sine(ψ)))
-    top = plus(minus(across(a, β)), times(TWO, ω, plus(times(rate, cosine(ψ)), other)))
+    slot_rate = k.line("velocity", ids.slide_velocity(in_slot), over(across(v, α), sine(ψ)))
+    top = plus(minus(across(a, β)), times(TWO, ω, plus(times(rate, cosine(ψ)), slot_rate)))
     rate2 = k.line("acceleration", ids.slide_acceleration(on_guide), over(top, sine(ψ)))
-    top = plus(across(a, α), minus(times(TWO, ω, plus(rate, times(other, cosine(ψ))))))
+    top = plus(across(a, α), minus(times(TWO, ω, plus(rate, times(slot_rate, cosine(ψ))))))
     other2 = k.line("acceleration", ids.slide_acceleration(in_slot), over(top, sine(ψ)))
 
     e, slot = along(α), along(β)
     k.closure(add(place, scaled(Symbol("s", in_slot), slot)), P.p)
-    right = add(a, scaled(minus(times(TWO, ω)), add(scaled(rate, turned(e)), scaled(other, turned(slot)))))
-    k.shown(e, slot, (rate, other, v), (rate2, other2, right))
+    right = add(a, scaled(minus(times(TWO, ω)), add(scaled(rate, turned(e)), scaled(slot_rate, turned(slot)))))
+    k.shown(e, slot, (rate, slot_rate, v), (rate2, other2, right))
     twice = times(TWO, ω, rate)
     k.point(Q, Moving(at, add(start.v, scaled(rate, e)), add(start.a, scaled(twice, turned(e)), scaled(rate2, e))))
     k.put(i, LoopBody(str(dyad.start), P, α, ω, rail.carrier.eps))

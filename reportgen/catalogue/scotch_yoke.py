@@ -18,7 +18,8 @@ from reportgen.formula import Chain, Symbol, cos, sin
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import FULL_TURN, Applied, Stroke, TableLaw
+from reportgen.machine.laws import FULL_TURN, Stroke, TableLaw
+from reportgen.machine.loads import Applied, fixed
 
 TURNS = 1
 CHECKS = given_loads.FORCE_CHECKS
@@ -89,7 +90,9 @@ def machine(assignment: Assignment) -> Machine:
         linkage,
         axis + turn * start,
         formulas=formulas,
-        applied=() if force is None else (Applied("P3", 3, "B", along, TableLaw(course, force.table, turns=TURNS)),),
+        applied=()
+        if force is None
+        else (Applied("P3", 3, "B", fixed(along), TableLaw(course, force.table, turns=TURNS)),),
         sliders=(course,),
         compared=(("v.B", "f.v.B"), ("v.A3A", "f.v.r"), ("a.B", "f.a.B"), ("a.A3A.r", "f.a.r")),
         equations=equations(),

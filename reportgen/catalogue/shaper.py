@@ -21,7 +21,8 @@ from reportgen.formula import Symbol, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, CuttingLaw, crank_motion
+from reportgen.machine.laws import CuttingLaw
+from reportgen.machine.loads import Applied, crank_motion, fixed
 
 TURNS = 1
 CENTRES = {2: "B", 3: "S3", 4: "S4", 5: "E"}
@@ -139,7 +140,7 @@ def machine(assignment: Assignment) -> Machine:
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
         law = CuttingLaw(course, cutting.F.si, cutting.free.si)
-        applied = (Applied("P5", 5, "E", -course.inward, law),)
+        applied = (Applied("P5", 5, "E", fixed(-course.inward), law),)
 
     def formulas(q: Sheet) -> None:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))

@@ -23,7 +23,8 @@ from reportgen.catalogue.sliders import (
     offset_slider,
 )
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, TableLaw
+from reportgen.machine.laws import TableLaw
+from reportgen.machine.loads import Applied, fixed
 
 TURNS = 1
 
@@ -82,15 +83,17 @@ def machine(assignment: Assignment) -> Machine:
         q.fix("guide.3.at", geometry.line, e)
     course = geometry.course(start, TURNS)
     offset = None if e is None else e if turn > 0 else -e
+    applied: tuple[Applied, ...] = ()
+    if given.force is not None:
+        outwards = fixed(cmath.rect(1.0, geometry.axis))
+        applied = (Applied("P3", 3, "C", outwards, TableLaw(course, given.force.table, turns=TURNS)),)
     return driven(
         assignment,
         q,
         linkage,
         geometry.crank_angle(start),
         formulas=lambda q: offset_slider(q, turn, start + even_angles(positions), offset, has_centre),
-        applied=()
-        if given.force is None
-        else (Applied("P3", 3, "C", cmath.rect(1.0, geometry.axis), TableLaw(course, given.force.table, turns=TURNS)),),
+        applied=applied,
         sliders=(course,),
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),

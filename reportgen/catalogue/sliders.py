@@ -25,7 +25,7 @@ import numpy as np
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol, asin, cos, ids, signed, sin, sqrt, tan
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.loads import FULL_TURN, Floats, Stroke, halved
+from reportgen.machine.laws import FULL_TURN, Floats, Stroke, halved
 
 HALVINGS = 60
 """π halved so often is below the spacing of floats there."""
@@ -59,8 +59,8 @@ def centred_slider(
     line = partial(q.define, scale=1.0)
     φ = q.angle(ids.angle(slider), angle)
     β = line(ids.inclination(rod), asin(λ * sin(φ)))
-    way = R * (1 - cos(φ)) + L * (1 - cos(β))
-    s_B = q.define(ids.slider_way(slider), way, Symbol("s", joint), "length", scale=0.01)
+    distance = R * (1 - cos(φ)) + L * (1 - cos(β))
+    s_B = q.define(ids.slider_way(slider), distance, Symbol("s", joint), "length", scale=0.01)
     v = line(ids.formula_velocity(joint), ω1 * R * sin(φ + β) / cos(β))
     ω2 = line(ids.formula_angular_velocity(rod), signed(-turn, ω1 * λ * cos(φ) / cos(β)))
     a = line(ids.formula_acceleration(joint), ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))

@@ -38,7 +38,7 @@ from reportgen.formula import (
 )
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.loads import FULL_TURN, Floats, Stroke
+from reportgen.machine.laws import FULL_TURN, Floats, Stroke
 
 DRAWN_CRANKS = (0.05, 0.04, 0.03, 0.025, 0.02, 0.015)
 """Drawn lengths of a crank (m on paper), the best first."""

@@ -21,7 +21,8 @@ from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
-from reportgen.machine.loads import Applied, TableLaw, course, crank_motion
+from reportgen.machine.laws import Stroke, TableLaw
+from reportgen.machine.loads import Applied, course, crank_motion, fixed
 
 TURNS = 1
 BARS = {2: ("A", "B"), 3: ("D", "B"), 4: ("B", "C")}
@@ -75,8 +76,8 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         (4, 5): assembly.Member("BC", ("parameters", "BD")),
     }
     motion_at = crank_motion(linkage, Positions(), 0.0)
-    if found := list(assembly.findings(linkage, members)):
-        yield from found
+    if obstacles := list(assembly.findings(linkage, members)):
+        yield from obstacles
     elif motion_at(even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
         yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
     elif given.press is not None:
@@ -94,7 +95,11 @@ def machine(assignment: Assignment) -> Machine:
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", q["p.D"])
     minus = (given.B == "left") == (turn > 0)
-    sliders = () if press is None else (course(linkage, 5, crank_motion(linkage, positions, start)),)
+    sliders: tuple[Stroke, ...] = ()
+    pressing: tuple[Applied, ...] = ()
+    if press is not None:
+        way = course(linkage, 5, crank_motion(linkage, positions, start))
+        sliders, pressing = (way,), (Applied("P5", 5, "C", fixed(1j), TableLaw(way, press.table, turns=1)),)
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
@@ -125,7 +130,7 @@ def machine(assignment: Assignment) -> Machine:
         linkage,
         start,
         formulas=formulas,
-        applied=tuple(Applied("P5", 5, "C", 1j, TableLaw(way, press.table, turns=1)) for way in sliders if press),
+        applied=pressing,
         sliders=sliders,
         paths=("B",),
         facts={"form": "less" if minus else "plus", "B": given.B},

@@ -181,11 +181,11 @@ def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: 
 
 def refuse(faults: Iterable[Fault], file: Path, lang: Language | None) -> None:
     """Raises `AssignmentError` with these faults, if there are any, in the language of a file."""
-    if found := list(faults):
+    if listed := list(faults):
         from reportgen.base.source import read_source
         from reportgen.base.words import as_error, language_of
 
-        raise as_error(found, lang or language_of(read_source(file)))
+        raise as_error(listed, lang or language_of(read_source(file)))
 
 
 def write(path: Path, text: str) -> None:
@@ -274,5 +274,5 @@ def _within(hint: Any) -> Iterator[Any]:
     """A type with all those that it is made of."""
     yield hint
     if get_origin(hint) is not Literal:
-        for one in get_args(hint):
-            yield from _within(one)
+        for inner in get_args(hint):
+            yield from _within(inner)

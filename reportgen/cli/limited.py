@@ -28,7 +28,7 @@ def is_limited() -> bool:
 def run_watched() -> int | None:
     """The exit code of this very command in another process; None where that did not end by itself."""
     command = [sys.executable, "-m", "reportgen.cli", *sys.argv[1:]]
-    told, telling = os.pipe()
+    reading, telling = os.pipe()
     surroundings = {**FEW, **os.environ, WATCHED: str(telling)}
     with subprocess.Popen(command, env=surroundings, pass_fds=(telling,)) as process:
         os.close(telling)
@@ -36,12 +36,12 @@ def run_watched() -> int | None:
             # Both hear Ctrl-C; what ends this process is passed on, and the other one tidies up.
             signal.signal(number, lambda number, _: process.send_signal(number))
         code = process.wait()
-    with os.fdopen(told, "rb") as stream:
+    with os.fdopen(reading, "rb") as stream:
         return code if stream.read() or code > LEFT else None
 
 
 def ends_by_itself() -> None:
     """Tell who watches, if somebody does: libraries in C end a process from within, with any code."""
-    if told := os.environ.get(WATCHED):
+    if pipe := os.environ.get(WATCHED):
         with suppress(OSError):
-            os.write(int(told), b".")
+            os.write(int(pipe), b".")

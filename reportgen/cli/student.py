@@ -181,7 +181,7 @@ def solve(
     """Compute motion, forces and torque. They are printed as tables, or written in SI units."""
     from reportgen import api
     from reportgen.base.made import put_made
-    from reportgen.marking.results import print_tables
+    from reportgen.results.tables import print_tables
 
     formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
 

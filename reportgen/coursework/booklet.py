@@ -12,7 +12,6 @@ from itertools import dropwhile
 from typing import Any
 
 from reportgen.coursework.symbol_renaming import changed
-from reportgen.marking.feedback import sentence
 from reportgen.report import (
     BlankLine,
     Block,
@@ -32,6 +31,7 @@ from reportgen.report import (
     Text,
 )
 from reportgen.report.numbering import number
+from reportgen.report.wording import sentence
 
 RUN_IN = 4
 """The level of a heading that stands in its paragraph."""
@@ -61,13 +61,13 @@ class PartReport:
 
     def group(self, what: str) -> Blocks:
         """What stands below the heading that opens a section, "" for the chapters, their headings included."""
-        found: list[Block] = []
+        blocks: list[Block] = []
         for group in self._groups:
             if told(group[0]) == what:
-                found += group[1:]
+                blocks += group[1:]
             elif not what and told(group[0]) not in ("given", "conclusion"):
-                found += group
-        return tuple(found)
+                blocks += group
+        return tuple(blocks)
 
     @property
     def _groups(self) -> Iterator[Blocks]:
@@ -79,13 +79,13 @@ class PartReport:
 
 def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, Any], senses: Blocks = ()) -> Document:
     """One numbered document; `words` are those of the machine, `senses` say which way the shafts turn."""
-    found = list(groups(machine.blocks))
+    sections = list(groups(machine.blocks))
     # A short report has no summary.
-    last_told = "overview" if any(told(head) == "overview" for head, *_ in found) else "conclusion"
-    counted = [index for index, (head, *_) in enumerate(found) if isinstance(head, Section) and head.numbered]
-    last = counted[-1] if counted else len(found) - 1
+    last_told = "overview" if any(told(head) == "overview" for head, *_ in sections) else "conclusion"
+    counted = [index for index, (head, *_) in enumerate(sections) if isinstance(head, Section) and head.numbered]
+    last = counted[-1] if counted else len(sections) - 1
     blocks: list[Block] = []
-    for index, (head, *below) in enumerate(found):
+    for index, (head, *below) in enumerate(sections):
         below = list(with_parts_named(below, parts, words)) if told(head) == "foreword" else below
         blocks += (with_titles(head, parts) if isinstance(head, Cover) else head, *below)
         if told(head) == "symbols":
@@ -153,8 +153,8 @@ def lowered(block: Block) -> Block:
 def renamed(blocks: Blocks, name: str) -> Blocks:
     """Blocks whose keys, and the references to them, begin with a part's name."""
 
-    def own(one: Any) -> Any:
-        return replace(one, key=f"{name}.{one.key}") if one.key else one
+    def own(block: Any) -> Any:
+        return replace(block, key=f"{name}.{block.key}") if block.key else block
 
     # References first: they stand inside of what has a key itself.
     return changed(changed(blocks, Reference, own), tuple(kind for kind in NAMED if kind is not Reference), own)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise, takewhile
-from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
@@ -25,12 +24,13 @@ from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
-from reportgen.marking.key import phrase
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, DriverMotion, LoadedAssignment, Misconceptions
-from reportgen.report.key import Key, PartOfKey, capitalised
+from reportgen.report.case import Case, CaseOfParts, DriverMotion, Misconceptions
+from reportgen.report.key import Key, PartOfKey, Span, capitalised
+from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
 from reportgen.report.used_symbols import explained, is_explained, used_symbols
+from reportgen.report.wording import phrase
 
 _NUMBER = re.compile(r"\b\d\b")
 """The number of a wheel in what a quantity is called."""
@@ -95,7 +95,7 @@ class PartCase:
 
 
 @dataclass(frozen=True)
-class Coursework:
+class Coursework(CaseOfParts):
     """A machine and the parts that follow it, as one `Case`."""
 
     first: PartCase
@@ -106,7 +106,7 @@ class Coursework:
         """The coursework of a machine with parts, and of the parts' cases."""
         whole = machine.assignment
         members = tuple(PartCase(part, case) for part, case in zip(whole.parts, cases, strict=True))
-        return cls(PartCase(AssignedPart(MACHINE, "", "", replace(whole, parts=())), machine), members)
+        return cls(whole, PartCase(AssignedPart(MACHINE, "", "", replace(whole, parts=())), machine), members)
 
     def after(self, earlier: Case | None) -> Coursework:
         """The same with all that an earlier edition has computed of parts that have not changed."""
@@ -116,15 +116,11 @@ class Coursework:
             same = (one for one in known if (one.part, one.assigned) == (member.part, member.assigned))
             return next(same, member)
 
-        return Coursework(kept(self.first), tuple(map(kept, self.members)))
+        return Coursework(self.assignment, kept(self.first), tuple(map(kept, self.members)))
 
     @property
     def machine(self) -> Case:
         return self.first.case
-
-    @property
-    def assignment(self) -> Assignment:
-        return self.machine.assignment
 
     @property
     def words(self) -> Mapping[str, Any]:
@@ -133,6 +129,10 @@ class Coursework:
     @property
     def title(self) -> str:
         return self.machine.title
+
+    @property
+    def course(self) -> str:
+        return self.machine.course
 
     @property
     def parts(self) -> Mapping[str, Case]:
@@ -161,13 +161,13 @@ class Coursework:
         return {id: family for families in (self.machine.families, *parts) for id, family in families.items()}
 
     @property
-    def used(self) -> None:
-        """It is no part of anything."""
-        return None
+    def span(self) -> Span:
+        return self.machine.span
 
     @property
-    def positions_of_a_turn(self) -> int:
-        return self.machine.positions_of_a_turn
+    def entries(self) -> ResultEntries:
+        """What its machine comes to; each part has its own."""
+        return self.machine.entries
 
     @property
     def speed(self) -> float | None:
@@ -197,23 +197,23 @@ class Coursework:
         Keys and answer sheets need them too, and do without the machine's report.
         """
         used: set[Symbol] = set()
-        found: dict[str, Letters] = {}
+        letters_of_parts: dict[str, Letters] = {}
         for before, member in pairwise((self.first, *self.members)):
-            letters = found.get(before.name, {})
+            letters = letters_of_parts.get(before.name, {})
             used.update(letters.get(symbol, symbol) for symbol in before.used)
             same = {self._taken_symbols(member, datum)[0] for datum in member.part.taken if datum.times == "1"}
             quantities = {one.symbol for one in member.case.printed.families.values() if not one.hidden} - same
             letters = letters_of(sorted(quantities, key=str), used, member.index)
-            found[member.name] = letters
-        return found
+            letters_of_parts[member.name] = letters
+        return letters_of_parts
 
     def _points(self, member: PartCase) -> list[Symbol]:
         """Those among the points of a part whose names an earlier part has for something else."""
         earlier = takewhile(lambda one: one is not member, (self.first, *self.members))
         taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
         own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
-        found = set(nodes(member.document.blocks, Symbol)) - own
-        return sorted((one for one in found & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
+        points = set(nodes(member.document.blocks, Symbol)) - own
+        return sorted((one for one in points & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
 
     @cached_property
     def documents(self) -> Mapping[str, Document]:
@@ -231,16 +231,14 @@ class Coursework:
         unit = str(self.machine.printed.units.get("rpm", "rpm"))
         parts = [
             PartShafts(
-                one.title, one.case.shafts, {datum.key: datum.of for datum in one.part.taken if datum.times == "1"}
+                member.title,
+                member.case.shafts,
+                {datum.key: datum.of for datum in member.part.taken if datum.times == "1"},
             )
-            for one in self.members
+            for member in self.members
         ]
         for driver in self.machine.shafts[:1]:
             yield from senses.told(driver, parts, self.words, unit)
-
-    def summary(self) -> Sequence[Block]:
-        """Its own report has one."""
-        return ()
 
     @property
     def shafts(self) -> Sequence[Shaft]:
@@ -297,17 +295,17 @@ class Coursework:
                 unit = ledger.units.get(family.how.unit, family.how.unit)
                 shown = letters.get(family.symbol, family.symbol)
                 alike.setdefault((_NUMBER.sub("", meaning), unit), {}).setdefault(shown, meaning)
-        for (_, unit), found in alike.items():
-            meanings = list(dict.fromkeys(found.values()))
+        for (_, unit), symbols in alike.items():
+            meanings = list(dict.fromkeys(symbols.values()))
             numbers = ", ".join(number[0] for one in meanings if (number := _NUMBER.search(one)))
             meaning = _NUMBER.sub(numbers, meanings[0]) if len(meanings) > 1 else meanings[0]
-            yield listed(map(InlineMath, found)), (Text(capitalised(meaning)),), (Text(unit or "–"),)
+            yield listed(map(InlineMath, symbols)), (Text(capitalised(meaning)),), (Text(unit or "–"),)
 
-    def key(self) -> Key:
-        machine = self.machine.key()
+    def joined_key(self, keys: Sequence[Key]) -> Key:
+        machine, *others = keys
         rows, parts = list(machine.rows), [PartOfKey(MACHINE, machine, self.title)]
-        for member in self.members:
-            key = relettered(member.case.key(), self.letters[member.name])
+        for member, alone in zip(self.members, others, strict=True):
+            key = relettered(alone, self.letters[member.name])
             own = [
                 replace(
                     row,
@@ -321,20 +319,13 @@ class Coursework:
             parts.append(PartOfKey(member.name, replace(key, rows=tuple(own)), member.title, member.part.head))
         return replace(machine, rows=tuple(rows), parts=tuple(parts))
 
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        (_, first), *others = key.pages
-        papers = [
-            PartReport(member.name, member.title, member.case.task(page, by_section), tuple(self._taken(member)), ())
-            for member, (_, page) in zip(self.members, others, strict=True)
-        ]
-        return task_of(
-            self.machine.task(first, by_section),
-            [replace(one, document=relettered(one.document, self.letters[one.name])) for one in papers],
-        )
+    def joined_task(self, papers: Sequence[Document]) -> Document:
+        machine, *others = papers
+        return task_of(machine, list(map(self._handout, self.members, others)))
 
-    def results(self) -> dict[str, Any]:
-        """Those of the machine, with those of each part by its name."""
-        return {**self.machine.results(), "parts": {member.name: member.case.results() for member in self.members}}
+    def _handout(self, member: PartCase, paper: Document) -> PartReport:
+        own = relettered(paper, self.letters[member.name])
+        return PartReport(member.name, member.title, own, tuple(self._taken(member)))
 
     def animations(self) -> tuple[Animation, ...]:
         """Those of the machine, then those of the parts by their names and titles."""
@@ -346,20 +337,24 @@ class Coursework:
         return (*self.first.animations, *parts)
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """Those of the machine's `sets`, then those of all parts together."""
-        return {**self.machine.plates(sets, every), **self._plates_of_parts()}
+        """Those of its machine."""
+        return self.machine.plates(sets, every)
 
-    def _plates_of_parts(self) -> Mapping[str, Sequence[DrawingPlate]]:
+    @property
+    def redrawn(self) -> tuple[float, Callable[[float], Case]] | None:
+        return self.machine.redrawn
+
+    def joined_plates(self) -> Mapping[str, Sequence[DrawingPlate]]:
         """One set, called by what it shows; of several parts of a kind each plate says which it is of."""
         titles: list[str] = []
-        found: list[DrawingPlate] = []
+        plates_of_parts: list[DrawingPlate] = []
         for member in self.members:
             alike = sum(one.part.head == member.part.head for one in self.members)
             for name, plates in member.case.plates().items():
                 title = str(member.case.words["plates"]["sets"][name])
                 titles.append(title[:1].lower() + title[1:])
-                found += [self._of_part(plate, member, alike > 1) for plate in plates]
-        return {capitalised("; ".join(dict.fromkeys(titles))): found}
+                plates_of_parts += [self._of_part(plate, member, alike > 1) for plate in plates]
+        return {capitalised("; ".join(dict.fromkeys(titles))): plates_of_parts}
 
     def _of_part(self, plate: DrawingPlate, member: PartCase, named: bool) -> DrawingPlate:
         lines = (member.title,) if named else ()
@@ -368,27 +363,10 @@ class Coursework:
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         return [
-            relettered(one, self.letters[member.name]) for member in self.members for one in member.case.true_sizes()
+            relettered(sheet, self.letters[member.name])
+            for member in self.members
+            for sheet in member.case.true_sizes()
         ]
-
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        """The sheets of all parts as one set, the plates of `sets` and whatever the parts have.
-
-        The parts stand on sheets as large as those of the machine, on no larger ones than A1 if these hold them.
-        """
-        from reportgen.sheets import BY_SIZE, USUAL, on_sheets
-        from reportgen.sheets.frame import DEFAULT, blocks, numbered, read_block
-
-        language = self.assignment.language
-        found = self.machine.sheets(size, sets, block, every)
-        least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
-        assert isinstance(self.machine, LoadedAssignment), "an assignment that was opened"
-        found += on_sheets(self.machine, self._plates_of_parts(), size, block, least=least)
-        own = block or blocks(self.assignment.school or "")[DEFAULT[language]]
-        framed = numbered(found, read_block(own, language), self.assignment.sheet.designation or "")
-        return [*framed, *self.true_sizes()]
 
 
 def _names_a_point(symbol: Symbol) -> bool:
@@ -421,10 +399,10 @@ def _letters(name: str) -> str:
 
 def _typed(assignment: Assignment, key: str) -> float | None:
     """The value of a parameter in SI units."""
-    found: Any = assignment.parameters
+    parameter: Any = assignment.parameters
     for step in key.split("."):
-        found = getattr(found, step, None)
-    value = getattr(found, "si", found)
+        parameter = getattr(parameter, step, None)
+    value = getattr(parameter, "si", parameter)
     return float(value) if isinstance(value, (int, float)) else None
 
 

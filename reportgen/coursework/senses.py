@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from reportgen.formula import Number
-from reportgen.marking.feedback import sentence
 from reportgen.report import Block, Cell, Column, Inlines, Paragraph, Reference, Table, Text, Value
 from reportgen.report.key import capitalised
 from reportgen.report.shafts import Shaft
+from reportgen.report.wording import sentence
 
 KEY = "tab.shafts"
 WIDTHS = (76.0, 26.0, 58.0)
@@ -48,9 +48,9 @@ def turning(part: PartShafts, driver: Shaft) -> Iterator[TurningShaft]:
     """The shafts of a part with their senses: one with the speed of the driver's shaft is taken for the same shaft."""
     first = part.shafts[0]
     driving = next((one for one in part.shafts if _is_driver(one, part.taken, driver)), None)
-    for one in part.shafts:
-        seen = driver.turn * driving.turn * one.turn if driving else 0
-        yield TurningShaft(one, one.turn if one.fixed else seen, first, one is driving)
+    for shaft in part.shafts:
+        seen = driver.turn * driving.turn * shaft.turn if driving else 0
+        yield TurningShaft(shaft, shaft.turn if shaft.fixed else seen, first, shaft is driving)
 
 
 def _is_driver(shaft: Shaft, taken: Mapping[str, str], driver: Shaft) -> bool:
@@ -69,15 +69,19 @@ def told(driver: Shaft, parts: Sequence[PartShafts], words: Mapping[str, Any], u
     names = Counter(shaft.name for part in parts for shaft in part.shafts)
     signs: list[Block] = []
     for part in parts:
-        for one in turning(part, driver) if part.shafts else ():
+        for turning_shaft in turning(part, driver) if part.shafts else ():
             # Two cams are told apart by the titles of their parts.
-            rows.append(_row(one, words, part.title if names[one.shaft.name] > 1 else ""))
-            if one.driving and not one.shaft.fixed and one.shaft is not one.first:
-                name = "same" if one.shaft.turn > 0 else "against"
+            rows.append(_row(turning_shaft, words, part.title if names[turning_shaft.shaft.name] > 1 else ""))
+            if (
+                turning_shaft.driving
+                and not turning_shaft.shaft.fixed
+                and turning_shaft.shaft is not turning_shaft.first
+            ):
+                name = "same" if turning_shaft.shaft.turn > 0 else "against"
                 named = {
-                    "shaft": one.shaft.name,
-                    "Shaft": capitalised(one.shaft.name),
-                    "first": one.first.name,
+                    "shaft": turning_shaft.shaft.name,
+                    "Shaft": capitalised(turning_shaft.shaft.name),
+                    "first": turning_shaft.first.name,
                     "title": part.title,
                 }
                 signs.append(Paragraph(sentence(own[name], **named, table=Reference(KEY))))
@@ -88,17 +92,19 @@ def told(driver: Shaft, parts: Sequence[PartShafts], words: Mapping[str, Any], u
     yield from signs
 
 
-def _row(one: TurningShaft, words: Mapping[str, Any], title: str = "") -> tuple[Inlines, Inlines, Inlines]:
-    shaft, own = one.shaft, words["coursework"]["shafts"]
+def _row(turning_shaft: TurningShaft, words: Mapping[str, Any], title: str = "") -> tuple[Inlines, Inlines, Inlines]:
+    shaft, own = turning_shaft.shaft, words["coursework"]["shafts"]
     name = f"{shaft.name}, {own['of'].format(title=title)}" if title else shaft.name
-    name = own["driving"].format(shaft=name) if one.driving else name
+    name = own["driving"].format(shaft=name) if turning_shaft.driving else name
     speed: Inlines = (Text("–"),)
     if shaft.speed is not None:
         speed = (Value(Number(float(f"{shaft.speed * RPM:.5g}"))),)
-    if one.sense:
-        sense = words["sense"]["anticlockwise" if one.sense > 0 else "clockwise"]
-    elif shaft is one.first:
+    if turning_shaft.sense:
+        sense = words["sense"]["anticlockwise" if turning_shaft.sense > 0 else "clockwise"]
+    elif shaft is turning_shaft.first:
         sense = "–"
     else:
-        sense = own["with" if shaft.turn == one.first.turn else "opposite"].format(first=one.first.name)
+        sense = own["with" if shaft.turn == turning_shaft.first.turn else "opposite"].format(
+            first=turning_shaft.first.name
+        )
     return (Text(capitalised(name)),), speed, (Text(sense),)

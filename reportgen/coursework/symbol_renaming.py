@@ -10,6 +10,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar
 
+from reportgen.drawing import Content, Scene
+from reportgen.drawing.respelling import respelled
 from reportgen.formula import Symbol
 
 Tree = TypeVar("Tree")
@@ -19,8 +21,8 @@ Letters = Mapping[Symbol, Symbol]
 
 def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
     """A tree of dataclasses, tuples and tables with `change` made of each node of a kind; what it leaves is itself."""
-    found: Tree = _changed(tree, kind, change)
-    return found
+    renamed: Tree = _changed(tree, kind, change)
+    return renamed
 
 
 def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Any:
@@ -37,8 +39,8 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
     if is_dataclass(node) and not isinstance(node, type):
         held = {one.name: getattr(node, one.name) for one in fields(node) if one.init}
         new = {name: _changed(value, kind, change) for name, value in held.items()}
-        other = {name: value for name, value in new.items() if value is not held[name]}
-        return replace(node, **other) if other else node
+        changed_fields = {name: value for name, value in new.items() if value is not held[name]}
+        return replace(node, **changed_fields) if changed_fields else node
     return node
 
 
@@ -52,13 +54,22 @@ def nodes(tree: Any, kind: type) -> Iterator[Any]:
     elif isinstance(tree, dict):
         yield from nodes(tuple(tree.values()), kind)
     elif is_dataclass(tree) and not isinstance(tree, type):
-        for one in fields(tree):
-            yield from nodes(getattr(tree, one.name), kind)
+        for field in fields(tree):
+            yield from nodes(getattr(tree, field.name), kind)
 
 
 def relettered(tree: Tree, letters: Letters) -> Tree:
-    """A tree with other symbols in place of some."""
-    return changed(tree, Symbol, lambda symbol: letters.get(symbol, symbol)) if letters else tree
+    """A tree with other symbols in place of some; drawings make room for them."""
+    if not letters:
+        return tree
+
+    def spelled(content: Content) -> Content:
+        return changed(content, Symbol, lambda symbol: letters.get(symbol, symbol))
+
+    def other(node: Scene | Symbol) -> Scene | Symbol:
+        return respelled(node, spelled) if isinstance(node, Scene) else letters.get(node, node)
+
+    return changed(tree, (Scene, Symbol), other)
 
 
 def with_index(symbol: Symbol, index: str) -> Symbol:

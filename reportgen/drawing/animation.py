@@ -308,11 +308,11 @@ def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterabl
 
 def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
     """The curves that points describe."""
-    found: list[MovingItem] = []
+    curves: list[MovingItem] = []
     for name in names:
         curve = motion.points[name].p[motion.reachable] * scale
-        found.append(Still((Polyline(tuple(complex(p) for p in curve), style.PATH),), "paths"))
-    return found
+        curves.append(Still((Polyline(tuple(complex(p) for p in curve), style.PATH),), "paths"))
+    return curves
 
 
 def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
@@ -322,8 +322,8 @@ def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mov
         for line in plan.lines
     ]
     items += [
-        MovingVector(tracks[one.start], tracks[one.end], PENS[one.style], label=one.label, name=one.name)
-        for one in plan.vectors
+        MovingVector(tracks[vector.start], tracks[vector.end], PENS[vector.style], label=vector.label, name=vector.name)
+        for vector in plan.vectors
     ]
     if plan.pole:
         items.append(MovingBody((Circle(0j, 0.7, Pen(0.25), style.PAPER),), tracks[plan.points[0].at]))
@@ -333,7 +333,7 @@ def plan_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mov
 def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[MovingItem]:
     """A plan as a rigid lever about its pole."""
     items: list[MovingItem] = [
-        MovingVector(tracks[one.start], tracks[one.end], style.VISIBLE, 0.0) for one in plan.vectors
+        MovingVector(tracks[vector.start], tracks[vector.end], style.VISIBLE, 0.0) for vector in plan.vectors
     ]
     pole, *others = plan.points
     items += [MovingBody((Circle(0j, 0.7, style.VISIBLE, style.PAPER),), tracks[point.at]) for point in others]
@@ -344,9 +344,9 @@ def lever_items(plan: Construction[str], tracks: Mapping[str, Track]) -> list[Mo
 def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> list[MovingItem]:
     """The names of a plan's points, each on the side away from the vectors that meet there."""
     joined: dict[str, list[Track]] = {}
-    for one in plan.vectors:
-        joined.setdefault(one.start, []).append(tracks[one.end])
-        joined.setdefault(one.end, []).append(tracks[one.start])
+    for vector in plan.vectors:
+        joined.setdefault(vector.start, []).append(tracks[vector.end])
+        joined.setdefault(vector.end, []).append(tracks[vector.start])
     named = dict.fromkeys((point.label, point.at) for point in plan.points)
     return [MovingName(label, tracks[at], tuple(joined.get(at, ())), gap) for label, at in named]
 

@@ -154,16 +154,16 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
         items.append(Line(start, end, MEAN))
         places = [start + (end - start) * share for share in (0.97, 0.9, 0.06, 0.5, 0.25, 0.75)]
         requests.append(label(places, name, prefer=(math.pi / 2, -math.pi / 2)))
-    for n, one in enumerate(series):
-        vertices = window.vertices(one.x, one.y)
+    for n, curve in enumerate(series):
+        vertices = window.vertices(curve.x, curve.y)
         pen = PENS[n % len(PENS)]
-        if one.dots:
+        if curve.dots:
             items += [Circle(complex(*at), DOT, None, pen.colour) for at in vertices if np.isfinite(at).all()]
         else:
             items += [Polyline(points, pen) for points in _paths(vertices)]
-        requests += _marked(one, vertices, pen, items)
-        if one.label and len(series) > 1:
-            requests.append(label(_places(vertices), one.label))
+        requests += _marked(curve, vertices, pen, items)
+        if curve.label and len(series) > 1:
+            requests.append(label(_places(vertices), curve.label))
     for inclination in diagram.inclinations:
         drawn, request = _inclined(window, inclination)
         items += drawn
@@ -288,9 +288,10 @@ def _scale(label: Content, ends: tuple[float, float], length: float, degrees: bo
     shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
     text = label.note if isinstance(label, Chain) else str(label)
     unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
-    above, stroke, below = (unit or "1").partition("/")
+    above, stroke, below = unit.partition("/")
     below = below.strip("()")
-    per_mm = f"{above}/({below}·mm)" if stroke else f"{above}/mm"
+    # A figure in the unit would read as one more of the number.
+    per_mm = f"{above}/({below}·mm)" if stroke else f"{above}/mm" if above else "mm⁻¹"
     return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 
@@ -422,17 +423,17 @@ def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item
     ]
 
 
-def _inclined(window: _Window, one: Inclination) -> tuple[list[Item], Request]:
+def _inclined(window: _Window, angle_drawn: Inclination) -> tuple[list[Item], Request]:
     """The arc of an angle from the horizontal, and where its label stands."""
-    corner = window.at(one.x, one.y)
-    across, up = window.at(1.0, 0.0) - window.at(0.0, 0.0), window.at(0.0, one.slope) - window.at(0.0, 0.0)
+    corner = window.at(angle_drawn.x, angle_drawn.y)
+    across, up = window.at(1.0, 0.0) - window.at(0.0, 0.0), window.at(0.0, angle_drawn.slope) - window.at(0.0, 0.0)
     angle = cmath.phase(across + up)
-    middle = corner + cmath.rect(one.radius, angle / 2)
+    middle = corner + cmath.rect(angle_drawn.radius, angle / 2)
     items: list[Item] = [
-        Line(corner, corner + one.radius + BEYOND, EDGE),
-        Arc(corner, one.radius, 0.0, angle, Pen(0.18)),
+        Line(corner, corner + angle_drawn.radius + BEYOND, EDGE),
+        Arc(corner, angle_drawn.radius, 0.0, angle, Pen(0.18)),
     ]
-    return items, label(middle, one.label, prefer=(angle / 2,))
+    return items, label(middle, angle_drawn.label, prefer=(angle / 2,))
 
 
 def _places(vertices: Vertices) -> list[complex]:

@@ -233,9 +233,9 @@ def draw_forces(
     for arm in long:
         end = feet[arm.force]
         same = [
-            other
-            for other in long
-            if abs(other.about - arm.about) < TOGETHER and abs(feet[other.force] - end) < TOGETHER
+            another
+            for another in long
+            if abs(another.about - arm.about) < TOGETHER and abs(feet[another.force] - end) < TOGETHER
         ]
         items += _extension(end, *shafts[arm.force])
         equal = [other for other in same if abs(feet[other.force] - end) < EQUAL]
@@ -274,8 +274,8 @@ def foot(about: complex, start: complex, end: complex) -> complex:
     return complex(constructions.foot(about, start, unit(end - start)))
 
 
-def _parallel(one: complex, other: complex) -> bool:
-    return abs(cmath.phase(unit(other) / unit(one))) < ON_EACH_OTHER
+def _parallel(u: complex, v: complex) -> bool:
+    return abs(cmath.phase(unit(v) / unit(u))) < ON_EACH_OTHER
 
 
 def _tips(forces: Sequence[Force]) -> list[complex]:

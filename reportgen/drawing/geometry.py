@@ -192,12 +192,12 @@ def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]
     corners = list(box)
     for plane in planes:
         kept: list[complex] = []
-        for one, other in zip(corners, [*corners[1:], *corners[:1]], strict=True):
-            here, there = plane.depth(one), plane.depth(other)
+        for start, end in zip(corners, [*corners[1:], *corners[:1]], strict=True):
+            here, there = plane.depth(start), plane.depth(end)
             if here >= 0:
-                kept.append(one)
+                kept.append(start)
             if here * there < 0:
-                kept.append(one + (other - one) * here / (here - there))
+                kept.append(start + (end - start) * here / (here - there))
         corners = kept
         if not corners:
             break
@@ -221,8 +221,8 @@ def coincident(parts: Iterable[Part], reach: float, at: Callable[[Part], complex
     """Parts of a figure grouped, in order, so that all places `at` of a group are within `reach` mm of one another."""
     groups: list[list[Part]] = []
     for part in parts:
-        one = at(part)
-        own = next((group for group in groups if all(abs(at(other) - one) <= reach for other in group)), None)
+        own_place = at(part)
+        own = next((group for group in groups if all(abs(at(other) - own_place) <= reach for other in group)), None)
         if own is None:
             groups.append([part])
         else:
@@ -230,15 +230,15 @@ def coincident(parts: Iterable[Part], reach: float, at: Callable[[Part], complex
     return groups
 
 
-def on_one_line(one: tuple[complex, complex], other: tuple[complex, complex], apart: float, least: float) -> bool:
+def on_one_line(longer: tuple[complex, complex], shorter: tuple[complex, complex], apart: float, least: float) -> bool:
     """Whether two segments lie within `apart` mm of the longer one's line and cover more than `least` mm of it."""
-    one, other = sorted((one, other), key=lambda ends: -abs(ends[1] - ends[0]))
-    u = unit(one[1] - one[0])
-    ends = [(end - one[0]) * u.conjugate() for end in other]
+    longer, shorter = sorted((longer, shorter), key=lambda ends: -abs(ends[1] - ends[0]))
+    u = unit(longer[1] - longer[0])
+    ends = [(end - longer[0]) * u.conjugate() for end in shorter]
     if max(abs(end.imag) for end in ends) > apart:
         return False
     low, high = sorted(end.real for end in ends)
-    return min(high, abs(one[1] - one[0])) - max(low, 0.0) > least
+    return min(high, abs(longer[1] - longer[0])) - max(low, 0.0) > least
 
 
 def unit(vector: complex) -> complex:

@@ -344,8 +344,8 @@ def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> Placed:
         if not changed and all(pressed[i] == LED for i in crowded):
             break
         for n, i in enumerate(keyed, 1):
-            if (one := changed.get(i, spots[i].request)).parts != (str(n),):
-                changed[i] = replace(one, parts=(str(n),))
+            if (numbered := changed.get(i, spots[i].request)).parts != (str(n),):
+                changed[i] = replace(numbered, parts=(str(n),))
         if changed:
             spots |= field.spots(changed)
         pressed.update(i for i in crowded if pressed[i] < LED)
@@ -375,16 +375,16 @@ def _place_in(
         over = False
         centre, leader = (_away(spot, taken) if request.ring else None) or (spot.best(taken), None)
         if centre is None:
-            found = _away(spot, taken)
-            if found is None and request.short == LEFT_OUT:
+            labelled = _away(spot, taken)
+            if labelled is None and request.short == LEFT_OUT:
                 placed[i] = ()
                 continue
-            if over := found is None:
+            if over := labelled is None:
                 tries = (spot.breaking(taken, led) for led in (False, True)[: pressed.get(i, 0)])
-                found = next((one for one in tries if one), None)
-            if found is None:
+                labelled = next((one for one in tries if one), None)
+            if labelled is None:
                 crowded.append(i)
-            centre, leader = found or _least_touched(spot, taken)
+            centre, leader = labelled or _least_touched(spot, taken)
         labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)

@@ -280,27 +280,27 @@ def set_apart(vectors: Sequence[PlanVector[complex]]) -> list[complex]:
     """By how much (mm) each vector is drawn beside its place, so that none lies on an earlier one."""
     shifts: list[complex] = []
     for n, vector in enumerate(vectors):
-        way = vector.end - vector.start
+        length = vector.end - vector.start
         on = {round(abs(shifts[m]) / style.BESIDE) for m in range(n) if _on_one_line(vector, vectors[m])}
         free = next(step for step in range(n + 1) if step not in on)
-        shifts.append(-1j * unit(way) * style.BESIDE * free)
+        shifts.append(-1j * unit(length) * style.BESIDE * free)
     return shifts
 
 
-def _on_one_line(one: PlanVector[complex], other: PlanVector[complex]) -> bool:
+def _on_one_line(first: PlanVector[complex], second: PlanVector[complex]) -> bool:
     """Whether two vectors, long enough to see, cover a part of one line that is longer than an arrow's head."""
-    shorter, longer = sorted((abs(one.end - one.start), abs(other.end - other.start)))
-    if shorter < TINY or _across(one, other) > 2 * style.ON_LINE * longer:
+    shorter, longer = sorted((abs(first.end - first.start), abs(second.end - second.start)))
+    if shorter < TINY or _across(first, second) > 2 * style.ON_LINE * longer:
         return False
     # Two vectors with one start and one end are one arrow with two names.
-    if abs(one.start - other.start) + abs(one.end - other.end) < SAME_POINT:
+    if abs(first.start - second.start) + abs(first.end - second.end) < SAME_POINT:
         return False
-    return on_one_line((one.start, one.end), (other.start, other.end), style.ON_LINE, style.HEAD)
+    return on_one_line((first.start, first.end), (second.start, second.end), style.ON_LINE, style.HEAD)
 
 
-def _across(one: PlanVector[complex], other: PlanVector[complex]) -> float:
+def _across(vector: PlanVector[complex], along: PlanVector[complex]) -> float:
     """How far one vector leads away from the line of another, times the length of that."""
-    return abs(((one.end - one.start).conjugate() * (other.end - other.start)).imag)
+    return abs(((vector.end - vector.start).conjugate() * (along.end - along.start)).imag)
 
 
 def _marks(drawing: Plan) -> list[Item]:
@@ -321,11 +321,11 @@ def _labels(
         short = KEY if reach == CLOSE_BY else None
         requests.append(label(ends, *point_names(group), prefer=prefer, gap=gap, size=size, each=True, short=short))
     for vector, by in zip(vectors, set_apart(vectors), strict=True):
-        way = vector.end - vector.start
-        if vector.label is None or abs(way) < TINY:
+        length = vector.end - vector.start
+        if vector.label is None or abs(length) < TINY:
             continue
-        across = cmath.phase(way) + math.pi / 2
-        places = [vector.start + way * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
+        across = cmath.phase(length) + math.pi / 2
+        places = [vector.start + length * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
         sides = (cmath.phase(by),) if by else (across, across - math.pi)
         requests.append(label([at + by for at in places], vector.label, prefer=sides, size=size))
     return tuple(requests)
@@ -452,14 +452,14 @@ def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Canvas:
     requests: list[Request] = []
     seen: list[list[Content]] = []
     for vector in group:
-        way = vector.end - vector.start
+        arrow = vector.end - vector.start
         for at, side in ((vector.start, -1), (vector.end, 1)):
             names = point_names([point for point in drawing.points if abs(point.at - at) < SAME_POINT])
             if names and names not in seen:
                 seen.append(names)
-                requests.append(label(enlarged(at), *names, prefer=(cmath.phase(side * way),), size=style.SMALL))
+                requests.append(label(enlarged(at), *names, prefer=(cmath.phase(side * arrow),), size=style.SMALL))
         if vector.label is not None:
-            across = cmath.phase(way) + math.pi / 2
+            across = cmath.phase(arrow) + math.pi / 2
             sides = (across, across - math.pi)
             requests.append(label(enlarged(vector.middle), vector.label, prefer=sides, size=style.SMALL))
     return settle(Canvas(tuple(items), tuple(requests)))

@@ -63,12 +63,12 @@ class DrawingPlate:
         ends = list(accumulate(widths, initial=0.0))
         sums = {end - start - GAP for at, end in enumerate(ends) for start in ends[:at]}
         least = max(*(scene.width for scene in self.scenes), self.top.width)
-        found: list[Arranged] = []
+        arrangements: list[Arranged] = []
         for width in sorted({least, *(one for one in sums if one > least)}):
             arranged = self._arranged(width)
-            if not found or arranged.height < found[-1].height - DUST:
-                found.append(arranged)
-        return found
+            if not arrangements or arranged.height < arrangements[-1].height - DUST:
+                arrangements.append(arranged)
+        return arrangements
 
     def _arranged(self, width: float) -> Arranged:
         rows: list[list[int]] = []
@@ -124,7 +124,7 @@ def changed(plate: DrawingPlate, change: Callable[[DrawingPlate], DrawingPlate])
         return change(plate)
 
     def next_one() -> DrawingPlate | None:
-        found = larger()
-        return found and changed(found, change)
+        plate = larger()
+        return plate and changed(plate, change)
 
     return replace(change(plate), larger=next_one)

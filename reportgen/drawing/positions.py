@@ -156,9 +156,9 @@ def centre_plan(
     names: list[Request] = []
     for centre in centres:
         for start in (bones.points[name] for name in centre.points):
-            way = centre.at - start
-            if abs(way) > style.JOINT:
-                normals.append(Line(start, centre.at + way / abs(way) * BEYOND, style.NORMAL))
+            normal = centre.at - start
+            if abs(normal) > style.JOINT:
+                normals.append(Line(start, centre.at + normal / abs(normal) * BEYOND, style.NORMAL))
         marks.append(Circle(centre.at, DOT, Pen(0.2, style.RED), style.PAPER))
         names.append(label(centre.at, centre.name, gap=DOT + 0.5))
     whole = Canvas((*normals, *draft.items, *marks), (*draft.requests, *names))
@@ -170,12 +170,14 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
     items: list[Item] = []
     requests: list[Request] = []
     drawn: list[str] = []
-    for one in moving:
-        base, end = (bones.points[name] for name in one.points)
+    for moved_rod in moving:
+        base, end = (bones.points[name] for name in moved_rod.points)
         rod = unit(end - base)
-        if one.velocities[1]:
+        if moved_rod.velocities[1]:
             items.append(Line(end, end + rod * (ANGLE + BEYOND), style.CONSTRUCTION))
-        for name, v, letter, angle in zip(one.points, one.velocities, one.names, one.angles, strict=True):
+        for name, v, letter, angle in zip(
+            moved_rod.points, moved_rod.velocities, moved_rod.names, moved_rod.angles, strict=True
+        ):
             if v == 0:
                 continue
             at, along = bones.points[name], unit(v)
@@ -232,11 +234,11 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
     return Canvas(tuple(items), tuple(requests))
 
 
-def _covers(one: Complexes, other: Complexes) -> bool:
+def _covers(curve: Complexes, covered: Complexes) -> bool:
     """Whether a curve lies on another one."""
-    starts, ways = one[:-1], np.diff(one)
+    starts, ways = curve[:-1], np.diff(curve)
     sizes = np.where(np.abs(ways) > 0, np.abs(ways) ** 2, 1.0)
-    off = other[:, None] - starts
+    off = covered[:, None] - starts
     share = np.clip((off * ways.conj()).real / sizes, 0.0, 1.0)
     return bool(np.abs(off - share * ways).min(axis=1).max(initial=0.0) < TOGETHER)
 
@@ -359,8 +361,8 @@ class Frame:
 
     def at(self, fraction: float, pressure: float) -> complex:
         """The place on paper of a fraction of the stroke and a pressure."""
-        way = self.bottom - self.top
-        return self.top + fraction * way + unit(self.side) * pressure / self.scale
+        axis = self.bottom - self.top
+        return self.top + fraction * axis + unit(self.side) * pressure / self.scale
 
 
 def beside(
@@ -437,6 +439,6 @@ def _projections(frame: Frame, readings: Sequence[Reading]) -> list[Item]:
 def _along(points: Sequence[complex]) -> list[complex]:
     """Places along a polyline at even shares of its length, the middle ones first."""
     p = np.asarray(points)
-    way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(p)))))
-    shares = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88]) * way[-1]
-    return [complex(q) for q in np.interp(shares, way, p.real) + 1j * np.interp(shares, way, p.imag)]
+    lengths = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(p)))))
+    shares = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88]) * lengths[-1]
+    return [complex(q) for q in np.interp(shares, lengths, p.real) + 1j * np.interp(shares, lengths, p.imag)]

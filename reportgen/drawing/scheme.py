@@ -284,8 +284,8 @@ def parts_of(bones: Skeleton, link: int, looks: Looks, origin: complex, angle: f
 
 def ground_guides(bones: Skeleton, looks: Looks) -> tuple[Item, ...]:
     """The guides on the ground along the whole way of their blocks, whatever crosses them."""
-    found = [_rail(slide, looks.block(slide.link), ()) for slide in bones.slides if slide.on == GROUND]
-    return tuple(item for items in found for item in items)
+    rails = [_rail(slide, looks.block(slide.link), ()) for slide in bones.slides if slide.on == GROUND]
+    return tuple(item for items in rails for item in items)
 
 
 def driver_marks(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
@@ -347,9 +347,9 @@ def _body_points(bones: Skeleton, link: int) -> list[complex]:
     slide = bones.slide_of(link)
     if slide and not points:
         points = [slide.at]
-    for way in bones.slides:
-        if way.on == link and points and link != GROUND:
-            ends = (way.low, way.high)
+    for slideway in bones.slides:
+        if slideway.on == link and points and link != GROUND:
+            ends = (slideway.low, slideway.high)
             points.append(min(ends, key=lambda p: abs(p - points[0])))
     return points
 

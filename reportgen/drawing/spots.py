@@ -106,9 +106,9 @@ def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
 
 def distances(leaders: Complexes, points: Complexes) -> Floats:
     """How far points are from leaders, mm [K, P]."""
-    start, way = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
-    share = np.clip(((points - start) / way).real, 0.0, 1.0)
-    return np.abs(points - start - share * way)
+    start, direction = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
+    share = np.clip(((points - start) / direction).real, 0.0, 1.0)
+    return np.abs(points - start - share * direction)
 
 
 def inked(ink: Ink, leaders: Complexes) -> Floats:

@@ -83,19 +83,19 @@ def known_path(parts: Parts, point: str, body: int) -> AccelerationPath | None:
     if point in layout.slots:
         u = layout.slots[point]
         return AccelerationPath((), Vector(ids.acceleration(point), u if (u.conjugate() * actual).real >= 0 else -u))
-    for other, centre in layout.centres.items():
-        if other != body and centre.rule == "pivot" and point in layout.own(other) and derivation.knows_omega(other):
-            normal, tangential = relative(parts, other, point, centre.name)
-            lines = enter_normal(parts, other, point, centre.name, normal)
-            return AccelerationPath(parts.derivation.nonzero(normal), tangential, other, centre.name, lines)
-    for other in layout.members:
-        names = layout.own(other)
+    for leader, centre in layout.centres.items():
+        if leader != body and centre.rule == "pivot" and point in layout.own(leader) and derivation.knows_omega(leader):
+            normal, tangential = relative(parts, leader, point, centre.name)
+            lines = enter_normal(parts, leader, point, centre.name, normal)
+            return AccelerationPath(parts.derivation.nonzero(normal), tangential, leader, centre.name, lines)
+    for leader in layout.members:
+        names = layout.own(leader)
         base = next((name for name in names if name in parts.of), "")
-        if other != body and point in names and base and derivation.knows_omega(other):
-            normal, tangential = relative(parts, other, point, base)
-            lines = enter_normal(parts, other, point, base, normal)
+        if leader != body and point in names and base and derivation.knows_omega(leader):
+            normal, tangential = relative(parts, leader, point, base)
+            lines = enter_normal(parts, leader, point, base, normal)
             return AccelerationPath(
-                (*parts.of[base], *parts.derivation.nonzero(normal)), tangential, other, base, lines
+                (*parts.of[base], *parts.derivation.nonzero(normal)), tangential, leader, base, lines
             )
     return None
 
@@ -149,9 +149,9 @@ def _held(derivation: Derivation, body: int) -> bool:
     """Whether a joint keeps a body from turning, not only at the instant."""
     joints = derivation.layout.given.joints
     return any(
-        one.body == body and (isinstance(one, file.Translation) or one.on == GROUND)
-        for one in joints
-        if isinstance(one, file.Slider | file.Translation)
+        joint.body == body and (isinstance(joint, file.Translation) or joint.on == GROUND)
+        for joint in joints
+        if isinstance(joint, file.Slider | file.Translation)
     )
 
 
@@ -312,9 +312,9 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
         return False
     u, motion = derivation.layout.geometry.direction(joint), derivation.motion
     arm = direction_of(derivation.layout.points[point] - derivation.layout.points[base])
-    told = derivation.knows(eps)
-    path = known_path(parts, point, body) if told and point not in parts.of else None
-    if (point in parts.of) == told or (told and path is None) or not arm:
+    eps_known = derivation.knows(eps)
+    path = known_path(parts, point, body) if eps_known and point not in parts.of else None
+    if (point in parts.of) == eps_known or (eps_known and path is None) or not arm:
         return False
     if perpendicular(1j * arm, 1j * u) if path is None else parallel(path.unknown.direction, u):
         return False
@@ -330,9 +330,9 @@ def by_slot(parts: Parts, joint: file.SlotJoint) -> bool:
         lines += (q.define(normal.id, q[omega] ** 2 * length).id,)
         if q.si(v_r):
             lines += (q.define(coriolis.id, 2 * q[omega] * q[v_r]).id,)
-    if told and q.si(eps):
+    if eps_known and q.si(eps):
         lines += (q.define(tangential.id, q[eps] * length).id,)
-    known = (*parts.of[base], *derivation.nonzero(normal, coriolis, *((tangential,) if told else ())))
+    known = (*parts.of[base], *derivation.nonzero(normal, coriolis, *((tangential,) if eps_known else ())))
     if path is None:
         equation = Projected(derivation, parts.of[point], (*known, tangential, sliding), lines)
         size = equation.find(tangential, 1j * u, "η", point)

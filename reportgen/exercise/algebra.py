@@ -133,10 +133,10 @@ def solve(rows: Sequence[Sequence[Algebraic]], values: Sequence[Algebraic]) -> l
     reduced, pivots = matrix.rref()
     if width in pivots:
         raise ValueError("the equations contradict each other")
-    found = [sp.Integer(0)] * width
+    solution = [sp.Integer(0)] * width
     for index, pivot in enumerate(pivots):
-        found[pivot] = field.to_sympy(reduced[index, width].element)
-    return found
+        solution[pivot] = field.to_sympy(reduced[index, width].element)
+    return solution
 
 
 def _field(entries: Sequence[Algebraic]) -> Any:
@@ -211,8 +211,8 @@ def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebr
     sp = _sympy()
 
     def each(nodes: Sequence[Expression]) -> list[Algebraic] | None:
-        found = [algebraic(one, of) for one in nodes]
-        return None if any(one is None for one in found) else found
+        parts = [algebraic(one, of) for one in nodes]
+        return None if any(one is None for one in parts) else parts
 
     match node:
         case Number(unit="°"):
@@ -258,11 +258,11 @@ def expression(of: Algebraic, at: Mapping[str, float]) -> Expression:
         ordered = total(sorted(terms, key=lambda one: isinstance(one, Negative)))
         return ordered if value(of, at) >= 0 else Negative(ordered)
     sign, factors, order = 1, [], list(at)
-    for one in of.as_ordered_factors():
-        if (one.is_Number or one.is_Add) and value(one, at) < 0:
-            sign, one = -sign, -one
-        if one != 1:
-            factors.append(one)
+    for factor in of.as_ordered_factors():
+        if (factor.is_Number or factor.is_Add) and value(factor, at) < 0:
+            sign, factor = -sign, -factor
+        if factor != 1:
+            factors.append(factor)
     factors.sort(key=lambda one: _rank(one, order))
     nodes = [*_factors(factors, at)] or [Number(1.0)]
     whole = nodes[0] if len(nodes) == 1 else Product(tuple(nodes))
@@ -277,18 +277,18 @@ def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
 
 
 def _factors(factors: Sequence[Algebraic], at: Mapping[str, float]) -> Iterator[Expression]:
-    for one in factors:
-        if one.is_Symbol:
-            yield _of_angle(one.name) or Ref(one.name)
-        elif one.is_Number:
-            yield Number(float(one))
-        elif one.is_Pow and one.exp == _sympy().Rational(1, 2):
-            yield Root(expression(one.base, at))
-        elif one.is_Pow and one.exp.is_Rational and one.exp.q == 2:
-            yield Root(Power(expression(one.base, at), Number(float(one.exp.p))))
-        elif one.is_Pow and one.exp.is_Number:
-            yield Power(expression(one.base, at), Number(float(one.exp)))
-        elif one.is_Add:
-            yield expression(one, at)
+    for factor in factors:
+        if factor.is_Symbol:
+            yield _of_angle(factor.name) or Ref(factor.name)
+        elif factor.is_Number:
+            yield Number(float(factor))
+        elif factor.is_Pow and factor.exp == _sympy().Rational(1, 2):
+            yield Root(expression(factor.base, at))
+        elif factor.is_Pow and factor.exp.is_Rational and factor.exp.q == 2:
+            yield Root(Power(expression(factor.base, at), Number(float(factor.exp.p))))
+        elif factor.is_Pow and factor.exp.is_Number:
+            yield Power(expression(factor.base, at), Number(float(factor.exp)))
+        elif factor.is_Add:
+            yield expression(factor, at)
         else:
-            raise ValueError(f"no way to print {one}")
+            raise ValueError(f"no way to print {factor}")

@@ -6,10 +6,10 @@ import cmath
 import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from pathlib import Path
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+from reportgen.base.gaps import NO_LETTER
 from reportgen.base.shown import view
 from reportgen.base.units import Given
 from reportgen.exercise import file
@@ -18,7 +18,6 @@ from reportgen.exercise.solved import SolvedExercise
 from reportgen.exercise.symbols import Literal, symbol
 from reportgen.exercise.views import AT, FurtherView, Solution, lettered
 from reportgen.formula import PI, Chain, Expression, Negative, Number, Symbol, ids, vocabulary
-from reportgen.formula.sheet import Family
 from reportgen.report import (
     Block,
     Cell,
@@ -33,15 +32,14 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.case import Misconceptions
-from reportgen.report.key import Key
+from reportgen.report.case import AskedFor
 from reportgen.report.numbering import finished
 from reportgen.report.prose import NamedPoint, Prose
+from reportgen.report.result_entries import ResultEntries
+from reportgen.report.wording import MAGNITUDE
 
 if TYPE_CHECKING:
-    from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
-    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
 
 
@@ -57,69 +55,45 @@ class ExerciseCase(SolvedExercise):
     def printed(self) -> Ledger:
         return self.worked.printed
 
-    @property
-    def families(self) -> Mapping[str, Family]:
-        return self.ledger.families
-
-    @property
-    def positions_of_a_turn(self) -> int:
-        return 1
-
-    @property
-    def speed(self) -> None:
-        """Nothing drives it."""
-
-    @property
-    def balance(self) -> None:
-        """It has no forces."""
-
-    @property
-    def misconceptions(self) -> Misconceptions:
-        return Misconceptions()
-
-    def fault(self) -> str:
-        # That it moves, and only in one way, is among the checks of its file.
-        return ""
+    # That it moves, and only in one way, is among the checks of its file: no fault shows only in the results.
 
     def document(self) -> Document:
         return self.bounded(solution)
 
-    def key(self) -> Key:
-        from reportgen.marking.key import MAGNITUDE, make_key
+    def sense(self, id: str) -> str:
+        """The sign of what is asked says nothing where the data leave its sense open."""
+        return MAGNITUDE if id in self._of_open_sense else ""
 
-        open_ids = {one.id for one in self.exercise.asked if not self.exercise.tells_sense(one)}
-        return make_key(self, self.ledger, self.printed, sense_of=lambda id: MAGNITUDE if id in open_ids else "")
+    @cached_property
+    def _of_open_sense(self) -> frozenset[str]:
+        return frozenset(one.id for one in self.exercise.asked if not self.exercise.tells_sense(one))
 
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        return self.bounded(partial(_task, key=key, by_section=by_section))
+    def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
+        """Its title is one of its words."""
+        return (), Prose(self.places).render("exercise-task", {**task_names(self), "answer_tables": asked.answers})
 
-    def results(self) -> dict[str, Any]:
-        """Its one position has its number alone; null is what is not determined."""
-        from reportgen.marking.results import pair, results
-
+    @cached_property
+    def entries(self) -> ResultEntries:
+        """Its one position has its number alone; None is what is not determined."""
         motion = self.exercise.motion
         points = {
             name: {
-                "p": pair(place),
-                "v": pair(motion.v(name)) if motion.knows_velocity(name) else None,
-                "a": pair(motion.a(name)) if motion.knows_acceleration(name) else None,
+                "p": complex(place),
+                "v": complex(motion.v(name)) if motion.knows_velocity(name) else None,
+                "a": complex(motion.a(name)) if motion.knows_acceleration(name) else None,
             }
             for name, place in motion.system.points.items()
             if motion.system.body_of(name)
         }
         links = {
-            str(body): {
+            body: {
                 "omega": motion.omega(body) if motion.knows_omega(body) else None,
                 "epsilon": motion.epsilon(body) if motion.knows_epsilon(body) else None,
-                "centre": None if not motion.knows_centre(body) or (at := motion.centre(body)) is None else pair(at),
+                "centre": motion.centre(body) if motion.knows_centre(body) else None,
             }
             for body in motion.system.bodies
         }
-        return results(self, [{"number": 1, "points": points, "links": links}])
-
-    def animations(self) -> tuple[Animation, ...]:
-        """Nothing moves at one instant."""
-        return ()
+        return ResultEntries([{"number": 1, "points": points, "links": links}])
 
     def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
         """Its figures; there are no sets of them to choose from."""
@@ -129,25 +103,11 @@ class ExerciseCase(SolvedExercise):
         words = self.words["instant"]
         drawn = {what: FIGURES[what](self, ENLARGED) for what in ("velocity", "acceleration")}
         plates = [
-            DrawingPlate(words[what], (found[1],) if found[1] else (), what, (lettered(found[0]),))
-            for what, found in drawn.items()
-            if found
+            DrawingPlate(words[what], (drawn_at[1],) if drawn_at[1] else (), what, (lettered(drawn_at[0]),))
+            for what, drawn_at in drawn.items()
+            if drawn_at
         ]
         return {"motion": plates}
-
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        from reportgen.sheets import on_sheets
-
-        return on_sheets(self, self.plates(), size, block)
-
-
-def _task(case: SolvedExercise, key: Key, by_section: bool) -> Document:
-    from reportgen.marking.paper import empty_sheet, task_paper
-
-    names = {**task_names(case), "answer_tables": empty_sheet(key, by_section)}
-    return task_paper(case, key, (), Prose(case.places).render("exercise-task", names))
 
 
 # --- solvedExercise → Document --------------------------------------------------------------------
@@ -276,14 +236,14 @@ class SolutionPage(Solution):
         """The bodies of the system, the ground if it has a disc."""
         return tuple(self._body(number, one) for number, one in self.case.exercise.given.bodies.items())
 
-    def _body(self, number: int, one: file.BodyOf) -> BodyItem:
-        name, points = self._called(number), listed(InlineMath(vocabulary.point(name)) for name in one.points)
-        if one.disc is None:
+    def _body(self, number: int, declared: file.BodyOf) -> BodyItem:
+        name, points = self._called(number), listed(InlineMath(vocabulary.point(name)) for name in declared.points)
+        if declared.disc is None:
             return BodyItem(name, points)
-        given = one.disc.radius
+        given = declared.disc.radius
         number_typed = Number(float(f"{given.value:.{TYPED}g}"), None, pretty(given.unit))
         radius = lettered(given.formula) if isinstance(given, Literal) else number_typed
-        return BodyItem(name, points, NamedPoint(one.disc.centre), radius)
+        return BodyItem(name, points, NamedPoint(declared.disc.centre), radius)
 
     def _called(self, body: int) -> str:
         words = self.case.words["instant"]
@@ -295,8 +255,8 @@ class SolutionPage(Solution):
         return tuple(self._joint(one) for one in self.case.exercise.given.joints)
 
     def _joint(self, joint: file.Joint) -> JointItem:
-        told = joint.model_dump(include={"at", "point", "through"}, exclude_none=True)
-        points = [NamedPoint(name) for name in (*told.values(), *getattr(joint, "points", ()))]
+        named = joint.model_dump(include={"at", "point", "through"}, exclude_none=True)
+        points = [NamedPoint(name) for name in (*named.values(), *getattr(joint, "points", ()))]
         numbers = [getattr(joint, key) for key in ("body", "disc", "on") if hasattr(joint, key)]
         numbers += getattr(joint, "bodies", getattr(joint, "discs", ()))
         names = list(map(self._called, numbers))
@@ -308,7 +268,7 @@ class SolutionPage(Solution):
         at_angle, along = self.case.words["instant"]["directions"]
         if joint.along is not None:
             return Text(f"{along} "), *(InlineMath(vocabulary.point(name)) for name in joint.along)
-        before, after = str(at_angle).split("{}")
+        before, _, after = at_angle.format(NO_LETTER).partition(NO_LETTER)
         return Text(before), *self._angle(joint.angle.si if joint.angle else 0.0), Text(after)
 
     def _given_items(self) -> Iterator[GivenItem]:
@@ -333,10 +293,10 @@ class SolutionPage(Solution):
         return GivenItem(form, NamedPoint(""), rate.body, self._typed(id, rate.value), sense)
 
     def _given_vector(self, form: str, id: str, rate: file.VelocityOf | file.AccelerationOf) -> GivenItem:
-        point, size, way = NamedPoint(rate.point), rate.size, rate.direction.si
+        point, size, angle = NamedPoint(rate.point), rate.size, rate.direction.si
         if size is None:
-            return GivenItem(f"{form}-way", point, 0, vocabulary.symbol(id), self._angle(way))
-        turned = way + (math.pi if size.si < 0 else 0.0)
+            return GivenItem(f"{form}-way", point, 0, vocabulary.symbol(id), self._angle(angle))
+        turned = angle + (math.pi if size.si < 0 else 0.0)
         return GivenItem(form, point, 0, self._typed(id, size), self._angle(turned))
 
     def _typed(self, id: str, given: Given) -> Chain:
@@ -357,8 +317,8 @@ class SolutionPage(Solution):
     def symbols(self) -> Inlines:
         """The symbols of the file with their values."""
         shown: list[Any] = []
-        for name, one in self.case.exercise.given.symbols.items():
-            value = Number(one.given.value, None, pretty(one.given.unit))
+        for name, stated in self.case.exercise.given.symbols.items():
+            value = Number(stated.given.value, None, pretty(stated.given.unit))
             shown += [*([Text(", ")] if shown else []), InlineMath(Chain((symbol(name), value)))]
         return tuple(shown)
 
@@ -378,16 +338,16 @@ class SolutionPage(Solution):
     def asked(self) -> Inlines:
         """The symbols of what is asked."""
         shown: list[Any] = []
-        for one in self.case.exercise.asked:
-            centre = one.what == "centre"
-            symbol = self._centre_symbol(one.body) if centre else self._asked_symbol(one)
+        for asked in self.case.exercise.asked:
+            centre = asked.what == "centre"
+            symbol = self._centre_symbol(asked.body) if centre else self._asked_symbol(asked)
             shown += [*([Text(", ")] if shown else []), InlineMath(symbol)]
         return tuple(shown)
 
-    def _asked_symbol(self, one: file.Asked) -> Expression:
+    def _asked_symbol(self, asked: file.Asked) -> Expression:
         """The symbol of a rate, in bars where the data leave its sense open."""
-        symbol = vocabulary.symbol(one.id)
-        return symbol if self.case.exercise.tells_sense(one) else abs(symbol)
+        symbol = vocabulary.symbol(asked.id)
+        return symbol if self.case.exercise.tells_sense(asked) else abs(symbol)
 
     def _centre_symbol(self, body: int) -> Symbol:
         return vocabulary.point(self.worked.layout.centres[body].name or "∞")
@@ -415,9 +375,9 @@ class SolutionPage(Solution):
     def _place(self, name: str) -> tuple[Inlines, Inlines]:
         """The coordinates of a point in mm, or by symbols."""
         literal = self.case.literal
-        found = None if literal is None else literal.place(name)
-        if found is not None:
-            x, y = map(lettered, found)
+        coordinates = None if literal is None else literal.place(name)
+        if coordinates is not None:
+            x, y = map(lettered, coordinates)
             return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
         at, unit = self.case.exercise.motion.system.points[name], "" if literal is None else "mm"
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
@@ -428,16 +388,18 @@ class SolutionPage(Solution):
         """What is asked of velocities, by each method that leads to it.  Raises `ValueError` if two disagree."""
         words, pages = self.case.words["instant"], [SolutionPage(self.case, worked) for worked in self.case.alone]
         motion, rows = self.case.exercise.motion, list[tuple[Cell, ...]]()
-        for one in self.case.exercise.asked:
-            found = [float(page.worked.ledger[one.id].values[0]) for page in pages if one.id in page.worked.ledger]
+        for asked in self.case.exercise.asked:
+            sizes = [float(page.worked.ledger[asked.id].values[0]) for page in pages if asked.id in page.worked.ledger]
             ledgers = [page.worked.printed for page in pages]
-            if one.what not in ("v", "omega"):
+            if asked.what not in ("v", "omega"):
                 continue
-            scale = motion.fastest / (motion.size if one.of_body else 1.0)
-            if found and max(found) - min(found) > METHODS_AGREE * scale:
-                raise ValueError(f"methods disagree on {one.id}: {found}")
-            shown = [(Value(ledger.number(one.id, AT)),) if one.id in ledger else (Text("–"),) for ledger in ledgers]
-            rows.append((Cell((InlineMath(vocabulary.symbol(one.id)),)), *map(Cell, shown)))
+            scale = motion.fastest / (motion.size if asked.of_body else 1.0)
+            if sizes and max(sizes) - min(sizes) > METHODS_AGREE * scale:
+                raise ValueError(f"methods disagree on {asked.id}: {sizes}")
+            shown = [
+                (Value(ledger.number(asked.id, AT)),) if asked.id in ledger else (Text("–"),) for ledger in ledgers
+            ]
+            rows.append((Cell((InlineMath(vocabulary.symbol(asked.id)),)), *map(Cell, shown)))
         head = (words["quantity"], *(page.method for page in pages))
         columns = (Column(COMPARED[0]), *(Column(COMPARED[1] / len(pages)) for _ in pages))
         heads = tuple(Cell((Text(str(text)),)) for text in head)
@@ -465,18 +427,18 @@ class SolutionPage(Solution):
 
     def _answer_rows(self) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
         ledger, motion = self.worked.printed, self.case.exercise.motion
-        for one in self.case.exercise.asked:
-            if one.what == "centre":
-                yield self._centre_row(one.body)
+        for asked in self.case.exercise.asked:
+            if asked.what == "centre":
+                yield self._centre_row(asked.body)
                 continue
-            symbol = (InlineMath(self._asked_symbol(one)),)
-            number, shown = ledger.number(one.id, AT), self._literal(one.id)
+            symbol = (InlineMath(self._asked_symbol(asked)),)
+            number, shown = ledger.number(asked.id, AT), self._literal(asked.id)
             size: Inlines = (Value(number),) if self.put_in or shown is None else (InlineMath(shown, slashed=True),)
-            if one.of_body:
-                sense = self._sense(motion.turn(one.what, one.body), self.case.exercise.tells_sense(one))
+            if asked.of_body:
+                sense = self._sense(motion.turn(asked.what, asked.body), self.case.exercise.tells_sense(asked))
                 yield symbol, size, (Text(sense),)
             else:
-                vector = motion.v(one.of) if one.what == "v" else motion.a(one.of)
+                vector = motion.v(asked.of) if asked.what == "v" else motion.a(asked.of)
                 degrees = round(math.degrees(cmath.phase(vector)) % 360.0, 2) % 360.0 if vector else 0.0
                 angle = (Text(f"{self._towards(vector)} ("), Value(Number(degrees, None, "°")), Text(")"))
                 yield symbol, size, angle if vector else (Text("–"),)

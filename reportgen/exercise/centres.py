@@ -115,154 +115,154 @@ class Layout:
 def lay_out(given: file.Parameters, motion: InstantMotion) -> Layout:
     """Everything about directions and centres that the joints and the given directions tell."""
     system = motion.system
-    found = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
+    layout = Layout(given, motion, dict(system.points), {body: [] for body in system.bodies})
     for body, names in system.bodies.items():
-        found.members[body] += [name for name in names if _moves_alike(given, body, system.body_of(name), name)]
+        layout.members[body] += [name for name in names if _moves_alike(given, body, system.body_of(name), name)]
     for index, joint in enumerate(given.joints):
-        _enter(found, joint, index)
+        _enter(layout, joint, index)
     for rate in given.given:
         if isinstance(rate, file.VelocityOf | file.FromRest):
-            found.directions[rate.point] = unit(rate.direction.si)
-    found.guided = _guided(found)
-    while _next_centre(found) or _next_directions(found):
+            layout.directions[rate.point] = unit(rate.direction.si)
+    layout.guided = _guided(layout)
+    while _next_centre(layout) or _next_directions(layout):
         pass
-    return found
+    return layout
 
 
-def _guided(found: Layout) -> dict[str, complex]:
+def _guided(layout: Layout) -> dict[str, complex]:
     """The directions that joints and the data tell, and those that are across the line to a point moving across it."""
-    told = replace(found, directions=dict(found.directions))
-    while _next_directions(told):
+    guided = replace(layout, directions=dict(layout.directions))
+    while _next_directions(guided):
         pass
-    return told.directions
+    return guided.directions
 
 
 def _moves_alike(given: file.Parameters, body: int, owner: int, point: str) -> bool:
     """Whether a point of a body is the same as that of its owner: pinned together, over however many bodies."""
     reached, waiting = {owner}, [owner]
     while waiting:
-        one = waiting.pop()
+        carrier = waiting.pop()
         for joint in given.joints:
-            if isinstance(joint, file.Pin) and joint.at == point and one in joint.bodies:
+            if isinstance(joint, file.Pin) and joint.at == point and carrier in joint.bodies:
                 new = {*joint.bodies} - reached
                 reached |= new
                 waiting += new
     return body in reached
 
 
-def _enter(found: Layout, joint: file.Joint, index: int) -> None:
-    given, known = found.given, found.points
+def _enter(layout: Layout, joint: file.Joint, index: int) -> None:
+    given, known = layout.given, layout.points
     match joint:
         case file.Pin(at=at, bodies=bodies) if GROUND in bodies:
             body = max(bodies)
-            found.centres[body] = InstantCentre(body, "pivot", at, known[at])
+            layout.centres[body] = InstantCentre(body, "pivot", at, known[at])
         case file.SlotJoint(point=point, on=0):
-            found.directions[point] = found.slots[point] = found.geometry.direction(joint)
+            layout.directions[point] = layout.slots[point] = layout.geometry.direction(joint)
         case file.Slider(body=body, on=0):
-            found.centres[body] = InstantCentre(body, "translation", direction=found.geometry.direction(joint))
+            layout.centres[body] = InstantCentre(body, "translation", direction=layout.geometry.direction(joint))
         case file.Translation(body=body):
-            found.centres.setdefault(body, InstantCentre(body, "translation"))
+            layout.centres.setdefault(body, InstantCentre(body, "translation"))
         case file.RollingOnLine(disc=body, on=carrier):
-            touch = found.point_at(found.geometry.contact_on_line(joint), "K")
-            found.contacts[index] = touch
+            touch = layout.point_at(layout.geometry.contact_on_line(joint), "K")
+            layout.contacts[index] = touch
             disc = given.disc(body)
             if carrier == GROUND and disc is not None:
-                found.centres[body] = InstantCentre(body, "contact", touch, known[touch])
-                found.slots[disc.centre] = found.geometry.direction(joint)
-            _share(found, touch, body, carrier)
+                layout.centres[body] = InstantCentre(body, "contact", touch, known[touch])
+                layout.slots[disc.centre] = layout.geometry.direction(joint)
+            _share(layout, touch, body, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
-            touch = found.point_at(found.geometry.contact_of_discs(joint), "K")
-            found.contacts[index] = touch
+            touch = layout.point_at(layout.geometry.contact_of_discs(joint), "K")
+            layout.contacts[index] = touch
             if GROUND in discs:
                 body = max(discs)
-                found.centres[body] = InstantCentre(body, "contact", touch, known[touch])
-            _share(found, touch, *discs)
+                layout.centres[body] = InstantCentre(body, "contact", touch, known[touch])
+            _share(layout, touch, *discs)
         case file.Belt():
-            _belt_ends(found, joint, index)
+            _belt_ends(layout, joint, index)
 
 
-def _belt_ends(found: Layout, joint: file.Belt, index: int) -> None:
+def _belt_ends(layout: Layout, joint: file.Belt, index: int) -> None:
     """The points in which a straight part of a belt touches its discs, each a point of its disc."""
-    ends = found.geometry.belt_ends(joint)
-    names = tuple(found.point_at(at, "K") for at in ends)
-    found.belts[index] = names[0], names[1]
+    ends = layout.geometry.belt_ends(joint)
+    names = tuple(layout.point_at(at, "K") for at in ends)
+    layout.belts[index] = names[0], names[1]
     for name, body in zip(names, joint.discs, strict=True):
-        _share(found, name, body)
+        _share(layout, name, body)
 
 
-def _share(found: Layout, point: str, *bodies: int) -> None:
+def _share(layout: Layout, point: str, *bodies: int) -> None:
     """A point of contact moves alike with both bodies."""
     for body in bodies:
-        if body != GROUND and point not in found.members[body]:
-            found.members[body].append(point)
+        if body != GROUND and point not in layout.members[body]:
+            layout.members[body].append(point)
 
 
-def _next_centre(found: Layout) -> bool:
+def _next_centre(layout: Layout) -> bool:
     """Finds the centre of one more body from directions; whether there was one."""
-    for body, names in found.members.items():
-        if body in found.centres:
+    for body, names in layout.members.items():
+        if body in layout.centres:
             continue
-        known = [name for name in names if name in found.directions]
-        for one, other in _pairs(known):
-            centre = _by_normals(found, body, one, other)
+        known = [name for name in names if name in layout.directions]
+        for first, second in _pairs(known):
+            centre = _by_normals(layout, body, first, second)
             if centre is not None:
-                found.centres[body] = centre
+                layout.centres[body] = centre
                 return True
     return False
 
 
-def _by_normals(found: Layout, body: int, one: str, other: str) -> InstantCentre | None:
-    p, q, u, w = found.points[one], found.points[other], found.directions[one], found.directions[other]
+def _by_normals(layout: Layout, body: int, first: str, second: str) -> InstantCentre | None:
+    p, q, u, w = layout.points[first], layout.points[second], layout.directions[first], layout.directions[second]
     if parallel(u, w):
         if abs(p - q) < SAME_PLACE or perpendicular(u, (p - q) / abs(p - q)):
             return None
-        return InstantCentre(body, "translation", points=(one, other), direction=u)
+        return InstantCentre(body, "translation", points=(first, second), direction=u)
     at = meet(p, 1j * u, q, 1j * w)
-    return InstantCentre(body, "normals", name_of_centre(found, body, at), at, (one, other))
+    return InstantCentre(body, "normals", name_of_centre(layout, body, at), at, (first, second))
 
 
-def name_of_centre(found: Layout, body: int, at: complex) -> str:
+def name_of_centre(layout: Layout, body: int, at: complex) -> str:
     """The name of the point that an instant centre is, or one of its own."""
-    letter = next(one for one in LETTERS if not any(name[0] == one for name in found.given.points))
-    return next((name for name, place in found.points.items() if abs(place - at) < SAME_PLACE), f"{letter}{body}")
+    letter = next(one for one in LETTERS if not any(name[0] == one for name in layout.given.points))
+    return next((name for name, place in layout.points.items() if abs(place - at) < SAME_PLACE), f"{letter}{body}")
 
 
-def _next_directions(found: Layout) -> bool:
+def _next_directions(layout: Layout) -> bool:
     """Finds the directions of the points of bodies whose centres are known; whether any was new."""
     new = {
         name: direction
-        for body, centre in found.centres.items()
-        for name in found.members[body]
-        if name not in found.directions and (direction := _direction(found, centre, name)) != 0
+        for body, centre in layout.centres.items()
+        for name in layout.members[body]
+        if name not in layout.directions and (direction := _direction(layout, centre, name)) != 0
     }
     if not new:
-        new = dict(_by_projection(found))
-    found.directions.update(new)
+        new = dict(_by_projection(layout))
+    layout.directions.update(new)
     return bool(new)
 
 
-def _by_projection(found: Layout) -> Iterator[tuple[str, complex]]:
+def _by_projection(layout: Layout) -> Iterator[tuple[str, complex]]:
     """Points of a body whose velocity has no component along the line to a point that moves across that line."""
-    for body, names in found.members.items():
-        known = [name for name in names if name in found.directions]
-        for name in names if body not in found.centres else ():
-            if name not in found.directions:
-                for other in known:
-                    line = found.points[name] - found.points[other]
-                    if abs(line) > SAME_PLACE and perpendicular(found.directions[other], line / abs(line)):
-                        yield name, found.directions[other]
+    for body, names in layout.members.items():
+        known = [name for name in names if name in layout.directions]
+        for name in names if body not in layout.centres else ():
+            if name not in layout.directions:
+                for base in known:
+                    line = layout.points[name] - layout.points[base]
+                    if abs(line) > SAME_PLACE and perpendicular(layout.directions[base], line / abs(line)):
+                        yield name, layout.directions[base]
 
 
-def _direction(found: Layout, centre: InstantCentre, name: str) -> complex:
+def _direction(layout: Layout, centre: InstantCentre, name: str) -> complex:
     if centre.rule == "translation":
         return centre.direction
-    if found.is_centre(centre, name):
+    if layout.is_centre(centre, name):
         return 0j
-    arm = found.arm(centre, name)
+    arm = layout.arm(centre, name)
     return 1j * arm / abs(arm)
 
 
 def _pairs(names: list[str]) -> Iterator[tuple[str, str]]:
-    for index, one in enumerate(names):
-        for other in names[index + 1 :]:
-            yield one, other
+    for index, first in enumerate(names):
+        for second in names[index + 1 :]:
+            yield first, second

@@ -54,46 +54,46 @@ def closed_form(
     known = [leg for leg in legs_of(loop) if leg not in legs]
     vectors = []
     for axis in range(2):
-        fixed = plus(loop.one.fixed[axis], minus(loop.other.fixed[axis]))
+        fixed = plus(loop.outward.fixed[axis], minus(loop.back.fixed[axis]))
         if fixed != NOTHING:
             vectors.append(LoopVector(fixed, 0.0, X_AXIS, axis))
     vectors += known
-    for one, other in permutations(unknown):
-        own = [leg for leg in legs if isinstance(one, Turn) and leg.direction.body == one.body]
+    for turn, second in permutations(unknown):
+        own = [leg for leg in legs if isinstance(turn, Turn) and leg.direction.body == turn.body]
         rest = [leg for leg in legs if leg not in own]
-        if not isinstance(one, Turn):
+        if not isinstance(turn, Turn):
             continue
-        if isinstance(other, Turn) and len(own) == len(rest) == 1 and all(leg.way is None for leg in legs):
+        if isinstance(second, Turn) and len(own) == len(rest) == 1 and all(leg.way is None for leg in legs):
             return _two_angles(k, loop.point, vectors, own[0], rest[0])
-        if isinstance(other, WayAlong) and len(own) == len(rest) == 1 and own[0].way is None:
-            return _angle_and_way(k, vectors, own[0], rest[0], other)
-        ways = [leg for leg in own if leg.way == other]
-        if isinstance(other, WayAlong) and not rest and len(ways) == 1 and len(own) <= 2:
-            return _line_that_turns(k, loop.point, vectors, ways[0], [leg for leg in own if leg not in ways], other)
+        if isinstance(second, WayAlong) and len(own) == len(rest) == 1 and own[0].way is None:
+            return _angle_and_way(k, vectors, own[0], rest[0], second)
+        ways = [leg for leg in own if leg.way == second]
+        if isinstance(second, WayAlong) and not rest and len(ways) == 1 and len(own) <= 2:
+            return _line_that_turns(k, loop.point, vectors, ways[0], [leg for leg in own if leg not in ways], second)
     return ()
 
 
 def _two_angles(
-    k: RateFormulas, point: str, vectors: list[LoopVector], one: LoopVector, other: LoopVector
+    k: RateFormulas, point: str, vectors: list[LoopVector], e1: LoopVector, e2: LoopVector
 ) -> tuple[str, ...]:
     """e₁ lies at the cosine rule's corner from d = −k, of the sense of l₁; e₂ leads from its tip back."""
-    first, second = (leg.value * cmath.exp(1j * k.linked.heading(leg.direction)) for leg in (one, other))
+    first, second = (leg.value * cmath.exp(1j * k.linked.heading(leg.direction)) for leg in (e1, e2))
     if abs(cross(first, second)) < FLAT * abs(first) * abs(second):
         return ()
-    lines, x, y = _lead(k, point, [_turned(vector, -one.value) for vector in vectors], (one, other))
-    l_1, l_2 = (signed(leg.value, leg.length) for leg in (one, other))
-    d = k.derivation.q.define(_number(one, other), sqrt(plus(square(x), square(y))), Symbol("d", point))
+    lines, x, y = _lead(k, point, [_turned(vector, -e1.value) for vector in vectors], (e1, e2))
+    l_1, l_2 = (signed(leg.value, leg.length) for leg in (e1, e2))
+    d = k.derivation.q.define(_number(e1, e2), sqrt(plus(square(x), square(y))), Symbol("d", point))
     corner = acos((l_1**2 + d**2 - l_2**2) / (2 * l_1 * d))
-    angle = _angle(k, one, atan2(y, x) + signed(cross(first + second, first) or 1.0, corner))
-    tip = [LoopVector(minus(l_1), 0.0, one.direction)]
+    angle = _angle(k, e1, atan2(y, x) + signed(cross(first + second, first) or 1.0, corner))
+    tip = [LoopVector(minus(l_1), 0.0, e1.direction)]
     rest = (plus(part, k.component(tip, axis)) for axis, part in (("x", x), ("y", y)))
-    x, y = (part if one.value * other.value > 0 else minus(part) for part in rest)
-    return *lines, d.id, angle, _angle(k, other, atan2(y, x))
+    x, y = (part if e1.value * e2.value > 0 else minus(part) for part in rest)
+    return *lines, d.id, angle, _angle(k, e2, atan2(y, x))
 
 
-def _number(one: LoopVector, other: LoopVector, *axis: int) -> str:
+def _number(e1: LoopVector, e2: LoopVector, *axis: int) -> str:
     """The id of the distance of the outer ends of two legs, or of its component along an axis."""
-    return ids.loop_distance(",".join(map(str, (0, one.direction.body, other.direction.body, *axis))))
+    return ids.loop_distance(",".join(map(str, (0, e1.direction.body, e2.direction.body, *axis))))
 
 
 def _lead(
@@ -112,19 +112,19 @@ def _lead(
 
 
 def _angle_and_way(
-    k: RateFormulas, vectors: list[LoopVector], rod: LoopVector, way: LoopVector, of: WayAlong
+    k: RateFormulas, vectors: list[LoopVector], rod: LoopVector, slide: LoopVector, of: WayAlong
 ) -> tuple[str, ...]:
     """sin(φ − α) = the distance of the known legs from the line over l."""
-    along, across = ([LoopVector(ONE, 1.0, way.direction, quarters)] for quarters in range(2))
-    now = math.remainder(k.linked.heading(rod.direction) - k.linked.heading(way.direction), 2 * math.pi)
+    along, across = ([LoopVector(ONE, 1.0, slide.direction, quarters)] for quarters in range(2))
+    now = math.remainder(k.linked.heading(rod.direction) - k.linked.heading(slide.direction), 2 * math.pi)
     if abs(math.cos(now)) < FLAT:
         return ()
     legs = [_turned(vector, -rod.value) for vector in vectors]
     dip = asin(over(k.dot(legs, across), signed(rod.value, rod.length)))
     from_line = dip if math.cos(now) > 0 else STRAIGHT - dip
-    α = k.linked.angle(way.direction)
+    α = k.linked.angle(slide.direction)
     angle = _angle(k, rod, from_line if is_zero(α) else plus(α, from_line))
-    tip = [_turned(vector, 1.0 if _is_reversed(way) else -1.0) for vector in (*vectors, rod)]
+    tip = [_turned(vector, 1.0 if _is_reversed(slide) else -1.0) for vector in (*vectors, rod)]
     s = k.derivation.q.define(
         k.linked.way_id(of),
         k.dot(tip, along),
@@ -135,21 +135,21 @@ def _angle_and_way(
 
 
 def _line_that_turns(
-    k: RateFormulas, point: str, vectors: list[LoopVector], way: LoopVector, off: list[LoopVector], of: WayAlong
+    k: RateFormulas, point: str, vectors: list[LoopVector], slide: LoopVector, off: list[LoopVector], of: WayAlong
 ) -> tuple[str, ...]:
     """|d|² = s² + h², and the line lies at the angle of d less that of s and h."""
-    if abs(way.value) < FLAT * math.hypot(way.value, *(leg.value for leg in off)):
+    if abs(slide.value) < FLAT * math.hypot(slide.value, *(leg.value for leg in off)):
         return ()
-    sense = 1.0 if _is_reversed(way) else -1.0
-    lines, x, y = _lead(k, point, [_turned(vector, sense) for vector in vectors], (way, way))
+    sense = 1.0 if _is_reversed(slide) else -1.0
+    lines, x, y = _lead(k, point, [_turned(vector, sense) for vector in vectors], (slide, slide))
     h = minus(signed(sense, off[0].length)) if off else NOTHING
     value, symbol = k.linked.read_off[k.linked.way_id(of)]
     size = sqrt(plus(square(x), square(y), minus(square(h))))
     s = k.derivation.q.define(k.linked.way_id(of), signed(value, size), symbol)
     whole = atan2(y, x)
     if off:
-        return *lines, s.id, _angle(k, way, whole - atan2(h, s))
-    return *lines, s.id, _angle(k, way, whole if value > 0 else whole + STRAIGHT)
+        return *lines, s.id, _angle(k, slide, whole - atan2(h, s))
+    return *lines, s.id, _angle(k, slide, whole if value > 0 else whole + STRAIGHT)
 
 
 def _angle(k: RateFormulas, leg: LoopVector, heading: Expression) -> str:
@@ -159,8 +159,8 @@ def _angle(k: RateFormulas, leg: LoopVector, heading: Expression) -> str:
     return k.derivation.q.define(ids.formula_angle(body), formula, Symbol("φ", k.linked.letter(body))).id
 
 
-def _is_reversed(way: LoopVector) -> bool:
-    return not isinstance(way.length, Ref)
+def _is_reversed(slide: LoopVector) -> bool:
+    return not isinstance(slide.length, Ref)
 
 
 def _turned(vector: LoopVector, sense: float) -> LoopVector:

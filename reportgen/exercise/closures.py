@@ -103,11 +103,11 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Closure:
-    """A point that is reached in two ways."""
+    """A point that is reached in two ways: outward by one, and back by the other the loop closes."""
 
     point: str
-    one: Place
-    other: Place
+    outward: Place
+    back: Place
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,8 +177,8 @@ class Linked:
                 case file.Translation(body=body):
                     self._turn_alike(body, GROUND)
 
-    def _turn_alike(self, one: int, other: int) -> None:
-        least, most = sorted((self.turning[one], self.turning[other]))
+    def _turn_alike(self, first_body: int, second_body: int) -> None:
+        least, most = sorted((self.turning[first_body], self.turning[second_body]))
         self.turning |= {body: least for body, leader in self.turning.items() if leader == most}
 
     def direction(self, body: int, of: complex) -> tuple[Direction, int]:
@@ -207,8 +207,8 @@ class Linked:
         q, id = self.derivation.q, ids.formula_angle(body)
         return q.find(id) or q.give(id, self.reference[body], Symbol("φ", self.letter(body)), exact=False)
 
-    def way_id(self, way: WayAlong) -> str:
-        return ids.slide_way(f"{self.lines[way.number].body},{way.number}")
+    def way_id(self, slide: WayAlong) -> str:
+        return ids.slide_way(f"{self.lines[slide.number].body},{slide.number}")
 
     def way(self, of: Expression) -> Expression:
         """A length with the ways in it put in the derivation."""
@@ -230,11 +230,11 @@ class Linked:
             return size if offset >= 0 or is_zero(size) else minus(size)
         return plus(start, size if offset > 0 else minus(size))
 
-    def between(self, one: Direction, other: Direction) -> Expression:
+    def between(self, start_direction: Direction, end_direction: Direction) -> Expression:
         """The angle from one direction to another."""
-        if one.body == other.body:
-            return self._from(NOTHING, math.remainder(other.offset - one.offset, 2 * math.pi))
-        start, end = self.angle(one), self.angle(other)
+        if start_direction.body == end_direction.body:
+            return self._from(NOTHING, math.remainder(end_direction.offset - start_direction.offset, 2 * math.pi))
+        start, end = self.angle(start_direction), self.angle(end_direction)
         return minus(start) if is_zero(end) else between(end, start)
 
     # --- lengths
@@ -326,11 +326,11 @@ class Linked:
         base = "" if on_ground else self._base(line)
         there = points[line.point] - (points[base] if base else 0j)
         direction, sense = self.direction(line.on, line.along)
-        way, relative = WayAlong(number), "" if on_ground else "r"
+        slide, relative = WayAlong(number), "" if on_ground else "r"
         gone = sense * dot(line.along, there)
-        id = self.way_id(way)
+        id = self.way_id(slide)
         self.read_off[id] = (gone, Symbol("s", line.point, relative))
-        legs = [LoopVector(Ref(id), gone, direction, way=way)]
+        legs = [LoopVector(Ref(id), gone, direction, way=slide)]
         if abs(off := sense * cross(line.along, there)) > SAME_PLACE:
             id = ids.loop_distance(f"{line.body},{number}")
             h = q.give(id, abs(off), Symbol("h", line.point, relative), exact=is_short(abs(off)))
@@ -342,7 +342,7 @@ class Linked:
         else:
             self._reach(line.point, (self.places[base] if base else Place()).by(*legs))
         if isinstance(joint, file.RollingOnLine):
-            self._roll(joint, way, self.lines[number])
+            self._roll(joint, slide, self.lines[number])
 
     def _base(self, line: StraightWay) -> str:
         """The point of a line's body that ways along it count from: one that is reached, and on the line at best."""
@@ -355,14 +355,14 @@ class Linked:
 
         return min(known, key=rank)
 
-    def _roll(self, joint: file.RollingOnLine, way: WayAlong, line: StraightWay) -> None:
+    def _roll(self, joint: file.RollingOnLine, slide: WayAlong, line: StraightWay) -> None:
         """ṡ = R (ω of the line − ω of the disc), of a disc to the left of the line."""
         layout = self.derivation.layout
         touch = layout.geometry.contact_on_line(joint)
         side = math.copysign(1.0, cross(line.along, layout.points[line.point] - touch))
         radius = self._radius(joint.disc, layout.contacts[layout.given.joints.index(joint)])
         value = side * self.derivation.q.si(radius)
-        relation: Relation = {way: (ONE, 1.0), Turn(self.turning[joint.disc]): (signed(side, radius), value)}
+        relation: Relation = {slide: (ONE, 1.0), Turn(self.turning[joint.disc]): (signed(side, radius), value)}
         if leader := self.turning[joint.on]:
             relation[Turn(leader)] = minus(signed(side, radius)), -value
         self.relations.append(relation)
@@ -374,19 +374,19 @@ class Linked:
 
     def _ends(self, joint: file.Cord | file.RollingOnCircle | file.Gears | file.Belt) -> tuple[str, str]:
         if isinstance(joint, file.Cord):
-            one, other = joint.points
-            return one, other
+            start, end = joint.points
+            return start, end
         first, second = self.derivation.layout.geometry.discs(joint)
         return first.centre, second.centre
 
-    def _apart(self, one: str, other: str) -> int:
+    def _apart(self, base: str, tip: str) -> int:
         """A rod between two points, one of which is reached; its number."""
-        if other in self.places and one not in self.places:
-            one, other = other, one
+        if tip in self.places and base not in self.places:
+            base, tip = tip, base
         number = 1 + max((*self.turning, *self.rods))
-        self.rods[number] = one, other
+        self.rods[number] = base, tip
         self.turning[number] = number
-        self._reach(other, self.places[one].by(*self.arm(number, one, other)))
+        self._reach(tip, self.places[base].by(*self.arm(number, base, tip)))
         return number
 
     def _arm_of(self, *ends: str) -> int | None:
@@ -426,13 +426,13 @@ class Linked:
 
 def legs_of(closure: Closure) -> Iterator[LoopVector]:
     """The legs of a loop, one way and back, without those that both ways have."""
-    one, other = list(closure.one.legs), list(closure.other.legs)
-    for leg in closure.one.legs:
-        if leg in other:
-            one.remove(leg)
-            other.remove(leg)
-    yield from one
-    yield from (leg.reversed() for leg in other)
+    outward, back = list(closure.outward.legs), list(closure.back.legs)
+    for leg in closure.outward.legs:
+        if leg in back:
+            outward.remove(leg)
+            back.remove(leg)
+    yield from outward
+    yield from (leg.reversed() for leg in back)
 
 
 def given_direction(degrees: float, size: float) -> Direction:

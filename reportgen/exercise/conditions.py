@@ -80,19 +80,19 @@ def _dot(a: complex, b: complex) -> float:
 
 
 def _between(
-    name: str, direction: complex, point: complex, one: int, other: int, drift: Drift | None = no_drift
+    name: str, direction: complex, point: complex, body: int, partner: int, drift: Drift | None = no_drift
 ) -> Condition:
     """Two bodies' points at one place do not part along a direction."""
-    components = (Component(one, point, direction), Component(other, point, -direction))
+    components = (Component(body, point, direction), Component(partner, point, -direction))
     return Condition(name, components, drift=drift)
 
 
 # --- joints ---------------------------------------------------------------------------------------
 
 
-def pin(name: str, point: complex, one: int, other: int) -> tuple[Condition, ...]:
+def pin(name: str, point: complex, body: int, partner: int) -> tuple[Condition, ...]:
     """Two bodies turn about a common point."""
-    return tuple(_between(name, axis, point, one, other) for axis in (1 + 0j, 1j))
+    return tuple(_between(name, axis, point, body, partner) for axis in (1 + 0j, 1j))
 
 
 def slot(name: str, point: complex, body: int, carrier: int, angle: complex) -> tuple[Condition, ...]:
@@ -108,21 +108,21 @@ def slot(name: str, point: complex, body: int, carrier: int, angle: complex) -> 
     return (_between(name, 1j * angle, point, body, carrier, coriolis),)
 
 
-def no_turning(name: str, one: int, other: int = GROUND) -> tuple[Condition, ...]:
+def no_turning(name: str, body: int, partner: int = GROUND) -> tuple[Condition, ...]:
     """Two bodies turn alike; beside the ground, a body is in translation."""
-    return (Condition(name, turns=((one, 1.0), (other, -1.0))),)
+    return (Condition(name, turns=((body, 1.0), (partner, -1.0))),)
 
 
-def distance(name: str, first: complex, one: int, second: complex, other: int) -> tuple[Condition, ...]:
+def distance(name: str, first: complex, body: int, second: complex, partner: int) -> tuple[Condition, ...]:
     """Two points, each of its own body, keep their distance: a rod between them, or a taut cord."""
     span = first - second
     line = span / abs(span)
 
     def centripetal(motion: Velocities) -> float:
-        apart = motion.at(one, first) - motion.at(other, second)
+        apart = motion.at(body, first) - motion.at(partner, second)
         return -(abs(apart) ** 2 - _dot(line, apart) ** 2) / abs(span)
 
-    return (Condition(name, (Component(one, first, line), Component(other, second, -line)), drift=centripetal),)
+    return (Condition(name, (Component(body, first, line), Component(partner, second, -line)), drift=centripetal),)
 
 
 def rolling_on_line(
@@ -138,25 +138,25 @@ def rolling_on_line(
 
 
 def rolling_on_circle(
-    name: str, disc: int, centre: complex, other: int, other_centre: complex, contact: complex
+    name: str, disc: int, centre: complex, partner: int, other_centre: complex, contact: complex
 ) -> tuple[Condition, ...]:
     """A disc rolls without slip on the outside or the inside of a circle of another body."""
     return (
-        *distance(name, centre, disc, other_centre, other),
-        *meshing(name, disc, centre, other, other_centre, contact),
+        *distance(name, centre, disc, other_centre, partner),
+        *meshing(name, disc, centre, partner, other_centre, contact),
     )
 
 
 def meshing(
-    name: str, disc: int, centre: complex, other: int, other_centre: complex, contact: complex
+    name: str, disc: int, centre: complex, partner: int, other_centre: complex, contact: complex
 ) -> tuple[Condition, ...]:
     """Two gears whose pitch circles touch at `contact`; something else keeps their centres apart."""
     along = 1j * (centre - other_centre) / abs(centre - other_centre)
-    return (_between(name, along, contact, disc, other),)
+    return (_between(name, along, contact, disc, partner),)
 
 
 def belt(
-    name: str, ends: tuple[complex, complex], centres: tuple[complex, complex], one: int, other: int
+    name: str, ends: tuple[complex, complex], centres: tuple[complex, complex], driving: int, driven: int
 ) -> tuple[Condition, ...]:
     """A belt runs straight from a point of one disc to one of another without slip, and keeps its length.
 
@@ -166,11 +166,11 @@ def belt(
     line = span / abs(span)
 
     def turning(motion: Velocities) -> float:
-        first, second = motion.at(one, centres[0]), motion.at(other, centres[1])
+        first, second = motion.at(driving, centres[0]), motion.at(driven, centres[1])
         rate = _dot(1j * between, second - first) / _dot(between, between)
         return -_dot(rate * (1j * line), first - second)
 
-    return (Condition(name, (Component(one, ends[0], line), Component(other, ends[1], -line)), drift=turning),)
+    return (Condition(name, (Component(driving, ends[0], line), Component(driven, ends[1], -line)), drift=turning),)
 
 
 # --- given quantities -----------------------------------------------------------------------------

@@ -127,13 +127,13 @@ class Derivation:
     def motion(self) -> InstantMotion:
         return self.layout.motion
 
-    def length(self, one: str, other: str, one_at: complex | None = None) -> Ref:
+    def length(self, start_name: str, end_name: str, one_at: complex | None = None) -> Ref:
         """The distance of two points, by the name l.OA."""
-        id = ids.length(one, other)
-        if found := self.q.find(id) or self.q.find(ids.length(other, one)):
-            return found
-        start = self.layout.points[one] if one_at is None else one_at
-        value = abs(self.layout.points[other] - start)
+        id = ids.length(start_name, end_name)
+        if known := self.q.find(id) or self.q.find(ids.length(end_name, start_name)):
+            return known
+        start = self.layout.points[start_name] if one_at is None else one_at
+        value = abs(self.layout.points[end_name] - start)
         return self.q.give(id, value, exact=is_short(value))
 
     def given(self, id: str, value: float) -> Ref:
@@ -191,8 +191,8 @@ def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
 
 def components(q: Sheet, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
     """The components along an axis of those vectors that have one."""
-    found = (along(q, vector, axis) for vector in vectors)
-    return [one for one in found if one is not None]
+    projected = (along(q, vector, axis) for vector in vectors)
+    return [one for one in projected if one is not None]
 
 
 def solved_for(
@@ -263,9 +263,9 @@ class Projected:
         left, right = self.equation.left, self.equation.right
         here, there = (left, right) if vector in left else (right, left)
         others = [one for one in here if one != vector]
-        found = solved_for(self.derivation.q, vector.direction, axis, there, others)
+        size = solved_for(self.derivation.q, vector.direction, axis, there, others)
         self.axes += (Axis(letter, axis if letter == "ξ" else towards(axis, vector.direction), point),)
-        return self.then(self.derivation.q.define(vector.id, found, symbol))
+        return self.then(self.derivation.q.define(vector.id, size, symbol))
 
     def find_sum(self, what: str, point: str) -> None:
         """Enters the size of what the right side adds up to, v or a of a point, from its components along x and y."""

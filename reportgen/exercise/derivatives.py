@@ -77,9 +77,9 @@ class RateFormulas:
         of = motion.v if rate.order == VELOCITY else motion.a
         match rate.of:
             case Turn(body) if body in self.linked.rods:
-                one, other = self.linked.rods[body]
-                reach = points[other] - points[one]
-                return float(cross(reach, of(other) - of(one)) / abs(reach) ** 2)
+                start, tip = self.linked.rods[body]
+                reach = points[tip] - points[start]
+                return float(cross(reach, of(tip) - of(start)) / abs(reach) ** 2)
             case Turn(body):
                 return motion.omega(body) if rate.order == VELOCITY else motion.epsilon(body)
             case WayAlong(number):
@@ -129,13 +129,13 @@ class RateFormulas:
 
     # --- products of vectors, as they are written
 
-    def cross(self, one: Sequence[LoopVector], other: Sequence[LoopVector]) -> Expression:
+    def cross(self, a_terms: Sequence[LoopVector], b_terms: Sequence[LoopVector]) -> Expression:
         """Σ a × b."""
-        return plus(*(self._product(a, b, b.quarters - a.quarters) for a in one for b in other))
+        return plus(*(self._product(a, b, b.quarters - a.quarters) for a in a_terms for b in b_terms))
 
-    def dot(self, one: Sequence[LoopVector], other: Sequence[LoopVector]) -> Expression:
+    def dot(self, a_terms: Sequence[LoopVector], b_terms: Sequence[LoopVector]) -> Expression:
         """Σ a · b; cos is sin with a right angle more."""
-        return plus(*(self._product(a, b, b.quarters - a.quarters + 1) for a in one for b in other))
+        return plus(*(self._product(a, b, b.quarters - a.quarters + 1) for a in a_terms for b in b_terms))
 
     def _product(self, a: LoopVector, b: LoopVector, quarters: int) -> Expression:
         between = self.linked.between(a.direction, b.direction)
@@ -161,9 +161,9 @@ class RateFormulas:
     def component(self, vectors: Iterable[LoopVector], axis: str, by_symbol: bool = False) -> Expression:
         """Σ along x or y."""
         terms = []
-        for one in vectors:
-            turned = self._trigonometric(self.linked.angle(one.direction), one.quarters + (axis == "x"))
-            factors = self._ordered(self.product(one.rates, by_symbol), self.linked.way(one.length))
+        for vector in vectors:
+            turned = self._trigonometric(self.linked.angle(vector.direction), vector.quarters + (axis == "x"))
+            factors = self._ordered(self.product(vector.rates, by_symbol), self.linked.way(vector.length))
             terms.append(times(*factors, turned))
         return plus(*terms)
 
@@ -177,7 +177,7 @@ class RateFormulas:
     def closure(self, closure: Closure) -> tuple[Chain, ...]:
         """A loop along x and y."""
         sides = []
-        for place in (closure.one, closure.other):
+        for place in (closure.outward, closure.back):
             sides.append(
                 [plus(fixed, self.component(place.legs, axis)) for axis, fixed in zip("xy", place.fixed, strict=True)]
             )

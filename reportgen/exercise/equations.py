@@ -82,32 +82,32 @@ class EquationsOfMotion(RateFormulas):
 
     def resolved(self, vectors: Sequence[LoopVector]) -> list[LoopVector]:
         """Spokes with the unknown rates put in that relations give by others."""
-        found = list(vectors)
+        resolved = list(vectors)
         for rate, by in self._eliminated().items():
-            if rate in self.unknown(found):
-                rest = [one for one in found if one.rates != (rate,)]
-                for vector in (one for one in found if one.rates == (rate,)):
-                    for other, (factor, value) in by.items():
+            if rate in self.unknown(resolved):
+                rest = [one for one in resolved if one.rates != (rate,)]
+                for vector in (one for one in resolved if one.rates == (rate,)):
+                    for given_by, (factor, value) in by.items():
                         whole = times(vector.length, factor)
-                        rest.append(replace(vector, length=whole, value=vector.value * value, rates=(other,)))
-                found = rest
-        return found
+                        rest.append(replace(vector, length=whole, value=vector.value * value, rates=(given_by,)))
+                resolved = rest
+        return resolved
 
     def _eliminated(self) -> dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]]:
         """Of each relation with several unknown rates one of them, by the others: a way, else the last angle."""
-        found: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
+        eliminated: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
         for relation in self.linked.relations:
             rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
             unknown = [one for one in rates if one not in self.known]
             if len(unknown) < 2:
                 continue
-            free = [one for one in unknown if one not in found]
+            free = [one for one in unknown if one not in eliminated]
             chosen = next((one for one in free if isinstance(one.of, WayAlong)), free[-1] if free else None)
             if chosen is None:
                 continue
             factor, value = rates.pop(chosen)
-            found[chosen] = {one: (minus(over(by, factor)), -size / value) for one, (by, size) in rates.items()}
-        return found
+            eliminated[chosen] = {one: (minus(over(by, factor)), -size / value) for one, (by, size) in rates.items()}
+        return eliminated
 
     def solve(self, sums: list[VectorSum]) -> None:
         """All rates that follow, each sum or relation as soon as it has few enough unknown ones."""
@@ -127,26 +127,26 @@ class EquationsOfMotion(RateFormulas):
         return False
 
     def _by_sum(self, waiting: list[VectorSum]) -> bool:
-        for one in waiting:
-            vectors = self.resolved(one.vectors)
+        for whole in waiting:
+            vectors = self.resolved(whole.vectors)
             unknown = self.unknown(vectors)
             if len(unknown) > 2:
                 continue
-            placed, rows = self._place(one, unknown), self.rows(vectors)
-            found: Formulas | None = {}
+            placed, rows = self._place(whole, unknown), self.rows(vectors)
+            formulas: Formulas | None = {}
             if len(unknown) == 1:
-                found = self._single(vectors, unknown[0])
+                formulas = self._single(vectors, unknown[0])
             elif unknown:
-                vectors = self._gathered(one.point, vectors, unknown)
-                found = self._cramer(vectors, *unknown)
-            if found is not None:
-                waiting.remove(one)
-                if found:
-                    system = (*self._loop(one), *rows)
-                    read = self._read(one.vectors, one.loop)
+                vectors = self._gathered(whole.point, vectors, unknown)
+                formulas = self._cramer(vectors, *unknown)
+            if formulas is not None:
+                waiting.remove(whole)
+                if formulas:
+                    system = (*self._loop(whole), *rows)
+                    read = self._read(whole.vectors, whole.loop)
                     right = tuple(id for part in vectors for id in refs(part.length) if id in ids.right_side)
-                    lines = (*placed, *dict.fromkeys(right), *self._define(found))
-                    self._step(one.kind, lines, system, read=read, point=one.point)
+                    lines = (*placed, *dict.fromkeys(right), *self._define(formulas))
+                    self._step(whole.kind, lines, system, read=read, point=whole.point)
                 return True
         return False
 
@@ -158,22 +158,22 @@ class EquationsOfMotion(RateFormulas):
         named = {axis: ids.right_side(RATES[self.order], f"{point}{axis}") for axis in "xy"}
         if any(id in self.derivation.q for id in named.values()):
             return vectors
-        found = [one for one in vectors if one not in rest]
+        gathered = [one for one in vectors if one not in rest]
         for number, (axis, id) in enumerate(named.items()):
             right = minus(self.component(rest, axis))
             if right != NOTHING:
                 kind = vocabulary.row(ids.POINT_RATE[RATES[self.order]](point)).kind
                 b = self.derivation.q.define(id, right, Symbol("b", f"{point}{axis}"), kind)
-                found.append(LoopVector(minus(b), 0.0, X_AXIS, number))
-        return found
+                gathered.append(LoopVector(minus(b), 0.0, X_AXIS, number))
+        return gathered
 
-    def _place(self, one: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
+    def _place(self, whole: VectorSum, unknown: Sequence[CoordinateRate]) -> tuple[str, ...]:
         """The coordinates of a loop by the others, where that is a closed form; the rest of them is read off."""
         lines: tuple[str, ...] = ()
         of: list[Coordinate] = [rate.of for rate in unknown if not isinstance(rate.of, str)]
-        if one.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
-            legs = [leg for leg in legs_of(one.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
-            lines = closed_form(self, one.loop, legs, of)
+        if whole.loop is not None and self.order == VELOCITY and len(of) == 2 and all(map(self._is_open, of)):
+            legs = [leg for leg in legs_of(whole.loop) if {Turn(leg.direction.body), leg.way} & {*of}]
+            lines = closed_form(self, whole.loop, legs, of)
         return lines
 
     def _is_open(self, of: Coordinate) -> bool:
@@ -181,9 +181,9 @@ class EquationsOfMotion(RateFormulas):
         id = ids.formula_angle(of.body) if isinstance(of, Turn) else self.linked.way_id(of)
         return id not in self.derivation.q
 
-    def _loop(self, one: VectorSum) -> tuple[Chain, ...]:
+    def _loop(self, whole: VectorSum) -> tuple[Chain, ...]:
         """The loop itself, told with its first derivative."""
-        return () if one.loop is None or self.order != VELOCITY else self.closure(one.loop)
+        return () if whole.loop is None or self.order != VELOCITY else self.closure(whole.loop)
 
     def _single(self, vectors: Sequence[LoopVector], rate: CoordinateRate) -> Formulas | None:
         """u x + k = 0: along u, or on the axis along which u is longer."""
@@ -197,16 +197,16 @@ class EquationsOfMotion(RateFormulas):
         axis = "x" if abs(whole.real) > abs(whole.imag) else "y"
         return {rate: over(minus(self.component(k, axis)), self.component(u, axis))}
 
-    def _cramer(self, vectors: Sequence[LoopVector], one: CoordinateRate, other: CoordinateRate) -> Formulas | None:
+    def _cramer(self, vectors: Sequence[LoopVector], x_rate: CoordinateRate, y_rate: CoordinateRate) -> Formulas | None:
         """u x + w y + k = 0: x = −(k × w)/(u × w), y = −(u × k)/(u × w)."""
-        u, w, k = self.part(vectors, one), self.part(vectors, other), self._rest(vectors, [one, other])
+        u, w, k = self.part(vectors, x_rate), self.part(vectors, y_rate), self._rest(vectors, [x_rate, y_rate])
         first, second = sum(map(self.vector, u)), sum(map(self.vector, w))
         if abs(cross(first, second)) < NEGLIGIBLE * abs(first) * abs(second) or not (first and second):
             return None
         to_u, to_w = ([self._bare(side[0])] if len(side) == 1 else side for side in (u, w))
         return {
-            one: over(minus(self.cross(k, to_w)), self.cross(u, to_w)),
-            other: over(minus(self.cross(to_u, k)), self.cross(to_u, w)),
+            x_rate: over(minus(self.cross(k, to_w)), self.cross(u, to_w)),
+            y_rate: over(minus(self.cross(to_u, k)), self.cross(to_u, w)),
         }
 
     @staticmethod
@@ -233,14 +233,14 @@ class EquationsOfMotion(RateFormulas):
                 )
                 right = np.array([[-row.get(rates, 0.0) for rates in known] for row in rows])
                 shares = np.linalg.lstsq(left, right, rcond=None)[0]
-                found = {rate: self._by_shares(known, row) for rate, row in zip(unknown, shares, strict=True)}
+                formulas = {rate: self._by_shares(known, row) for rate, row in zip(unknown, shares, strict=True)}
                 loops = tuple(row for one in some for row in self._loop(one))
                 system = (*loops, *(row for vectors in resolved for row in self.rows(vectors)))
                 results = tuple(self._result(rate) for rate in unknown)
-                for one in some:
-                    waiting.remove(one)
+                for whole_sum in some:
+                    waiting.remove(whole_sum)
                 read = tuple(dict.fromkeys(id for one in some for id in self._read(one.vectors, one.loop)))
-                self._step("system", self._define(found), system, results, read)
+                self._step("system", self._define(formulas), system, results, read)
                 return True
         return False
 
@@ -249,9 +249,9 @@ class EquationsOfMotion(RateFormulas):
         rows = []
         for vectors in sums:
             whole: dict[tuple[CoordinateRate, ...], complex] = {}
-            for one in vectors:
-                if set(one.rates) & {*unknown} or self.product(one.rates) != NOTHING:
-                    whole[one.rates] = whole.get(one.rates, 0j) + self.vector(one)
+            for vector in vectors:
+                if set(vector.rates) & {*unknown} or self.product(vector.rates) != NOTHING:
+                    whole[vector.rates] = whole.get(vector.rates, 0j) + self.vector(vector)
             rows += [{rates: of.real for rates, of in whole.items()}, {rates: of.imag for rates, of in whole.items()}]
         return rows
 
@@ -266,10 +266,10 @@ class EquationsOfMotion(RateFormulas):
 
     # --- what is put in the derivation
 
-    def _define(self, found: Mapping[CoordinateRate, Expression]) -> tuple[str, ...]:
+    def _define(self, formulas: Mapping[CoordinateRate, Expression]) -> tuple[str, ...]:
         """Enters sizes of rates; the ids of those that were not in the derivation."""
         lines = []
-        for rate, formula in found.items():
+        for rate, formula in formulas.items():
             id, sense = self.id(rate), 1.0 if self.value(rate) >= 0 else -1.0
             if id not in self.derivation.q:
                 whole = formula if isinstance(formula, Ref) or sense > 0 else self._opposite(formula)
@@ -288,12 +288,12 @@ class EquationsOfMotion(RateFormulas):
 
     def _read(self, vectors: Iterable[LoopVector], loop: Closure | None = None) -> tuple[str, ...]:
         """The angles and lengths of a sum that are read off the figure."""
-        told: dict[str, None] = {}
-        legs = [] if loop is None else [leg for place in (loop.one, loop.other) for leg in place.legs]
-        for one in (*vectors, *legs):
-            for formula in (self.linked.way(one.length), self.linked.angle(one.direction)):
-                told |= dict.fromkeys(id for id in refs(formula) if any(id in family for family in READ))
-        return tuple(told)
+        read_off: dict[str, None] = {}
+        legs = [] if loop is None else [leg for place in (loop.outward, loop.back) for leg in place.legs]
+        for vector in (*vectors, *legs):
+            for formula in (self.linked.way(vector.length), self.linked.angle(vector.direction)):
+                read_off |= dict.fromkeys(id for id in refs(formula) if any(id in family for family in READ))
+        return tuple(read_off)
 
     def rows(self, vectors: Sequence[LoopVector]) -> tuple[Chain, ...]:
         """A sum along x and y, the unknown rates to the left."""

@@ -310,8 +310,8 @@ class AskedId(Reader):
     """v.B, a.B of a point; omega.2, eps.2, centre.2 of a body."""
 
     def read(self, value: object) -> Asked:
-        found = _ASKED.fullmatch(value) if isinstance(value, str) else None
-        asked = Asked(found["what"], found["of"]) if found else None
+        matched = _ASKED.fullmatch(value) if isinstance(value, str) else None
+        asked = Asked(matched["what"], matched["of"]) if matched else None
         if asked is None or asked.of_body != asked.of.isdigit():
             raise fault("no-asked-quantity", text=str(value))
         return asked
@@ -343,17 +343,17 @@ class Parameters(Part):
     @classmethod
     def _with_symbols(cls, content: Any) -> Any:
         """What may be stated by symbols takes them along to where it is read."""
-        told = content.get("symbols") if isinstance(content, dict) else None
-        if not isinstance(told, dict):
+        table = content.get("symbols") if isinstance(content, dict) else None
+        if not isinstance(table, dict):
             return content
         try:
-            symbols = TypeAdapter(SymbolTable).validate_python(told)
+            symbols = TypeAdapter(SymbolTable).validate_python(table)
         except ValidationError:
             # Told where the symbols themselves are read.
             symbols = {}
         return {
-            key: stated(one, symbols, STATED) if key in {"points", "bodies", "given"} else one
-            for key, one in content.items()
+            key: stated(section, symbols, STATED) if key in {"points", "bodies", "given"} else section
+            for key, section in content.items()
         }
 
     @property
@@ -364,15 +364,15 @@ class Parameters(Part):
     @property
     def slots(self) -> tuple[SlotJoint, ...]:
         """Points that move along lines of moving bodies; of a slider it is the first point of its body."""
-        found = []
+        slots = []
         for joint in self.joints:
             if isinstance(joint, SlotJoint) and joint.on:
-                found.append(joint)
+                slots.append(joint)
             elif isinstance(joint, Slider) and joint.on:
                 point = self.bodies[joint.body].carried[0]
                 slot = SlotJoint.model_construct(type="slot", point=point, body=joint.body, on=joint.on)
-                found.append(slot.model_copy(update={"angle": joint.angle, "along": joint.along}))
-        return tuple(found)
+                slots.append(slot.model_copy(update={"angle": joint.angle, "along": joint.along}))
+        return tuple(slots)
 
     def disc(self, body: int) -> Disc | None:
         return self.bodies[body].disc if body in self.bodies else None

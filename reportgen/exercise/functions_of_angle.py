@@ -82,15 +82,15 @@ def motion_laws(layout: Layout, body: int) -> tuple[float, dict[str, MotionLaw]]
         return None
     if centre is not None and centre.rule == "contact" and disc is not None and disc.centre in layout.slots:
         middle = points[disc.centre]
-        way, own = 1j * (middle - centre.at), dict.fromkeys((disc.centre, *names))
-        return 0.0, {name: MotionLaw(middle, way, points[name] - middle, 0j) for name in own}
-    for one, other in combinations([name for name in names if name in layout.slots], 2):
-        e, f, rod = layout.slots[one], layout.slots[other], points[other] - points[one]
+        track, own = 1j * (middle - centre.at), dict.fromkeys((disc.centre, *names))
+        return 0.0, {name: MotionLaw(middle, track, points[name] - middle, 0j) for name in own}
+    for base, tip in combinations([name for name in names if name in layout.slots], 2):
+        e, f, rod = layout.slots[base], layout.slots[tip], points[tip] - points[base]
         if not parallel(e, f) and abs(rod) > SAME_PLACE:
-            at, φ = meet(points[one], e, points[other], f), cmath.phase(rod)
+            at, φ = meet(points[base], e, points[tip], f), cmath.phase(rod)
             # The first point is at s e from where the lines meet, s = −l (e^{iφ} × f)/(e × f).
             share = abs(rod) * e / (2j * cross(e, f))
-            arms = {name: (points[name] - points[one]) * cmath.exp(-1j * φ) for name in names}
+            arms = {name: (points[name] - points[base]) * cmath.exp(-1j * φ) for name in names}
             ahead, back = share * f.conjugate(), -share * f
             return φ, {name: MotionLaw(at, 0j, ahead + arm, back) for name, arm in arms.items()}
     return None
@@ -102,8 +102,8 @@ def by_equations(derivation: Derivation) -> bool:
         return False
     for body in derivation.layout.members:
         if not derivation.knows(ids.formula_angle(body)):
-            found = motion_laws(derivation.layout, body)
-            if found is not None and not derivation.closed and _enter(derivation, body, *found):
+            laws = motion_laws(derivation.layout, body)
+            if laws is not None and not derivation.closed and _enter(derivation, body, *laws):
                 return True
     return by_loops(derivation)
 
@@ -138,8 +138,8 @@ def _enter(derivation: Derivation, body: int, angle: float, laws: Mapping[str, M
 
     constant = partial(_constant, derivation)
     φ = q.give(ids.formula_angle(body), angle, Symbol("φ", str(body)), exact=False)
-    for one, other in combinations(laws, 2):
-        derivation.length(one, other)
+    for base, tip in combinations(laws, 2):
+        derivation.length(base, tip)
     for name, law in laws.items():
         for axis, place in zip("xy", law.components(φ, constant), strict=True):
             if not isinstance(place, Number):
@@ -158,7 +158,8 @@ def _enter(derivation: Derivation, body: int, angle: float, laws: Mapping[str, M
     if ε is not None:
         for name in laws:
             x, y = (
-                plus(times(ε, one), times(square(ω), two)) for one, two in zip(rates[name], second[name], strict=True)
+                plus(times(ε, x_or_y), times(square(ω), two))
+                for x_or_y, two in zip(rates[name], second[name], strict=True)
             )
             _vector(derivation, line, "a", name, (x, y))
     derivation.steps.append(Step("equations", (φ.id, *lines), body))
@@ -205,8 +206,8 @@ def _acceleration(
 
 
 def _value(derivation: Derivation, part: Expression) -> float:
-    found = evaluate(part, {id: one.values for id, one in derivation.q.families.items()})
-    return float(np.real(np.atleast_1d(found)[0]))
+    evaluated = evaluate(part, {id: one.values for id, one in derivation.q.families.items()})
+    return float(np.real(np.atleast_1d(evaluated)[0]))
 
 
 def _size(derivation: Derivation, parts: Pair) -> Expression:
@@ -225,9 +226,9 @@ def coordinates(layout: Layout) -> int:
     motion = layout.motion
     unknowns = unknowns_of(motion.system)
     sized = {
-        name_of(index, "given", *one.called)
-        for index, one in enumerate(layout.given.given)
-        if not isinstance(one, file.VelocityOf) or one.size is not None
+        name_of(index, "given", *rate.called)
+        for index, rate in enumerate(layout.given.given)
+        if not isinstance(rate, file.VelocityOf) or rate.size is not None
     }
     held = [one for one in motion.system.conditions if one.velocity is not None and one.name not in sized]
     matrix = np.array([unknowns.row(one) for one in held]).reshape(len(held), unknowns.count)
@@ -251,8 +252,8 @@ def by_loops(derivation: Derivation) -> bool:
     _solve(equations, [one for one in given if isinstance(one, file.VelocityOf | file.FromRest)])
     accelerations = [one for one in given if isinstance(one, file.AccelerationOf | file.FromRest)]
     turns = [one for one in given if isinstance(one, file.EpsilonOf)]
-    for one in turns:
-        derivation.given(ids.angular_acceleration(one.body), one.value.si)
+    for turning in turns:
+        derivation.given(ids.angular_acceleration(turning.body), turning.value.si)
     if turns or accelerations:
         equations.order = ACCELERATION
         _solve(equations, accelerations)

@@ -53,11 +53,11 @@ class Reached:
     known: Mapping[Known, complex]
     unknown: Mapping[int, complex]
 
-    def plus(self, other: Reached, factor: float = 1.0) -> Reached:
+    def plus(self, reached: Reached, factor: float = 1.0) -> Reached:
         known, unknown = dict(self.known), dict(self.unknown)
-        for one, vector in other.known.items():
-            known[one] = known.get(one, 0j) + factor * vector
-        for body, vector in other.unknown.items():
+        for quantity, vector in reached.known.items():
+            known[quantity] = known.get(quantity, 0j) + factor * vector
+        for body, vector in reached.unknown.items():
             unknown[body] = unknown.get(body, 0j) + factor * vector
         return Reached(known, unknown)
 
@@ -303,13 +303,13 @@ def _ratio(trial: Derivation, id: str, shaft: str) -> Ratio:
     if id == shaft:
         return (), ()
     match trial.q.families[id].definition:
-        case Ref(other):
-            return _ratio(trial, other, shaft)
+        case Ref(leader):
+            return _ratio(trial, leader, shaft)
         case Product((Ref(rate), Ref() as length)):
             above, below = _ratio(trial, rate, shaft)
             return (*above, length), below
         case Fraction(Ref(speed), Ref() as length):
             above, below = _ratio(trial, speed, shaft)
             return above, (*below, length)
-        case other:
-            raise ValueError(f"{id} is no multiple of {shaft}: {other}")
+        case leader:
+            raise ValueError(f"{id} is no multiple of {shaft}: {leader}")

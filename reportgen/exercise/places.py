@@ -46,14 +46,14 @@ def direction_of(vector: complex) -> complex:
     return vector / abs(vector) if vector else 0j
 
 
-def perpendicular(one: complex, other: complex) -> bool:
+def perpendicular(u: complex, w: complex) -> bool:
     """Whether two directions are at a right angle."""
-    return abs((one.conjugate() * other).real) < SAME_DIRECTION
+    return abs((u.conjugate() * w).real) < SAME_DIRECTION
 
 
-def parallel(one: complex, other: complex) -> bool:
+def parallel(u: complex, w: complex) -> bool:
     """Whether two directions are one or opposite."""
-    return abs((one.conjugate() * other).imag) < SAME_DIRECTION
+    return abs((u.conjugate() * w).imag) < SAME_DIRECTION
 
 
 class Geometry:
@@ -68,8 +68,8 @@ class Geometry:
 
     # --- the arithmetic
 
-    def size(self, told: Given) -> Any:
-        return told.si
+    def size(self, given: Given) -> Any:
+        return given.si
 
     def unit(self, angle: Given) -> Any:
         return unit(angle.si)
@@ -82,9 +82,9 @@ class Geometry:
 
     def is_inner(self, joint: file.RollingOnCircle | file.Gears) -> bool:
         """Whether the first disc of a joint lies within the second."""
-        one, other = self.discs(joint)
-        apart, smaller = abs(self.points[other.centre] - self.points[one.centre]), other.radius.si - one.radius.si
-        return smaller > 0 and abs(apart - smaller) <= TOUCHING * (one.radius.si + other.radius.si)
+        inner, outer = self.discs(joint)
+        apart, smaller = abs(self.points[outer.centre] - self.points[inner.centre]), outer.radius.si - inner.radius.si
+        return smaller > 0 and abs(apart - smaller) <= TOUCHING * (inner.radius.si + outer.radius.si)
 
     # --- what is constructed
 
@@ -93,9 +93,9 @@ class Geometry:
         if point.at is not None:
             return self.point(*map(self.size, point.at))
         if point.lines is not None:
-            one, two = point.lines
-            first, second = self.points[one.through], self.points[two.through]
-            return meet(first, self.unit(one.angle), second, self.unit(two.angle))
+            line1, two = point.lines
+            first, second = self.points[line1.through], self.points[two.through]
+            return meet(first, self.unit(line1.angle), second, self.unit(two.angle))
         if point.distances is not None:
             (c1, r1), (c2, r2) = ((self.points[one.from_], self.size(one.distance)) for one in point.distances)
             return circle_circle(c1, r1, c2, r2, 1 if point.side == "left" else -1, self.root)
@@ -124,8 +124,8 @@ class Geometry:
         return disc
 
     def discs(self, joint: file.RollingOnCircle | file.Gears | file.Belt) -> tuple[file.Disc, file.Disc]:
-        one, other = joint.discs
-        return self.disc(one), self.disc(other)
+        first, second = joint.discs
+        return self.disc(first), self.disc(second)
 
     def contact_on_line(self, joint: file.RollingOnLine) -> Any:
         """Where a disc touches its line."""
@@ -133,15 +133,15 @@ class Geometry:
 
     def contact_of_discs(self, joint: file.RollingOnCircle | file.Gears) -> Any:
         """Where two discs touch on the line of their centres: away from the second's if the first lies within it."""
-        one, other = self.discs(joint)
-        start, end, radius = self.points[one.centre], self.points[other.centre], self.size(one.radius)
+        disc, touched = self.discs(joint)
+        start, end, radius = self.points[disc.centre], self.points[touched.centre], self.size(disc.radius)
         return start + (end - start) / abs(end - start) * (-radius if self.is_inner(joint) else radius)
 
     def belt_ends(self, joint: file.Belt) -> tuple[Any, Any]:
         """Where a belt leaves one disc, to the left of the way to the other, and where it comes to the other."""
-        one, other = self.discs(joint)
-        first, second = self.points[one.centre], self.points[other.centre]
-        r1, r2 = self.size(one.radius), self.size(other.radius)
+        left, reached = self.discs(joint)
+        first, second = self.points[left.centre], self.points[reached.centre]
+        r1, r2 = self.size(left.radius), self.size(reached.radius)
         reach = -r2 if joint.crossed else r2
         apart = abs(second - first)
         share = (r1 - reach) / apart
@@ -177,10 +177,10 @@ def placed(given: file.Parameters) -> Geometry:
 def _require_place(name: str, point: file.PointAt, geometry: Geometry) -> None:
     where, known = ("points", name), geometry.points
 
-    def at(other: str, *key: str | int) -> complex:
-        if other not in known:
-            raise MisplacedError("no-such-point", *where, *key, text=other, known=", ".join(known) or "–")
-        return complex(known[other])
+    def at(base: str, *key: str | int) -> complex:
+        if base not in known:
+            raise MisplacedError("no-such-point", *where, *key, text=base, known=", ".join(known) or "–")
+        return complex(known[base])
 
     if point.at is not None:
         return
@@ -212,9 +212,9 @@ def _require_contact_on_line(joint: file.RollingOnLine, index: int, geometry: Ge
 
 
 def _require_contact_of_discs(joint: file.RollingOnCircle | file.Gears, index: int, geometry: Geometry) -> None:
-    one, other = geometry.discs(joint)
-    first, second = one.radius.si, other.radius.si
-    apart = abs(geometry.points[other.centre] - geometry.points[one.centre])
+    disc, touched = geometry.discs(joint)
+    first, second = disc.radius.si, touched.radius.si
+    apart = abs(geometry.points[touched.centre] - geometry.points[disc.centre])
     reaches = (first + second, abs(first - second))
     if not any(reach > 0 and abs(apart - reach) <= TOUCHING * (first + second) for reach in reaches):
         raise MisplacedError(
@@ -228,10 +228,10 @@ def _require_contact_of_discs(joint: file.RollingOnCircle | file.Gears, index: i
 
 
 def _require_length(joint: file.Belt, index: int, geometry: Geometry) -> None:
-    one, other = geometry.discs(joint)
-    first, second = one.radius.si, other.radius.si
+    disc, touched = geometry.discs(joint)
+    first, second = disc.radius.si, touched.radius.si
     least = first + second if joint.crossed else abs(first - second)
-    if abs(geometry.points[other.centre] - geometry.points[one.centre]) <= least:
+    if abs(geometry.points[touched.centre] - geometry.points[disc.centre]) <= least:
         discs = {"text": str(joint.discs[0]), "other": str(joint.discs[1])}
         raise MisplacedError("belt-too-short", "joints", index, **discs)
 
@@ -268,9 +268,9 @@ def named(given: file.Parameters) -> dict[str, tuple[Where, str]]:
     """Where each joint and each given quantity stands, and what a message calls it, by the name of its conditions."""
     listed = {"joints": given.joints, "given": given.given}
     return {
-        name_of(index, section, *one.called): ((*TOP, section, index), " ".join(map(str, one.called)))
+        name_of(index, section, *named_rate.called): ((*TOP, section, index), " ".join(map(str, named_rate.called)))
         for section, several in listed.items()
-        for index, one in enumerate(several)
+        for index, named_rate in enumerate(several)
     }
 
 
@@ -279,8 +279,8 @@ def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> t
     name = name_of(index, "joints", *joint.called)
     match joint:
         case file.Pin(at=at, bodies=bodies):
-            one, other = bodies
-            return on.pin(name, known[at], one, other)
+            first_body, partner = bodies
+            return on.pin(name, known[at], first_body, partner)
         case file.SlotJoint(point=point, body=body, on=carrier):
             return on.slot(name, known[point], body, carrier, geometry.direction(joint))
         case file.Slider(body=body, on=carrier):
@@ -292,11 +292,11 @@ def _joint(joint: file.Joint, index: int, geometry: Geometry, bare: System) -> t
             disc, touch = geometry.disc(body), geometry.contact_on_line(joint)
             return on.rolling_on_line(name, body, known[disc.centre], geometry.size(disc.radius), touch, carrier)
         case file.RollingOnCircle(discs=discs) | file.Gears(discs=discs):
-            one, other = discs
+            first_body, partner = discs
             first, second = geometry.discs(joint)
             touch = geometry.contact_of_discs(joint)
             make = on.meshing if isinstance(joint, file.Gears) else on.rolling_on_circle
-            return make(name, one, known[first.centre], other, known[second.centre], touch)
+            return make(name, first_body, known[first.centre], partner, known[second.centre], touch)
         case file.Belt(discs=discs):
             first, second = geometry.discs(joint)
             centres = known[first.centre], known[second.centre]

@@ -52,8 +52,8 @@ def check(draft: Draft) -> Iterator[Finding]:
     if given is None:
         return
     names = _Names(given)
-    found = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked(), *names.symbols()]
-    yield from found or _motion(given, draft.raw["parameters"])
+    misnamed = [*names.points(), *names.bodies(), *names.joints(), *names.rates(), *names.asked(), *names.symbols()]
+    yield from misnamed or _motion(given, draft.raw["parameters"])
 
 
 class _Names:
@@ -70,8 +70,8 @@ class _Names:
                 continue
             kind = "omega" if shown.base == "ω" else "epsilon"
             rates = [one for one in self.given.given if isinstance(one, file.OmegaOf | file.EpsilonOf)]
-            told = [one.value for one in rates if one.type == kind and one.body == int(shown.sub)]
-            formulas = [one.formula for one in told if isinstance(one, symbols.Literal)]
+            stated = [one.value for one in rates if one.type == kind and one.body == int(shown.sub)]
+            formulas = [one.formula for one in stated if isinstance(one, symbols.Literal)]
             if not any(formula in (Ref(name), Negative(Ref(name))) for formula in formulas):
                 yield Finding("symbol-of-body", (*TOP, "symbols", name), {"text": name, "body": shown.sub}, at="key")
 
@@ -79,9 +79,9 @@ class _Names:
         for name, point in self.given.points.items():
             where = (*TOP, "points", name)
             forms = {"at": point.at, "lines": point.lines, "distances": point.distances, "from": point.from_}
-            told = [key for key, value in forms.items() if value is not None]
-            yield from _one_of(told, tuple(forms), where)
-            if told == ["from"]:
+            forms_given = [key for key, value in forms.items() if value is not None]
+            yield from _one_of(forms_given, tuple(forms), where)
+            if forms_given == ["from"]:
                 if point.distance is None:
                     yield Finding("missing-key", where, {"key": "distance"})
                 further = {"angle": point.angle, "on": point.on}
@@ -125,8 +125,8 @@ class _Names:
                 case file.Cord(points=points):
                     yield from self._ends(points, (*where, "points"))
             if isinstance(joint, file.Directed):
-                told = [key for key in ("angle", "along") if getattr(joint, key) is not None]
-                yield from _one_of(told, ("angle", "along"), where)
+                given_as = [key for key in ("angle", "along") if getattr(joint, key) is not None]
+                yield from _one_of(given_as, ("angle", "along"), where)
                 if joint.along is not None:
                     yield from self._ends(joint.along, (*where, "along"))
 
@@ -183,10 +183,10 @@ class _Names:
             yield Finding("no-disc", where, {"text": str(body)})
 
 
-def _one_of(told: list[str], keys: tuple[str, ...], where: Where) -> Iterator[Finding]:
-    if len(told) > 1:
-        yield Finding("both-given", (*where, told[1]), {"first": told[0], "second": told[1]}, at="key")
-    elif not told:
+def _one_of(given: list[str], keys: tuple[str, ...], where: Where) -> Iterator[Finding]:
+    if len(given) > 1:
+        yield Finding("both-given", (*where, given[1]), {"first": given[0], "second": given[1]}, at="key")
+    elif not given:
         yield Finding("missing-key", where, {"key": " | ".join(keys)})
 
 
@@ -238,8 +238,8 @@ def _by_symbols(given: file.Parameters, raw: Mapping[str, Any]) -> Iterator[Find
     changes = {name: 1 + CHANGED * (index + 1) for index, name in enumerate(given.symbols)}
     changed = {name: f"{one.given.si * changes[name]!r} {symbols.si_unit(one)}" for name, one in given.symbols.items()}
     try:
-        other = InstantMotion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
-        moves = not (other.velocity_conflicts or other.acceleration_conflicts)
+        changed_motion = InstantMotion(system(file.Parameters.model_validate({**raw, "symbols": changed})))
+        moves = not (changed_motion.velocity_conflicts or changed_motion.acceleration_conflicts)
     except (MisplacedError, ValidationError):
         moves = False
     if not moves:
@@ -289,11 +289,11 @@ def why_not(method: file.Method, layout: Layout) -> str:
         case _ if not plane:
             return "no-plane-motion"
         case "instant centre":
-            found = any(body in layout.centres or _across(layout, body) for body in plane)
-            return "" if found else "no-directions"
+            has_directions = any(body in layout.centres or _across(layout, body) for body in plane)
+            return "" if has_directions else "no-directions"
         case "base point":
-            told = any(_rolls(layout, body) or len(_guided(layout, body)) > 1 for body in plane)
-            return "" if told or _two_bases(layout, plane) else "no-base-point"
+            has_base = any(_rolls(layout, body) or len(_guided(layout, body)) > 1 for body in plane)
+            return "" if has_base or _two_bases(layout, plane) else "no-base-point"
         case "projection":
             # It tells no angular velocity.
             asked = any(one.what in ("v", "a") for one in layout.given.find)
@@ -317,9 +317,9 @@ def _guided(layout: Layout, body: int) -> list[str]:
 
 def _two_bases(layout: Layout, plane: list[int]) -> bool:
     """Whether two bodies that share a point have each another one that is guided."""
-    for one, other in combinations(plane, 2):
-        shared = {*layout.members[one]} & {*layout.members[other]}
-        if shared and all({*_guided(layout, body)} - shared for body in (one, other)):
+    for first_body, partner in combinations(plane, 2):
+        shared = {*layout.members[first_body]} & {*layout.members[partner]}
+        if shared and all({*_guided(layout, body)} - shared for body in (first_body, partner)):
             return True
     return False
 
@@ -336,11 +336,11 @@ def _projects(layout: Layout, body: int) -> bool:
 
 def _pairs_across(layout: Layout, body: int, directions: Mapping[str, complex]) -> Iterator[tuple[bool, bool]]:
     """Of each two points of a body with known directions, whether they move across the line between them."""
-    for one, other in combinations([name for name in layout.members[body] if name in directions], 2):
-        line = layout.points[other] - layout.points[one]
+    for base, tip in combinations([name for name in layout.members[body] if name in directions], 2):
+        line = layout.points[tip] - layout.points[base]
         if abs(line) > SAME_PLACE:
             u = direction_of(line)
-            yield perpendicular(directions[one], u), perpendicular(directions[other], u)
+            yield perpendicular(directions[base], u), perpendicular(directions[tip], u)
 
 
 CHECKS = (check,)

@@ -63,10 +63,10 @@ class Worked:
     def printed(self) -> Ledger:
         """Every number as it is written down; where it is that of a symbol of the file, as the file has it."""
         families = self.ledger.families
-        told = {id: replace(families[id], definition=None, exact=True) for id in self.named}
-        found = carried(replace(self.ledger, families={**families, **told}))
-        values = {id: replace(family, values=found[id].values) for id, family in families.items()}
-        return replace(found, families=values)
+        named = {id: replace(families[id], definition=None, exact=True) for id in self.named}
+        rounded = carried(replace(self.ledger, families={**families, **named}))
+        values = {id: replace(family, values=rounded[id].values) for id, family in families.items()}
+        return replace(rounded, families=values)
 
     @property
     def by_method(self) -> bool:
@@ -171,23 +171,23 @@ def _with_ancestors(derivation: Derivation, some: Sequence[str]) -> set[str]:
     """Those of some ids that are in the derivation, and everything that they stand on."""
     families = derivation.q.families
     waiting = [id for id in some if id in families]
-    found: set[str] = set()
+    leading: set[str] = set()
     while waiting:
         id = waiting.pop()
-        if id not in found:
-            found.add(id)
+        if id not in leading:
+            leading.add(id)
             definition = families[id].definition
             waiting += () if definition is None else refs(definition)
-    return found
+    return leading
 
 
 def _told_once(steps: Iterable[Step]) -> tuple[Step, ...]:
     """Steps without what is read off the figure and an earlier one tells."""
-    told, found = set[str](), list[Step]()
+    known, kept = set[str](), list[Step]()
     for step in steps:
-        found.append(replace(step, read=tuple(id for id in step.read if id not in {*told, *step.ids})))
-        told |= {*step.ids, *step.read}
-    return tuple(found)
+        kept.append(replace(step, read=tuple(id for id in step.read if id not in {*known, *step.ids})))
+        known |= {*step.ids, *step.read}
+    return tuple(kept)
 
 
 def _leads_on(step: Step, needed: set[str]) -> bool:

@@ -85,12 +85,13 @@ class LiteralMotion:
     @cached_property
     def accelerations(self) -> Mapping[int, Rates]:
         motion, equations = self.velocities, []
-        for one in self.conditions:
-            if one.drift is not None:
+        for condition in self.conditions:
+            if condition.drift is not None:
                 inward = (
-                    motion.omega(part.body) ** 2 * dot(Plane.of(part.direction), part.point) for part in one.components
+                    motion.omega(part.body) ** 2 * dot(Plane.of(part.direction), part.point)
+                    for part in condition.components
                 )
-                equations.append((one, one.drift(motion) + sum(inward)))
+                equations.append((condition, condition.drift(motion) + sum(inward)))
         return self._solve(equations)
 
     def v(self, point: str) -> Plane:
@@ -106,12 +107,12 @@ class LiteralMotion:
 
     def _solve(self, equations: list[tuple[Condition, Any]]) -> dict[int, Rates]:
         unknowns = algebra.solve([self._row(one) for one, _ in equations], [value for _, value in equations])
-        found = {}
+        rates = {}
         for index, body in enumerate(self.bodies):
             turn, x, y = unknowns[3 * index : 3 * index + 3]
             # A `Plane` is added and multiplied as the complex number whose place it takes.
-            found[body] = Rates(cast("float", turn), cast("complex", Plane(x, y)))
-        return found
+            rates[body] = Rates(cast("float", turn), cast("complex", Plane(x, y)))
+        return rates
 
     def _row(self, condition: Condition) -> list[Algebraic]:
         row: list[Algebraic] = [0] * (3 * len(self.bodies))
@@ -131,8 +132,8 @@ def _short(of: Any, simplify: Callable[[Any], Algebraic], most: int = LONGEST) -
     """What it is simplified to; None for what is too long."""
     if algebra.operations(of) > MOST:
         return None
-    found = simplify(of)
-    return None if algebra.operations(found) > most else found
+    simplified = simplify(of)
+    return None if algebra.operations(simplified) > most else simplified
 
 
 class LiteralBoard:
@@ -146,8 +147,8 @@ class LiteralBoard:
 
     def __getitem__(self, id: str) -> Expression | None:
         """The expression of a quantity over the names of symbols; None where there is none."""
-        found = self.algebraic(id)
-        return None if found is None else algebra.expression(found, self.at)
+        known = self.algebraic(id)
+        return None if known is None else algebra.expression(known, self.at)
 
     def place(self, point: str) -> tuple[Expression, Expression] | None:
         """The coordinates of a point, instant centres among them; lengths in numbers are metres.
@@ -167,39 +168,39 @@ class LiteralBoard:
     def _of(self, id: str) -> Any:
         """A number or a vector whose size the quantity is: from the motion, else by the formula of its line."""
         points = self.motion.geometry.points
-        if found := ids.angular_velocity.read(id):
-            return self.motion.velocities.omega(int(found["link"]))
-        if found := ids.angular_acceleration.read(id):
-            return self.motion.accelerations[int(found["link"])].turn
-        if (found := ids.velocity.read(id)) and found["point"] in points:
-            return self.motion.v(found["point"])
-        if (found := ids.acceleration.read(id)) and found["point"] in points and not found["part"]:
-            return self.motion.a(found["point"])
-        if found := ids.length.read(id):
-            return self._between(*ids.points(found["line"]))
+        if names := ids.angular_velocity.read(id):
+            return self.motion.velocities.omega(int(names["link"]))
+        if names := ids.angular_acceleration.read(id):
+            return self.motion.accelerations[int(names["link"])].turn
+        if (names := ids.velocity.read(id)) and names["point"] in points:
+            return self.motion.v(names["point"])
+        if (names := ids.acceleration.read(id)) and names["point"] in points and not names["part"]:
+            return self.motion.a(names["point"])
+        if names := ids.length.read(id):
+            return self._between(*ids.points(names["line"]))
         definition = self.worked.ledger[id].definition
         return None if definition is None else algebra.algebraic(definition, self.algebraic)
 
-    def _between(self, one: str, other: str) -> Plane | None:
+    def _between(self, tip: str, base: str) -> Plane | None:
         """From the other point to the one; None where a place is not known by symbols, as that of the end of a belt."""
         places = {**self.motion.geometry.points, **self._centres}
-        return places[one] - places[other] if one in places and other in places else None
+        return places[tip] - places[base] if tip in places and base in places else None
 
     @cached_property
     def _centres(self) -> dict[str, Plane]:
         """Instant centres, where a body's velocity is zero, and the points in which discs touch."""
-        found, geometry, layout = {}, self.motion.geometry, self.worked.layout
+        places, geometry, layout = {}, self.motion.geometry, self.worked.layout
         for index, joint in enumerate(self.exercise.given.joints):
             match joint:
                 case file.RollingOnLine():
-                    found[layout.contacts[index]] = geometry.contact_on_line(joint)
+                    places[layout.contacts[index]] = geometry.contact_on_line(joint)
                 case file.RollingOnCircle() | file.Gears():
-                    found[layout.contacts[index]] = geometry.contact_of_discs(joint)
+                    places[layout.contacts[index]] = geometry.contact_of_discs(joint)
         for body, centre in self.worked.layout.centres.items():
             if centre.rule in ("normals", "rate", "contact") and self.motion.velocities.omega(body) != 0:
                 rates = self.motion.velocities.of(body)
-                found[centre.name] = Plane.of((1j * rates.origin) / rates.turn)
-        return found
+                places[centre.name] = Plane.of((1j * rates.origin) / rates.turn)
+        return places
 
 
 # --- an exercise with all that is computed of it --------------------------------------------------

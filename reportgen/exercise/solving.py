@@ -108,11 +108,11 @@ class Unknowns:
         return value * self.size if condition.turns else value
 
     def rates(self, values: np.ndarray) -> dict[int, Rates]:
-        found: dict[int, Rates] = {}
+        rates_of: dict[int, Rates] = {}
         for index, body in enumerate(self.bodies):
             turn, x, y = values[3 * index : 3 * index + 3]
-            found[body] = Rates(turn / self.size, complex(x, y) - 1j * turn / self.size * self.middle)
-        return found
+            rates_of[body] = Rates(turn / self.size, complex(x, y) - 1j * turn / self.size * self.middle)
+        return rates_of
 
     def squares(self, values: np.ndarray) -> dict[int, float]:
         """ω² of the bodies in `squared`."""
@@ -130,8 +130,8 @@ def unknowns_of(system: System) -> Unknowns:
 def solve_velocities(system: System) -> Solved:
     """The angular velocities and velocities of all bodies, with what stays open and what contradicts itself."""
     unknowns = unknowns_of(system)
-    told = [(one, one.velocity) for one in system.conditions if one.velocity is not None]
-    return _solve(unknowns, told)[0]
+    driven = [(one, one.velocity) for one in system.conditions if one.velocity is not None]
+    return _solve(unknowns, driven)[0]
 
 
 @dataclass(frozen=True)
@@ -156,13 +156,13 @@ def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
     unknowns = replace(velocities.unknowns, squared=squared)
     known = {body: STILL if body in squared else rates for body, rates in velocities.rates.items()}
     motion = Velocities(known)
-    told: list[tuple[Condition, float]] = []
-    for one in system.conditions:
-        if one.drift is not None:
-            inward = (motion.omega(part.body) ** 2 * _along(part, unknowns.middle) for part in one.components)
-            told.append((one, one.drift(motion) + sum(inward)))
-    solved, found = _solve(unknowns, told)
-    squares = unknowns.squares(found)
+    driven: list[tuple[Condition, float]] = []
+    for condition in system.conditions:
+        if condition.drift is not None:
+            inward = (motion.omega(part.body) ** 2 * _along(part, unknowns.middle) for part in condition.components)
+            driven.append((condition, condition.drift(motion) + sum(inward)))
+    solved, squares_of = _solve(unknowns, driven)
+    squares = unknowns.squares(squares_of)
     turned = {
         body: replace(rates, turn=float(np.sqrt(max(squares[body], 0.0)))) if body in squares else rates
         for body, rates in velocities.rates.items()
@@ -172,7 +172,7 @@ def solve_accelerations(system: System, velocities: Solved) -> Accelerations:
         body: replace(rates, origin=rates.origin + squares.get(body, motion.omega(body) ** 2) * unknowns.middle)
         for body, rates in solved.rates.items()
     }
-    least = -NEGLIGIBLE * float(np.abs(found).max(initial=0.0)) / unknowns.size
+    least = -NEGLIGIBLE * float(np.abs(squares_of).max(initial=0.0)) / unknowns.size
     parting = () if solved.free.size else tuple(body for body, square in squares.items() if square < least)
     return Accelerations(replace(solved, rates=at_origin), replace(velocities, rates=turned), parting)
 
@@ -192,14 +192,14 @@ def _names(condition: Condition, body: int) -> bool:
     return any(part.body == body for part in condition.components) or any(turn[0] == body for turn in condition.turns)
 
 
-def _solve(unknowns: Unknowns, told: Sequence[tuple[Condition, float]]) -> tuple[Solved, np.ndarray]:
-    matrix = np.array([unknowns.row(one) for one, _ in told]).reshape(len(told), unknowns.count)
-    values = np.array([unknowns.scaled(one, value) for one, value in told])
-    found = np.linalg.lstsq(matrix, values, rcond=NEGLIGIBLE)[0] if len(told) else np.zeros(unknowns.count)
-    _, sizes, motions = np.linalg.svd(matrix) if len(told) else (None, np.zeros(0), np.eye(unknowns.count))
+def _solve(unknowns: Unknowns, driven: Sequence[tuple[Condition, float]]) -> tuple[Solved, np.ndarray]:
+    matrix = np.array([unknowns.row(one) for one, _ in driven]).reshape(len(driven), unknowns.count)
+    values = np.array([unknowns.scaled(one, value) for one, value in driven])
+    least_squares = np.linalg.lstsq(matrix, values, rcond=NEGLIGIBLE)[0] if len(driven) else np.zeros(unknowns.count)
+    _, sizes, motions = np.linalg.svd(matrix) if len(driven) else (None, np.zeros(0), np.eye(unknowns.count))
     rank = int((sizes > NEGLIGIBLE * max(sizes, default=0.0)).sum())
-    conflicts = tuple(_conflicts([one.name for one, _ in told], matrix, values))
-    return Solved(unknowns.rates(found), conflicts, motions[rank:], unknowns), found
+    conflicts = tuple(_conflicts([one.name for one, _ in driven], matrix, values))
+    return Solved(unknowns.rates(least_squares), conflicts, motions[rank:], unknowns), least_squares
 
 
 def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> Iterable[Conflict]:

@@ -173,16 +173,16 @@ def _parallel(derivation: Derivation, body: int, names: list[str]) -> bool:
     if body in derivation.layout.centres:
         return False
     known = [name for name in names if derivation.knows_velocity(name)]
-    for one, other in combinations(known, 2):
-        if not is_across(derivation, one, other):
+    for base, tip in combinations(known, 2):
+        if not is_across(derivation, base, tip):
             continue
         if not derivation.knows_omega(body):
-            here, there = derivation.at(one), derivation.at(other)
-            faster, slower = (one, other) if abs(here) >= abs(there) else (other, one)
+            here, there = derivation.at(base), derivation.at(tip)
+            faster, slower = (base, tip) if abs(here) >= abs(there) else (tip, base)
             v, w = q[ids.velocity(faster)], q[ids.velocity(slower)]
             same = (here.conjugate() * there).real >= 0
-            omega = q.define(ids.angular_velocity(body), (v - w if same else v + w) / derivation.length(one, other))
-            derivation.steps.append(Step("rate-parallel", (omega.id,), body, one, other))
+            omega = q.define(ids.angular_velocity(body), (v - w if same else v + w) / derivation.length(base, tip))
+            derivation.steps.append(Step("rate-parallel", (omega.id,), body, base, tip))
             return True
     return False
 
@@ -257,9 +257,9 @@ def by_base_point(derivation: Derivation) -> bool:
         if base and new and derivation.knows_omega(body) and _point(derivation, body, new, base):
             return True
     for body, names in bodies.items():
-        for other, others in bodies.items():
+        for partner, others in bodies.items():
             shared = [name for name in names if name in others and not derivation.knows_velocity(name)]
-            if body < other and shared and _between(derivation, body, other, shared[0]):
+            if body < partner and shared and _between(derivation, body, partner, shared[0]):
                 return True
     return False
 
@@ -339,20 +339,20 @@ def _point(derivation: Derivation, body: int, point: str, base: str) -> bool:
     return True
 
 
-def _between(derivation: Derivation, body: int, other: int, point: str) -> bool:
+def _between(derivation: Derivation, body: int, partner: int, point: str) -> bool:
     """v_A + v_CA = v_B + v_CB: two unknown sizes, the first by projection on the line CB."""
     q, members = derivation.q, derivation.layout.members
-    bases = [next((n for n in members[one] if derivation.knows_velocity(n)), "") for one in (body, other)]
-    if "" in bases or derivation.knows_omega(body) or derivation.knows_omega(other):
+    bases = [next((n for n in members[one] if derivation.knows_velocity(n)), "") for one in (body, partner)]
+    if "" in bases or derivation.knows_omega(body) or derivation.knows_omega(partner):
         return False
-    first, second = (_relative(derivation, one, point, base) for one, base in zip((body, other), bases, strict=True))
+    first, second = (_relative(derivation, one, point, base) for one, base in zip((body, partner), bases, strict=True))
     line = direction_of(derivation.layout.points[point] - derivation.layout.points[bases[1]])
     if not (first.direction and second.direction) or abs((line.conjugate() * first.direction).real) < 1e-9:
         return False
-    one, two = (derivation.nonzero(derivation.velocity(base)) for base in bases)
-    equation = Projected(derivation, (*one, first), (*two, second))
+    v_a, two = (derivation.nonzero(derivation.velocity(base)) for base in bases)
+    equation = Projected(derivation, (*v_a, first), (*two, second))
     sizes = equation.find(first, line, "ξ", point), equation.find(second, second.direction, "η", point)
-    for turning, size, base in zip((body, other), sizes, bases, strict=True):
+    for turning, size, base in zip((body, partner), sizes, bases, strict=True):
         equation.then(q.define(ids.angular_velocity(turning), size / derivation.length(base, point)))
     equation.step("two-bases", body, point, bases[0])
     return True
@@ -391,24 +391,24 @@ def _on_one_line(derivation: Derivation, body: int, point: str, base: str) -> bo
     return True
 
 
-def _on_two_lines(derivation: Derivation, body: int, point: str, one: str, other: str) -> bool:
+def _on_two_lines(derivation: Derivation, body: int, point: str, base_a: str, base_b: str) -> bool:
     """v_M from its projections p on AM and BM, which are those of v_A and v_B; not where A, B, M are in line.
 
     The lines enclose γ, and v_M² sin²γ = p_A² + p_B² − 2 p_A p_B cos γ.
     """
     q, points = derivation.q, derivation.layout.points
-    u, w = (direction_of(points[point] - points[base]) for base in (one, other))
+    u, w = (direction_of(points[point] - points[base]) for base in (base_a, base_b))
     if not u or not w or parallel(u, w):
         return False
     w = towards(w, u)
     sizes = [
         q.define(ids.velocity_projection(point, base + point), part)
-        for base, axis in ((one, u), (other, w))
+        for base, axis in ((base_a, u), (base_b, w))
         if (part := along(q, derivation.velocity(base), axis)) is not None
     ]
     if not sizes:
         q.give(ids.velocity(point), 0.0)
-        derivation.steps.append(Step("projection-nothing", (), body, point, one, other=other))
+        derivation.steps.append(Step("projection-nothing", (), body, point, base_a, other=base_b))
         return True
     whole = size_of(q, sizes)
     if not perpendicular(u, w):
@@ -418,5 +418,7 @@ def _on_two_lines(derivation: Derivation, body: int, point: str, one: str, other
             whole = sqrt(total([p**2, r**2, Negative(2 * p * r * cos(γ))]))
         whole = whole / sin(γ)
     v = q.define(ids.velocity(point), whole)
-    derivation.steps.append(Step("projections", (*(size.id for size in sizes), v.id), body, point, one, other=other))
+    derivation.steps.append(
+        Step("projections", (*(size.id for size in sizes), v.id), body, point, base_a, other=base_b)
+    )
     return True

@@ -63,8 +63,8 @@ class SymbolValue(Reader):
 
     def read(self, value: object) -> Substitution:
         if isinstance(value, dict) and set(value) == {"drawn"}:
-            found = self.read(value["drawn"])
-            return Substitution(found.given, found.powers, put_in=False)
+            substitution = self.read(value["drawn"])
+            return Substitution(substitution.given, substitution.powers, put_in=False)
         if not isinstance(value, str):
             raise fault("wrong-type", expected="text")
         problem: QuantityFault | None = None
@@ -146,15 +146,15 @@ class Told(Reader):
         return {"anyOf": [self.by_number.schema(), {"type": "string", "pattern": FORMULA}]}
 
 
-def _at_values(formula: Expression, told: Stated) -> float:
+def _at_values(formula: Expression, stated_text: Stated) -> float:
     """What a formula comes to; raises the fault of one that divides by 0 or takes the root of less."""
     try:
         with np.errstate(all="ignore"):
-            si = float(evaluate(formula, {name: one.given.si for name, one in told.symbols.items()}))
+            si = float(evaluate(formula, {name: one.given.si for name, one in stated_text.symbols.items()}))
     except (ZeroDivisionError, OverflowError):
         si = math.nan
     if not math.isfinite(si):
-        raise fault("not-finite", text=told.text)
+        raise fault("not-finite", text=stated_text.text)
     return si
 
 
@@ -243,7 +243,7 @@ def stated(content: Any, symbols: Symbols, keys: frozenset[str]) -> Any:
     """The content of a file with the text behind those keys kept together with the symbols."""
     if isinstance(content, dict):
         return {
-            key: _marked(one, symbols) if key in keys else stated(one, symbols, keys) for key, one in content.items()
+            key: _marked(part, symbols) if key in keys else stated(part, symbols, keys) for key, part in content.items()
         }
     return [stated(one, symbols, keys) for one in content] if isinstance(content, list) else content
 

@@ -41,8 +41,8 @@ def pairs(layout: Layout) -> Iterator[Pair]:
     for index, joint in enumerate(layout.given.joints):
         if not isinstance(joint, file.Gears | file.RollingOnCircle | file.Belt):
             continue
-        found = [layout.given.disc(body) for body in joint.discs]
-        centres = tuple(disc.centre for disc in found if disc is not None)
+        discs = [layout.given.disc(body) for body in joint.discs]
+        centres = tuple(disc.centre for disc in discs if disc is not None)
         arms = (body for body in layout.members if body not in joint.discs)
         arm = next((body for body in arms if {*centres} <= {*layout.own(body), *_pivot(layout, body)}), None)
         if arm is None or len(centres) != 2:
@@ -65,20 +65,20 @@ def by_train(derivation: Derivation, what: str = "omega") -> bool:
     """The rotation, `omega` or `eps`, of one more disc from that of another one and of their arm."""
     rate = ids.LINK_RATE[what]
     for pair in pairs(derivation.layout):
-        for one, other in permutations(range(2)):
-            known, new = pair.discs[one], pair.discs[other]
-            told = known == GROUND or derivation.knows(rate(known))
-            if told and new != GROUND and derivation.knows(rate(pair.arm)) and not derivation.knows(rate(new)):
-                _enter(derivation, what, pair, one)
+        for known_disc, new_disc in permutations(range(2)):
+            known, new = pair.discs[known_disc], pair.discs[new_disc]
+            rate_known = known == GROUND or derivation.knows(rate(known))
+            if rate_known and new != GROUND and derivation.knows(rate(pair.arm)) and not derivation.knows(rate(new)):
+                _enter(derivation, what, pair, known_disc)
                 return True
     return False
 
 
-def _enter(derivation: Derivation, what: str, pair: Pair, one: int) -> None:
+def _enter(derivation: Derivation, what: str, pair: Pair, known_disc: int) -> None:
     """ω₂ = (ω_c (r₂ + r₁) − ω₁ r₁)/r₂ with the senses that the rotations have."""
-    q, known, new, rate = derivation.q, pair.discs[one], pair.discs[1 - one], ids.LINK_RATE[what]
+    q, known, new, rate = derivation.q, pair.discs[known_disc], pair.discs[1 - known_disc], ids.LINK_RATE[what]
     radii = [derivation.length(centre, rim) for centre, rim in zip(pair.centres, pair.rims, strict=True)]
-    first, second = radii[one], radii[1 - one]
+    first, second = radii[known_disc], radii[1 - known_disc]
     sense = math.copysign(1.0, derivation.motion.turn(what, new))
     terms: list[Expression] = []
     if arm := derivation.motion.turn(what, pair.arm):
@@ -89,9 +89,11 @@ def _enter(derivation: Derivation, what: str, pair: Pair, one: int) -> None:
     if driving := derivation.motion.turn(what, known):
         terms.append(signed(sense * driving * (1 if pair.alike else -1), q[rate(known)] * first))
     terms.sort(key=lambda term: isinstance(term, Negative))
-    found = q.define(rate(new), total(terms) / second) if terms else q.give(rate(new), 0.0)
-    lines, relation = (first.id, second.id, found.id), _relation(what, pair, radii)
-    derivation.steps.append(Step(f"train-{what}", lines, new, pair.rims[1 - one], frame=pair.arm, system=(relation,)))
+    new_rate = q.define(rate(new), total(terms) / second) if terms else q.give(rate(new), 0.0)
+    lines, relation = (first.id, second.id, new_rate.id), _relation(what, pair, radii)
+    derivation.steps.append(
+        Step(f"train-{what}", lines, new, pair.rims[1 - known_disc], frame=pair.arm, system=(relation,))
+    )
 
 
 def _relation(what: str, pair: Pair, radii: list[Ref]) -> Chain:
@@ -119,7 +121,7 @@ def by_rims(parts: Parts) -> bool:
         for (known, base), (new, point) in permutations(zip(bodies, ends, strict=True)):
             if derivation.knows_epsilon(known) and not derivation.knows_epsilon(new):
                 r1, r2 = (
-                    derivation.length(layout.centres[one].name, end) for one, end in ((known, base), (new, point))
+                    derivation.length(layout.centres[disc].name, end) for disc, end in ((known, base), (new, point))
                 )
                 eps = q.define(ids.angular_acceleration(new), q[ids.angular_acceleration(known)] * r1 / r2)
                 derivation.steps.append(Step("acceleration-rims", (r1.id, r2.id, eps.id), new, point, base))
@@ -145,14 +147,17 @@ def by_rack(parts: Parts) -> bool:
     for body in parts.derivation.layout.members:
         u = _along(parts, body)
         nodes = [*_nodes(parts, body, u)] if u else []
-        for one, other in permutations(nodes, 2):
-            if not one.known or parts.derivation.layout.points[one.name] == parts.derivation.layout.points[other.name]:
+        for known_node, new_node in permutations(nodes, 2):
+            if (
+                not known_node.known
+                or parts.derivation.layout.points[known_node.name] == parts.derivation.layout.points[new_node.name]
+            ):
                 continue
-            if other.known and not parts.derivation.knows_epsilon(body):
-                _rate_of_disc(parts, body, u, one, other)
+            if new_node.known and not parts.derivation.knows_epsilon(body):
+                _rate_of_disc(parts, body, u, known_node, new_node)
                 return True
-            if not other.known and parts.derivation.knows_epsilon(body):
-                _acceleration_of(parts, body, u, one, other)
+            if not new_node.known and parts.derivation.knows_epsilon(body):
+                _acceleration_of(parts, body, u, known_node, new_node)
                 return True
     return False
 
@@ -195,37 +200,37 @@ def _size(parts: Parts, node: Node) -> Ref | None:
     return parts.derivation.q[vectors[0].id] if vectors else None
 
 
-def _turn(parts: Parts, u: complex, one: Node, other: Node) -> float:
+def _turn(parts: Parts, u: complex, node: Node, far_node: Node) -> float:
     """How far the other node is from the one across the racks, with the sign of what ε adds along them."""
     points = parts.derivation.layout.points
-    return (u.conjugate() * 1j * (points[other.name] - points[one.name])).real
+    return (u.conjugate() * 1j * (points[far_node.name] - points[node.name])).real
 
 
-def _rate_of_disc(parts: Parts, body: int, u: complex, one: Node, other: Node) -> None:
+def _rate_of_disc(parts: Parts, body: int, u: complex, node: Node, far_node: Node) -> None:
     derivation, q = parts.derivation, parts.derivation.q
-    sense = math.copysign(1.0, derivation.motion.epsilon(body)) * math.copysign(1.0, _turn(parts, u, one, other))
-    sizes = ((_size(parts, other), other.value), (_size(parts, one), -one.value))
+    sense = math.copysign(1.0, derivation.motion.epsilon(body)) * math.copysign(1.0, _turn(parts, u, node, far_node))
+    sizes = ((_size(parts, far_node), far_node.value), (_size(parts, node), -node.value))
     terms = [signed(sense * value, size) for size, value in sizes if size is not None]
-    arm, id = derivation.length(one.name, other.name), ids.angular_acceleration(body)
+    arm, id = derivation.length(node.name, far_node.name), ids.angular_acceleration(body)
     eps = q.define(id, _sum(terms) / arm) if terms else q.give(id, 0.0)
-    derivation.steps.append(Step("acceleration-rack", (arm.id, eps.id), body, other.name, one.name))
+    derivation.steps.append(Step("acceleration-rack", (arm.id, eps.id), body, far_node.name, node.name))
 
 
-def _acceleration_of(parts: Parts, body: int, u: complex, one: Node, other: Node) -> None:
+def _acceleration_of(parts: Parts, body: int, u: complex, node: Node, far_node: Node) -> None:
     derivation, q = parts.derivation, parts.derivation.q
-    id, eps = ids.acceleration(other.shares), ids.angular_acceleration(body)
-    sense, size = math.copysign(1.0, other.value), _size(parts, one)
-    terms = [signed(sense * one.value, size)] if size is not None else []
-    arm = derivation.length(one.name, other.name)
+    id, eps = ids.acceleration(far_node.shares), ids.angular_acceleration(body)
+    sense, size = math.copysign(1.0, far_node.value), _size(parts, node)
+    terms = [signed(sense * node.value, size)] if size is not None else []
+    arm = derivation.length(node.name, far_node.name)
     if q.si(eps):
-        turning = derivation.motion.epsilon(body) * _turn(parts, u, one, other)
+        turning = derivation.motion.epsilon(body) * _turn(parts, u, node, far_node)
         terms.append(signed(sense * turning, q[eps] * arm))
-    parts.of[other.shares] = (Vector(id, sense * u),) if other.value else ()
+    parts.of[far_node.shares] = (Vector(id, sense * u),) if far_node.value else ()
     if id in q:
         # By the equations of motion.
         return
     a = q.define(id, _sum(terms)) if terms else q.give(id, 0.0)
-    derivation.steps.append(Step("acceleration-rack-point", (arm.id, a.id), body, other.shares, one.name))
+    derivation.steps.append(Step("acceleration-rack-point", (arm.id, a.id), body, far_node.shares, node.name))
 
 
 def _sum(terms: list[Expression]) -> Expression:

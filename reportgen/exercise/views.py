@@ -123,9 +123,9 @@ class Solution:
     def unfound(self, alone: Worked) -> tuple[Unfound, ...]:
         """The velocities asked that its method `alone` does not lead to, by the reasons why."""
         missing: dict[str, list[Symbol]] = {}
-        for one in self.case.exercise.asked:
-            if one.what in ("v", "omega") and one.id not in alone.ledger:
-                missing.setdefault(self._why_unfound(one, alone), []).append(vocabulary.symbol(one.id))
+        for asked in self.case.exercise.asked:
+            if asked.what in ("v", "omega") and asked.id not in alone.ledger:
+                missing.setdefault(self._why_unfound(asked, alone), []).append(vocabulary.symbol(asked.id))
         return tuple(Unfound(reason, listed(map(InlineMath, symbols))) for reason, symbols in missing.items())
 
     def _why_unfound(self, asked: Asked, alone: Worked) -> str:
@@ -184,14 +184,14 @@ class Solution:
 
     def _turns(self, shown: Sequence[str]) -> Inlines:
         """The rotations of bodies among some ids, each with its sense: ω₂ anticlockwise, ω₃ clockwise."""
-        motion, told = self.case.exercise.motion, list[Inline]()
+        motion, turns = self.case.exercise.motion, list[Inline]()
         for rate, family in ids.LINK_RATE.items():
             for id in shown:
-                found = family.read(id)
-                if found is not None and (body := int(found["link"])) in motion.system.bodies:
+                names = family.read(id)
+                if names is not None and (body := int(names["link"])) in motion.system.bodies:
                     sense = Text(f" {self._sense(motion.turn(rate, body))}")
-                    told += [*([Text(", ")] if told else []), InlineMath(self.worked.printed.symbol(id)), sense]
-        return tuple(told)
+                    turns += [*([Text(", ")] if turns else []), InlineMath(self.worked.printed.symbol(id)), sense]
+        return tuple(turns)
 
     def _angles_of(self, id: str) -> list[str]:
         definition = self.worked.printed[id].definition
@@ -243,30 +243,30 @@ class Solution:
 
     def _literal(self, id: str) -> Expression | None:
         """A quantity by the symbols of the file; None where it is not known so."""
-        found = self.case.literal[id] if self.case.literal is not None else None
-        return None if found is None else lettered(found)
+        known = self.case.literal[id] if self.case.literal is not None else None
+        return None if known is None else lettered(known)
 
     def _chain(self, id: str) -> Chain:
         """The worked line: with numbers, or with symbols, behind which numbers stand if they are put in."""
         chain = self.worked.printed.chain(id, AT)
         if self.case.literal is None:
             return chain
-        found = self._literal(id)
+        literal = self._literal(id)
         *formula, _ = chain.parts[:3] if len(chain.parts) > 2 else (chain.parts[0], None)
         if self.worked.printed[id].definition is None:
             formula = [chain.parts[0]]
-        result = chain.parts[-1:] if self.put_in or (found is None and len(formula) == 1) else ()
-        if isinstance(found, Number) and found.value == 0 and result:
-            found = None
-        steps = [*formula, *([] if found is None else [found]), *result]
+        result = chain.parts[-1:] if self.put_in or (literal is None and len(formula) == 1) else ()
+        if isinstance(literal, Number) and literal.value == 0 and result:
+            literal = None
+        steps = [*formula, *([] if literal is None else [literal]), *result]
         return Chain(tuple(one for place, one in enumerate(steps) if place == 0 or one != steps[place - 1]))
 
     def _is_declared_length(self, id: str) -> bool:
         """Whether it is the distance of declared points, rather than of an instant centre."""
-        found = ids.length.read(id)
+        names = ids.length.read(id)
         centres = {one.name for one in self.worked.layout.centres.values() if one.rule in ("normals", "rate")}
         centres -= set(self.case.exercise.given.points)
-        return found is not None and centres.isdisjoint(ids.points(found["line"]))
+        return names is not None and centres.isdisjoint(ids.points(names["line"]))
 
     def _angle(self, radians: float) -> Inlines:
         return (Value(Number(round(math.degrees(radians) % 360.0, 2), None, "°")),)
@@ -293,8 +293,8 @@ class Solution:
         centre = self.worked.layout.centres[body]
         numbers = [Number(self._coordinate(part).value, None, "mm") for part in (centre.at.real, centre.at.imag)]
         literal = self.case.literal
-        found = None if literal is None else literal.place(centre.name)
-        formulas = None if found is None else [*map(lettered, found)]
+        coordinates = None if literal is None else literal.place(centre.name)
+        formulas = None if coordinates is None else [*map(lettered, coordinates)]
         shown: list[Any] = []
         for index, axis in enumerate("xy"):
             parts: list[Expression] = [] if formulas is None else [formulas[index]]
@@ -373,16 +373,16 @@ class Axes:
 
     def _lines(self) -> list[Axis]:
         """One axis of each line of ξ."""
-        found: list[Axis] = []
+        lines: list[Axis] = []
         for _, axis in self._of():
-            if axis.letter not in COORDINATES and not any(self._same(axis, one) for one in found):
-                found.append(axis)
-        return found
+            if axis.letter not in COORDINATES and not any(self._same(axis, one) for one in lines):
+                lines.append(axis)
+        return lines
 
-    def _same(self, one: Axis, other: Axis) -> bool:
+    def _same(self, first: Axis, second: Axis) -> bool:
         """Whether the ξ of both lie on one line."""
-        apart = self._at(other.point) - self._at(one.point)
-        return parallel(one.along, other.along) and abs((one.along.conjugate() * apart).imag) < SAME_PLACE
+        apart = self._at(second.point) - self._at(first.point)
+        return parallel(first.along, second.along) and abs((first.along.conjugate() * apart).imag) < SAME_PLACE
 
     def _first(self, axis: Axis) -> Axis:
         return next((one for one in self._lines() if self._same(axis, one)), axis)

@@ -322,11 +322,11 @@ def square(of: Expression) -> Expression:
     return NOTHING if of == NOTHING else Power(of.of if isinstance(of, Negative) else of, Number(2.0))
 
 
-def between(one: Expression, other: Expression) -> Expression:
+def between(minuend: Expression, subtrahend: Expression) -> Expression:
     """one − other."""
-    if isinstance(one, Number) and isinstance(other, Number):
-        return Number(one.value - other.value, unit="°")
-    return plus(one, NOTHING if is_zero(other) else minus(other))
+    if isinstance(minuend, Number) and isinstance(subtrahend, Number):
+        return Number(minuend.value - subtrahend.value, unit="°")
+    return plus(minuend, NOTHING if is_zero(subtrahend) else minus(subtrahend))
 
 
 def sine(of: Expression) -> Expression:

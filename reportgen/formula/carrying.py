@@ -49,10 +49,10 @@ def carried(ledger: Ledger) -> Ledger:
         decimals[id] = min(decimals[id] or 0, _as_drawn(ledger, id, by))
     claimed = {id: by for id, by in derivatives.items() if id not in drawn | measured}
     while True:
-        found, roundings = written(ledger, decimals, _ends)
-        finer = {names[cause] for cause in _causes(ledger, found, claimed, roundings)}
+        rounded, roundings = written(ledger, decimals, _ends)
+        finer = {names[cause] for cause in _causes(ledger, rounded, claimed, roundings)}
         if not finer:
-            return found
+            return rounded
         for id, own in decimals.items():
             if own is not None and names[id] in finer:
                 decimals[id] = own + 1
@@ -60,11 +60,11 @@ def carried(ledger: Ledger) -> Ledger:
 
 def _standing_on(ledger: Ledger, some: AbstractSet[str]) -> set[str]:
     """What is worked out from some quantities."""
-    found = set[str]()
+    standing = set[str]()
     for id, inputs in ledger.inputs.items():
-        if id not in some and not {*inputs}.isdisjoint(found | some):
-            found.add(id)
-    return found
+        if id not in some and not {*inputs}.isdisjoint(standing | some):
+            standing.add(id)
+    return standing
 
 
 def _as_drawn(ledger: Ledger, id: str, measured: Mapping[str, np.ndarray]) -> int:
@@ -91,7 +91,7 @@ def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivati
 
     held = {id: ledger[id].values for id in nothing}
     worlds = follow(by_lines(ledger), {**held, **{id: moved(at, id) for at, id in enumerate(rounded)}})
-    found: dict[str, Mapping[str, np.ndarray]] = {}
+    derivatives: dict[str, Mapping[str, np.ndarray]] = {}
     for id in rounded:
         values, family = worlds[id], ledger[id]
         if family.residue:
@@ -100,17 +100,17 @@ def _derivatives(ledger: Ledger, decimals: Mapping[str, int | None]) -> Derivati
         by[~np.isfinite(by)] = 0.0
         least = DUST * np.max(np.abs(family.values), initial=0.0)
         standing = np.nonzero(np.max(np.abs(by), axis=-1) > least)[0]
-        found[id] = {rounded[at]: by[at] / steps[rounded[at]] for at in standing if rounded[at] != id}
-    return found
+        derivatives[id] = {rounded[at]: by[at] / steps[rounded[at]] for at in standing if rounded[at] != id}
+    return derivatives
 
 
-def _causes(ledger: Ledger, found: Ledger, derivatives: Derivatives, roundings: Mapping[str, np.ndarray]) -> set[str]:
+def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings: Mapping[str, np.ndarray]) -> set[str]:
     """Of each value that is too far off what does most to it; none of a value below one that will be finer."""
     causes = set[str]()
     for id, by in derivatives.items():
-        decimals, how = found.decimals[id], ledger[id].how
-        apart = np.real(found[id].values) - np.real(ledger[id].values)
-        size = np.nan_to_num(np.asarray(vocabulary.distance(id, found[id].values, ledger[id].values)))
+        decimals, how = rounded.decimals[id], ledger[id].how
+        apart = np.real(rounded[id].values) - np.real(ledger[id].values)
+        size = np.nan_to_num(np.asarray(vocabulary.distance(id, rounded[id].values, ledger[id].values)))
         if decimals is None or np.max(size) * 10.0**decimals <= UNIT * how.scale or causes & {id, *by}:
             continue
         at = int(np.argmax(size))
@@ -119,7 +119,7 @@ def _causes(ledger: Ledger, found: Ledger, derivatives: Derivatives, roundings: 
             for other, derivative in by.items()
         }
         cause = max(shares, key=lambda other: shares[other], default="")
-        if cause and (found.decimals[cause] or 0) < MOST:
+        if cause and (rounded.decimals[cause] or 0) < MOST:
             causes.add(cause)
     return causes
 

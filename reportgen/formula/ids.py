@@ -77,8 +77,8 @@ class Name:
         # Most families begin otherwise: their patterns need not even be compiled.
         if not id.startswith(self._beginning):
             return None
-        found = self._pattern.fullmatch(id)
-        return None if found is None else {name: text or "" for name, text in found.groupdict().items()}
+        matched = self._pattern.fullmatch(id)
+        return None if matched is None else {name: text or "" for name, text in matched.groupdict().items()}
 
     def __contains__(self, id: str) -> bool:
         return id.startswith(self._beginning) and self._pattern.fullmatch(id) is not None
@@ -257,36 +257,6 @@ lone_moment = Name("M.{force}.lone.p")
 balance = Name("M.{method}")
 figure_of_balance = Name("M.{figure}")  # over the cycle, or of the reduced torque
 
-# --- cams
-
-cam_phase = Name("cam.phase.{phase}")
-cam_arc = Name("cam.arc.{phase}")
-cam_limit = Name("cam.limit.{phase}")
-cam_touch = Name("cam.touch.{phase}.{quantity}")  # where a limit line touches
-cam_intercept = Name("cam.c.{phase}")
-cam_node = Name("cam.node.{phase}.{number}.{quantity}")  # of an acceleration given as a graph
-cam_diagram = Name("cam.diagram.{quantity}")  # the length of the turn, the distances of poles
-cam_scale = Name("cam.mu.{quantity}")
-cam_bend = Name("cam.m.{number}")
-cam_pitch = Name("cam.pitch.{axis}")
-cam_profile = Name("cam.profile.{axis}")
-
-# --- gears
-
-gear = Name("gears.{quantity}.{wheel}")
-# --- planetary trains
-
-train_factor = Name("train.factor.{factor}")
-train_teeth = Name("train.z.{wheel}")
-train_row_ratio = Name("train.u.row.{number}")
-train_omega = Name("train.omega.{wheel}")
-train_velocity = Name("train.v.{place}")
-train_efficiency = Name("train.eta.{of}")
-train_line = Name("train.line.{place}")  # on paper
-train_segment = Name("train.seg.{wheel}")  # of the plan of angular velocities
-train_read = Name("train.read.{wheel}")
-train_scale = Name("train.mu.{of}")
-
 # --- a word before the id of another quantity
 
 formula = Name("f.{id}")  # the same by a closed formula
@@ -302,15 +272,23 @@ reaction_force = Name("R{joint}[.{part}]")
 relative_corner = Name("{part}.{relative}")
 
 
-def joint(one: int, other: int) -> str:
+def joint(acting: int, acted_on: int) -> str:
     """The digits of the force of one link on another: 12, or 1,12 with long numbers."""
-    return f"{one}{other}" if max(one, other) < 10 else f"{one},{other}"
+    return f"{acting}{acted_on}" if max(acting, acted_on) < 10 else f"{acting},{acted_on}"
 
 
 def linked(joint: str) -> tuple[str, str]:
     """The two links of a joint's digits, the acting one first: 12 is 1 and 2."""
-    one, other = joint.split(",") if "," in joint else tuple(joint)
-    return one, other
+    acting, acted_on = joint.split(",") if "," in joint else tuple(joint)
+    return acting, acted_on
+
+
+def links_of(reaction: str) -> tuple[int, int]:
+    """The two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
+    found = reaction_force.read(reaction)
+    assert found is not None, f"{reaction} is no reaction"
+    acting, on = linked(found["joint"])
+    return int(acting), int(on)
 
 
 def points(named: str) -> list[str]:
@@ -320,5 +298,5 @@ def points(named: str) -> list[str]:
 
 def of_force(name: str) -> str:
     """The id of a force's size by the force's name: R12.t has R.12.t, a load's size is called like the load."""
-    found = reaction_force.read(name)
-    return name if found is None else reaction.of(found)
+    names = reaction_force.read(name)
+    return name if names is None else reaction.of(names)

@@ -96,16 +96,16 @@ class Ledger:
     @cached_property
     def vectors(self) -> Mapping[str, str]:
         """The vectors by their sizes: seg.v.pb → plan.v.b, seg.v.as2 → laid.v.as2, Pqt2 → F.Pqt2."""
-        found: dict[str, str] = {}
+        vectors: dict[str, str] = {}
         for id, family in self.families.items():
             match family.definition:
                 case Call("abs", (Ref(vector),)):
-                    found[id] = vector
+                    vectors[id] = vector
             # A vector that is computed from its size follows it by itself.
             size = family.of if family.hidden else ""
             if size in self and family.definition is not None and size not in self.inputs[id]:
-                found[size] = id
-        return found
+                vectors[size] = id
+        return vectors
 
     def size_of(self, id: str) -> str:
         """The id of a signed rotation's size; any other quantity is its own size."""
@@ -248,14 +248,14 @@ class Ledger:
 
     def ancestors(self, id: str) -> tuple[str, ...]:
         """Every quantity that one stands on, directly or through others, nearest first."""
-        found: dict[str, None] = {}
+        ancestors: dict[str, None] = {}
         waiting = list(self.inputs[id])
         while waiting:
             current = waiting.pop(0)
-            if current not in found:
-                found[current] = None
+            if current not in ancestors:
+                ancestors[current] = None
                 waiting.extend(self.inputs[current])
-        return tuple(found)
+        return tuple(ancestors)
 
 
 def _negated(node: Expression) -> Expression:
@@ -301,8 +301,8 @@ def _in_radians(numbers: Expression, result: Number) -> Expression:
     if result.unit == "°" or _power_of_angle(numbers) == 0:
         return numbers
     least = max(result.decimals or 0, ARC_DECIMALS)
-    found = (_with_arcs(numbers, decimals) for decimals in range(least, least + ARC_DECIMALS))
-    return next((one for one in found if _comes_to(one, result)), _with_arcs(numbers, least))
+    written = (_with_arcs(numbers, decimals) for decimals in range(least, least + ARC_DECIMALS))
+    return next((one for one in written if _comes_to(one, result)), _with_arcs(numbers, least))
 
 
 def _power_of_angle(node: Expression) -> int | None:
@@ -375,14 +375,14 @@ def standing_on(ledger: Ledger, id: str) -> tuple[str, ...]:
     order = {name: index for index, name in enumerate(ledger.families)}
     for size, vector in ledger.vectors.items():
         read.setdefault(vector, []).append(size)
-    found: dict[str, None] = {}
+    ancestors: dict[str, None] = {}
     waiting = [id]
     while waiting:
         current = waiting.pop(0)
         nearer = [*ledger.inputs[current]]
         nearer += [size for size in read.get(current, ()) if order[size] < order[id]]
         for name in nearer:
-            if name not in found and name != id:
-                found[name] = None
+            if name not in ancestors and name != id:
+                ancestors[name] = None
                 waiting.append(name)
-    return tuple(found)
+    return tuple(ancestors)

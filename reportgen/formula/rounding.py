@@ -23,8 +23,8 @@ Ends = Callable[[Family, np.ndarray], bool]
 
 def printed(ledger: Ledger) -> Ledger:
     """The ledger with every value as it is written down, and the decimals that each is written with."""
-    found, _ = written(ledger, usual_decimals(ledger), lambda family, values: is_short(values / family.how.scale))
-    return found
+    rounded, _ = written(ledger, usual_decimals(ledger), lambda family, values: is_short(values / family.how.scale))
+    return rounded
 
 
 def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tuple[Ledger, Mapping[str, np.ndarray]]:
@@ -95,8 +95,8 @@ def usual_decimals(ledger: Ledger) -> dict[str, int | None]:
     names = names_of(ledger)
     for id, family in ledger.families.items():
         together.setdefault(names[id], []).append(family)
-    found = {name: _of_quantity(members) for name, members in together.items()}
-    chosen = {id: None if _is_typed(family) else found[names[id]] for id, family in ledger.families.items()}
+    decimals = {name: _of_quantity(members) for name, members in together.items()}
+    chosen = {id: None if _is_typed(family) else decimals[names[id]] for id, family in ledger.families.items()}
     return {**chosen, **ledger.decimals}
 
 

@@ -301,11 +301,11 @@ def parted(symbol: Symbol) -> tuple[str, str]:
 
 def sides(node: Expression, language: Language, fits: Fits | None = None, slashed: bool = False) -> list[Part]:
     """What "=" joins, the note with the last; what does not fit its line is opened."""
-    found = [laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,))]
+    sides = [laid(part, language, slashed) for part in (node.parts if isinstance(node, Chain) else (node,))]
     if fits is not None:
-        head = (found[0], EQUALS) if len(found) > 1 else ()
-        found = [opened(part, lambda inner: fits((*head, inner))) for part in found]
-    return [*found[:-1], _noted(found[-1], node)]
+        head = (sides[0], EQUALS) if len(sides) > 1 else ()
+        sides = [opened(part, lambda inner: fits((*head, inner))) for part in sides]
+    return [*sides[:-1], _noted(sides[-1], node)]
 
 
 def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
@@ -319,8 +319,8 @@ def opened(part: Part, fits: Callable[[Part], bool]) -> Part:
         case MathRow(parts):
             return MathRow(tuple(inner for one in parts for inner in _opened_in_row(one, fits)))
         case Fence("", inner):
-            found = opened(inner, fits)
-            return part if found == inner else found
+            opened_inner = opened(inner, fits)
+            return part if opened_inner == inner else opened_inner
         case Quotient(top, bottom) if _is_sum(top):
             return MathRow((Quotient(Written("1", ""), bottom), Sign("·", "bound"), *_marked(top)))
         case Fence("(", inner) if _is_sum(inner):
@@ -343,8 +343,8 @@ def _is_sum(part: Part) -> bool:
 
 
 def _opened_in_row(part: Part, fits: Callable[[Part], bool]) -> tuple[Part, ...]:
-    found = opened(part, fits)
-    return found.parts if found != part and isinstance(found, MathRow) else (found,)
+    opened_part = opened(part, fits)
+    return opened_part.parts if opened_part != part and isinstance(opened_part, MathRow) else (opened_part,)
 
 
 def displayed(node: Expression, language: Language, fits: Fits | None = None) -> list[list[Part]]:
@@ -352,14 +352,12 @@ def displayed(node: Expression, language: Language, fits: Fits | None = None) ->
 
     A last "= 0" stands with the side before it, but a lone symbol keeps it: there rows are aligned.
     """
-    found = [
-        pieces(part) for part in sides(replace(node, note="") if isinstance(node, Chain) else node, language, fits)
-    ]
-    if short_end(node) and (len(found) > 2 or (len(found) == 2 and len(found[0]) > 1)):
-        end = found.pop()
-        found[-1][-1] = MathRow((found[-1][-1], EQUALS, *end))
-    found[-1][-1] = _noted(found[-1][-1], node)
-    return found
+    rows = [pieces(part) for part in sides(replace(node, note="") if isinstance(node, Chain) else node, language, fits)]
+    if short_end(node) and (len(rows) > 2 or (len(rows) == 2 and len(rows[0]) > 1)):
+        end = rows.pop()
+        rows[-1][-1] = MathRow((rows[-1][-1], EQUALS, *end))
+    rows[-1][-1] = _noted(rows[-1][-1], node)
+    return rows
 
 
 def pieces(part: Part) -> list[Part]:
@@ -371,15 +369,15 @@ def pieces(part: Part) -> list[Part]:
             every = parts
         case _:
             every = (part,)
-    found: list[list[Part]] = [[]]
+    pieces: list[list[Part]] = [[]]
     within = False
-    for one in every:
-        if isinstance(one, Parenthesis):
-            within = one.of == "("
-        elif isinstance(one, Sign) and (one.role == "sum" or (one.role == "product" and not within)):
-            found.append([])
-        found[-1].append(one)
-    return [MathRow(tuple(some)) for some in found]
+    for piece in every:
+        if isinstance(piece, Parenthesis):
+            within = piece.of == "("
+        elif isinstance(piece, Sign) and (piece.role == "sum" or (piece.role == "product" and not within)):
+            pieces.append([])
+        pieces[-1].append(piece)
+    return [MathRow(tuple(some)) for some in pieces]
 
 
 def short_end(row: Expression) -> bool:
@@ -414,13 +412,15 @@ def columns(equation: VectorEquation) -> list[TermColumn]:
 
     A last "= 0", of which nothing is known, stands with the term before it: no row is broken between them.
     """
-    found: list[TermColumn] = []
+    columns: list[TermColumn] = []
     for signs, term in terms(equation):
-        if found and signs[:1] == (BOUND,) and not any(entry != "" for entry in term.known):
-            found[-1] = TermColumn(found[-1].signs, MathRow((found[-1].term, *signs, term.symbol)), found[-1].known)
+        if columns and signs[:1] == (BOUND,) and not any(entry != "" for entry in term.known):
+            columns[-1] = TermColumn(
+                columns[-1].signs, MathRow((columns[-1].term, *signs, term.symbol)), columns[-1].known
+            )
         else:
-            found.append(TermColumn(signs, term.symbol, known_of(term, equation)))
-    return found
+            columns.append(TermColumn(signs, term.symbol, known_of(term, equation)))
+    return columns
 
 
 def known_of(term: Term, equation: VectorEquation) -> tuple[Expression | str | None, ...]:

@@ -132,16 +132,16 @@ class Sheet:
 
     def copy(self, positions: int = 0) -> Sheet:
         """What is entered so far, to be continued, over another number of positions if one is given."""
-        other = Sheet(positions or self.positions)
-        other.families, other._values, other.lines = dict(self.families), dict(self._values), dict(self.lines)
-        other.chapter, other.typed = self.chapter, dict(self.typed)
-        return other
+        copy = Sheet(positions or self.positions)
+        copy.families, copy._values, copy.lines = dict(self.families), dict(self._values), dict(self.lines)
+        copy.chapter, copy.typed = self.chapter, dict(self.typed)
+        return copy
 
-    def extend(self, other: Sheet) -> None:
+    def extend(self, sheet: Sheet) -> None:
         """Enter what stands on another sheet; raises `ValueError` for a quantity that is on both."""
-        for family in other.families.values():
+        for family in sheet.families.values():
             self.enter(family)
-        for name, ids in other.lines.items():
+        for name, ids in sheet.lines.items():
             self.set_out(name, *ids)
 
     def set_out(self, name: str, *quantities: Ref | str) -> None:

@@ -13,7 +13,9 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from functools import lru_cache
+from functools import cache, lru_cache
+from importlib import import_module
+from pathlib import Path
 
 import numpy as np
 
@@ -36,64 +38,59 @@ class QuantityKind:
     decimals: int | None = None
 
 
-KINDS: dict[str, QuantityKind] = {
-    "ratio": QuantityKind(""),
-    "count": QuantityKind("", decimals=0),
-    "sign": QuantityKind("", decimals=0),
-    "share": QuantityKind("%", 1e-2, decimals=3),
-    "angle": QuantityKind("°", math.pi / 180, decimals=2),
-    "direction": QuantityKind("°", math.pi / 180, decimals=1),
-    "speed of rotation": QuantityKind("rpm"),
-    "time": QuantityKind("s"),
-    "length": QuantityKind("m"),
-    "diameter": QuantityKind("cm", 1e-2),
-    "area": QuantityKind("cm²", 1e-4),
-    "product of lengths": QuantityKind("m²"),
-    "segment": QuantityKind("mm", 1e-3, decimals=2),
-    "cam length": QuantityKind("mm", 1e-3, decimals=3),
-    "radius of curvature": QuantityKind("mm", 1e-3),
-    "reduced velocity": QuantityKind("mm/rad", 1e-3, decimals=3),
-    "reduced acceleration": QuantityKind("mm/rad²", 1e-3, decimals=3),
-    "angle on paper": QuantityKind("rad/mm", 1e3, digits=6),
-    "length on paper": QuantityKind("mm/mm", digits=6),
-    "reduced velocity on paper": QuantityKind("mm/(rad·mm)", digits=6),
-    "reduced acceleration on paper": QuantityKind("mm/(rad²·mm)", digits=6),
-    "rate on paper": QuantityKind("1/mm", 1e3, digits=6),
-    "phase share": QuantityKind("", decimals=5),
-    "follower velocity": QuantityKind("mm/s", 1e-3),
-    "follower acceleration": QuantityKind("mm/s²", 1e-3),
-    "graph value": QuantityKind("", decimals=5),
-    "swing": QuantityKind("°", math.pi / 180, decimals=4),
-    "arc": QuantityKind("rad", digits=6),
-    "gear length": QuantityKind("mm", 1e-3, decimals=3),
-    "gear number": QuantityKind("", decimals=4),
-    "gear angle": QuantityKind("°", math.pi / 180, decimals=4),
-    "gear figure": QuantityKind("", digits=4),
-    "involute": QuantityKind("", decimals=6),
-    "velocity on paper": QuantityKind("mm/(s·mm)", digits=6),
-    "rotation on paper": QuantityKind("rad/(s·mm)", 1e3, digits=6),
-    "length scale": QuantityKind("m/mm", 1e3, digits=6),
-    "velocity scale": QuantityKind("m/(s·mm)", 1e3, digits=6),
-    "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=6),
-    "force scale": QuantityKind("N/mm", 1e3, digits=6),
-    "inertia scale": QuantityKind("kg·m²/mm", 1e3, digits=6),
-    "work scale": QuantityKind("J/mm", 1e3, digits=6),
-    "pressure scale": QuantityKind("N/(cm²·mm)", 1e7, digits=6),
-    "velocity": QuantityKind("m/s"),
-    "acceleration": QuantityKind("m/s²"),
-    "angular velocity": QuantityKind("rad/s"),
-    "angular acceleration": QuantityKind("rad/s²"),
-    "weight": QuantityKind("N"),
-    "gravity": QuantityKind("m/s²"),
-    "mass": QuantityKind("kg"),
-    "moment of inertia": QuantityKind("kg·m²"),
-    "pressure": QuantityKind("N/cm²", 1e4),
-    "force": QuantityKind("N"),
-    "torque": QuantityKind("N·m"),
-    "work": QuantityKind("J"),
-    "power": QuantityKind("W"),
-}
+class _Kinds(dict[str, QuantityKind]):
+    """The kinds by name; one that is not common is looked for in the rooms of all kinds of work."""
 
+    def __missing__(self, name: str) -> QuantityKind:
+        for head in heads():
+            rows_of(head)
+        if name not in self:
+            raise KeyError(name)
+        return self[name]
+
+
+KINDS = _Kinds(
+    {
+        "ratio": QuantityKind(""),
+        "count": QuantityKind("", decimals=0),
+        "sign": QuantityKind("", decimals=0),
+        "share": QuantityKind("%", 1e-2, decimals=3),
+        "angle": QuantityKind("°", math.pi / 180, decimals=2),
+        "direction": QuantityKind("°", math.pi / 180, decimals=1),
+        "speed of rotation": QuantityKind("rpm"),
+        "time": QuantityKind("s"),
+        "length": QuantityKind("m"),
+        "diameter": QuantityKind("cm", 1e-2),
+        "area": QuantityKind("cm²", 1e-4),
+        "product of lengths": QuantityKind("m²"),
+        "segment": QuantityKind("mm", 1e-3, decimals=2),
+        "length on paper": QuantityKind("mm/mm", digits=6),
+        "follower velocity": QuantityKind("mm/s", 1e-3),
+        "length scale": QuantityKind("m/mm", 1e3, digits=6),
+        "velocity scale": QuantityKind("m/(s·mm)", 1e3, digits=6),
+        "acceleration scale": QuantityKind("m/(s²·mm)", 1e3, digits=6),
+        "force scale": QuantityKind("N/mm", 1e3, digits=6),
+        "inertia scale": QuantityKind("kg·m²/mm", 1e3, digits=6),
+        "work scale": QuantityKind("J/mm", 1e3, digits=6),
+        "pressure scale": QuantityKind("N/(cm²·mm)", 1e7, digits=6),
+        "velocity": QuantityKind("m/s"),
+        "acceleration": QuantityKind("m/s²"),
+        "angular velocity": QuantityKind("rad/s"),
+        "angular acceleration": QuantityKind("rad/s²"),
+        "weight": QuantityKind("N"),
+        "gravity": QuantityKind("m/s²"),
+        "mass": QuantityKind("kg"),
+        "moment of inertia": QuantityKind("kg·m²"),
+        "pressure": QuantityKind("N/cm²", 1e4),
+        "force": QuantityKind("N"),
+        "torque": QuantityKind("N·m"),
+        "work": QuantityKind("J"),
+        "power": QuantityKind("W"),
+    }
+)
+
+OWN_IDS = "_ids"
+"""What a module's name ends with that has the ids of a kind of work."""
 MAX_DIGITS = max(kind.digits for kind in KINDS.values())
 """Significant figures of the largest value of what is computed, at most."""
 
@@ -151,9 +148,9 @@ def numbered(index: str) -> list[tuple[str, str]]:
 
 def segment(first: Symbol | str, second: Symbol | str) -> Symbol:
     """A length between two points of a drawing: a bar over both letters, e.g. over p b or O₁A."""
-    one = first if isinstance(first, Symbol) else Symbol(first)
+    start = first if isinstance(first, Symbol) else Symbol(first)
     two = second if isinstance(second, Symbol) else Symbol(second)
-    return Symbol(one.base + lowered(one.sub) + one.sup + two.base, two.sub, two.sup, "segment")
+    return Symbol(start.base + lowered(start.sub) + start.sup + two.base, two.sub, two.sup, "segment")
 
 
 def drawn_length(first: str, second: str) -> Symbol:
@@ -179,9 +176,10 @@ class Chapter(StrEnum):
 class VocabularyRow:
     """A family of ids, or a single one.
 
-    Under the `letter` stands the text `below`, else the word in the last place, above it the `part`.  `plan` is the id
-    of the scale that lengths on paper are measured with.  What is in braces is a word that stands in that place of the
-    id.  Values that go `around` the circle are directions.  `name` is what `words.yaml` calls the family.
+    Under the `letter` stands the text `below`, else the word in the last place, over that the text `above`, else the
+    `part`.  `plan` is the id of the scale that lengths on paper are measured with.  What is in braces is a word that
+    stands in that place of the id.  Values that go `around` the circle are directions.  `name` is what `words.yaml`
+    calls the family.
     """
 
     ids: Name
@@ -190,6 +188,7 @@ class VocabularyRow:
     chapter: Chapter | None = None
     plan: str = ""
     below: str = ""
+    above: str = ""
     around: bool = False
     name: str = ""
 
@@ -315,74 +314,6 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.force_segment, "", "segment", _FORCES, "mu.R{group}", name="segment"),
     # given data of a linkage
     VocabularyRow(ids.frame_coordinate, name="coordinate"),
-    # cams: what is given and chosen, the limits of the pressure angle, the law of motion, the profile
-    VocabularyRow(Name("cam.h"), "h", "cam length"),
-    VocabularyRow(Name("cam.swing"), "ψ", "swing", below="max"),
-    VocabularyRow(ids.cam_phase, "Φ", "angle", below="{phase}", name="cam phase"),
-    VocabularyRow(ids.cam_arc.only(phase="swing"), "ψ", "arc", _V, below="max"),
-    VocabularyRow(ids.cam_arc, "Φ", "arc", _V, below="{phase}", name="cam arc"),
-    VocabularyRow(Name("cam.start.return"), "φ", "angle", _V, below="0"),
-    VocabularyRow(Name("cam.limit.rise"), "[α]", "angle"),
-    VocabularyRow(Name("cam.limit.return"), "[α′]", "angle"),
-    VocabularyRow(Name("cam.limit.rho"), "[ρ]", "cam length"),
-    VocabularyRow(Name("cam.n"), "n", "speed of rotation"),
-    VocabularyRow(Name("cam.omega"), "ω", "angular velocity", _V),
-    VocabularyRow(Name("cam.r0"), "r", "cam length", below="0"),
-    VocabularyRow(Name("cam.e"), "e", "cam length"),
-    VocabularyRow(Name("cam.a"), "a", "cam length"),
-    VocabularyRow(Name("cam.l"), "l", "cam length"),
-    VocabularyRow(Name("cam.roller"), "r", "cam length", below="rol"),
-    VocabularyRow(Name("cam.s0"), "s", "cam length", _G, below="0"),
-    VocabularyRow(Name("cam.psi0"), "ψ", "swing", _G, below="0"),
-    VocabularyRow(ids.cam_touch.only(quantity="s"), "s", "cam length", _G, below="{phase}", name="cam touch"),
-    VocabularyRow(ids.cam_touch.only(quantity="ds"), "s′", "reduced velocity", _G, below="{phase}", name="cam touch"),
-    VocabularyRow(ids.cam_touch.only(quantity="psi"), "ψ", "swing", _G, below="{phase}", name="cam touch"),
-    VocabularyRow(ids.cam_touch.only(quantity="dpsi"), "ψ′", "ratio", _G, below="{phase}", name="cam touch"),
-    VocabularyRow(ids.cam_touch.only(quantity="phi"), "φ", "angle", _G, below="{phase}", name="cam touch"),
-    VocabularyRow(ids.cam_intercept, "c", "cam length", _G, below="{phase}", name="cam intercept"),
-    VocabularyRow(Name("cam.apex.s0"), "s", "cam length", _G, below="A"),
-    VocabularyRow(Name("cam.apex.e"), "e", "cam length", _G, below="A"),
-    VocabularyRow(Name("cam.least.e"), "e", "cam length", _G, below="lim"),
-    VocabularyRow(Name("cam.least.s0"), "s", "cam length", _G, below="0lim"),
-    VocabularyRow(Name("cam.least.psi0"), "ψ", "swing", _G, below="0lim"),
-    VocabularyRow(Name("cam.least.r0"), "r", "cam length", _G, below="0min"),
-    VocabularyRow(Name("cam.valley"), "m", "cam length", _G),
-    VocabularyRow(ids.cam_node, "{quantity}", "graph value", _V, below="{phase},{number}", name="cam node {quantity}"),
-    VocabularyRow(Name("cam.phi"), "φ", "angle", _V),
-    VocabularyRow(Name("cam.x"), "x", "phase share", _V),
-    VocabularyRow(Name("cam.z"), "z", "phase share", _V),
-    VocabularyRow(Name("cam.s"), "s", "cam length", _V),
-    VocabularyRow(Name("cam.ds"), "s′", "reduced velocity", _V),
-    VocabularyRow(Name("cam.dds"), "s″", "reduced acceleration", _V),
-    VocabularyRow(Name("cam.psi"), "ψ", "swing", _V),
-    VocabularyRow(Name("cam.dpsi"), "ψ′", "ratio", _V),
-    VocabularyRow(Name("cam.ddpsi"), "ψ″", "ratio", _V),
-    VocabularyRow(Name("cam.v"), "v", "follower velocity", _V),
-    VocabularyRow(Name("cam.acceleration"), "a", "follower acceleration", _V, below="f"),
-    VocabularyRow(Name("cam.omega.f"), "ω", "angular velocity", _V, below="f"),
-    VocabularyRow(Name("cam.epsilon.f"), "ε", "angular acceleration", _V, below="f"),
-    VocabularyRow(ids.cam_diagram.only(quantity="L"), "L", "cam length", _V),
-    VocabularyRow(ids.cam_diagram, "K", "cam length", _V),
-    VocabularyRow(ids.cam_scale, "μ", "ratio", _V),
-    VocabularyRow(Name("cam.q"), "q", "swing", _A),
-    VocabularyRow(Name("cam.k"), "k", "ratio", _A),
-    VocabularyRow(Name("cam.alpha"), "α", "angle", _A),
-    VocabularyRow(ids.cam_pitch, "{axis}", "cam length", _A, below="B", name="cam pitch"),
-    VocabularyRow(ids.cam_profile, "{axis}", "cam length", _A, below="K", name="cam profile"),
-    VocabularyRow(Name("cam.contact"), "L", "cam length", _A),
-    VocabularyRow(Name("cam.u"), "u", "cam length", _A),
-    VocabularyRow(Name("cam.w"), "w", "cam length", _A),
-    VocabularyRow(ids.cam_bend, "m", "cam length", _A, name="cam bend"),
-    VocabularyRow(Name("cam.rho"), "ρ", "radius of curvature", _A),
-    VocabularyRow(Name("cam.rho.working"), "ρ", "radius of curvature", _A, below="K"),
-    # gears: all are named on their sheet
-    VocabularyRow(ids.gear, name="gear {quantity}"),
-    # planetary trains: tooth numbers, ratios, rates; all others are named on their sheet
-    VocabularyRow(ids.train_teeth, "z", "count", below="{wheel}", name="train teeth"),
-    VocabularyRow(ids.train_row_ratio, "u", "ratio", below="{number}", name="train row ratio"),
-    VocabularyRow(ids.train_omega, "ω", "angular velocity", below="{wheel}", name="train omega"),
-    VocabularyRow(ids.train_velocity, "v", "follower velocity", below="{place}", name="train velocity"),
-    VocabularyRow(ids.train_efficiency, "η", "ratio", below="{of}", name="train efficiency"),
     # the cycle
     VocabularyRow(ids.figure_of_balance, "M", "torque", name="balance over the cycle"),
     VocabularyRow(Name("W"), "W", "work"),
@@ -392,9 +323,33 @@ _PRINTED = {"t": "τ"}
 _NO_ROW = VocabularyRow(Name(""))
 
 
+# --- what a kind of work has for itself ------------------------------------------------------------
+# The ids of a kind begin with one word, as cam.r0: they, their ROWS and KINDS stand in its room, in a module that is
+# called by that word, `cam_ids.py`.  It is imported when such an id is met, in whatever process that is.
+
+
+@cache
+def heads() -> Mapping[str, str]:
+    """The modules of ids that kinds of work bring, dotted, by the word that those ids begin with."""
+    package = Path(__file__).parents[1]
+    modules = sorted(package.glob(f"*/*{OWN_IDS}.py"))
+    return {path.stem.removesuffix(OWN_IDS): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
+
+
+@cache
+def rows_of(head: str) -> tuple[VocabularyRow, ...]:
+    """The rows of the ids that begin with a word, the common ones if no kind of work has it for itself."""
+    if head not in heads():
+        return ROWS
+    module = import_module(heads()[head])
+    KINDS.update(module.KINDS)
+    rows: tuple[VocabularyRow, ...] = module.ROWS
+    return rows
+
+
 @lru_cache(maxsize=4096)
 def _found(id: str) -> tuple[VocabularyRow, dict[str, str]]:
-    for row in ROWS:
+    for row in rows_of(id.partition(".")[0]):
         if (words := row.ids.read(id)) is not None:
             return row, words
     return _NO_ROW, {}
@@ -410,11 +365,11 @@ def symbol(id: str) -> Symbol:
 
     Raises `KeyError` for an id that no row gives a letter.
     """
-    found, words = _found(id)
-    if not found.letter:
+    family, words = _found(id)
+    if not family.letter:
         raise KeyError(f"no letter for {id}")
     part = words.get("part", "")
-    return Symbol(found.letter.format(**words), found.index(words), _PRINTED.get(part, part))
+    return Symbol(family.letter.format(**words), family.index(words), family.above or _PRINTED.get(part, part))
 
 
 _OF_POINTS = frozenset({"velocity", "acceleration", "coordinate"})
@@ -425,16 +380,16 @@ def vector_of(id: str) -> str:
 
     seg.v.pb → v.B, seg.v.ab → v.BA, seg.a.n.BA → a.BA.n, dir.R12.n → R.12.n, h.Pqt2.B → Pqt2.
     """
-    if found := ids.segment.read(id):
-        base = "" if found["start"] == ids.POLE else found["start"]
-        return ids.POINT_RATE[found["what"]](f"{found['end']}{base}".upper())
-    if found := ids.relative_segment.read(id):
-        return ids.acceleration(found["relative"], found["part"])
-    if found := ids.direction.read(id):
-        return ids.POINT_RATE[found["what"]](found["point"])
+    if names := ids.segment.read(id):
+        base = "" if names["start"] == ids.POLE else names["start"]
+        return ids.POINT_RATE[names["what"]](f"{names['end']}{base}".upper())
+    if names := ids.relative_segment.read(id):
+        return ids.acceleration(names["relative"], names["part"])
+    if names := ids.direction.read(id):
+        return ids.POINT_RATE[names["what"]](names["point"])
     for of_force in (ids.force_segment, ids.force_direction, ids.arm, ids.lever_arm, ids.lever_moment):
-        if found := of_force.read(id):
-            return ids.of_force(found["force"])
+        if names := of_force.read(id):
+            return ids.of_force(names["force"])
     return ""
 
 
@@ -443,20 +398,22 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
 
     `shown` is the quantity's symbol, whose points may say more than the id's (B₃B₂ for B3B).
     """
-    found, parts = _found(id)
-    index = found.index(parts)
-    points = ids.points(shown.sub if found.kind in ("velocity", "acceleration") else index)
-    link, other = ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", index), "")
+    family, parts = _found(id)
+    index = family.index(parts)
+    points = ids.points(shown.sub if family.kind in ("velocity", "acceleration") else index)
+    link, acted_on = (
+        ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", parts.get("wheel", index)), "")
+    )
     words = {
         "line": lowered(index),
         "link": link,
-        "other": other,
+        "other": acted_on,
         "axis": parts.get("axis", ""),
         "about": lowered(parts.get("about", "")),
         "plan": shown.sub.removeprefix("R"),
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
-    name = f"{found.name}.{parts['part']}" if found.letter and parts.get("part") else found.name.format(**parts)
+    name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 
@@ -470,8 +427,8 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
     for key, text in table.items():
         for name in key.split(", "):
             said.setdefault(name, text)
-    found, parts = _found(id)
-    named = id, f"{found.name}.{parts.get('axis', '')}", wording(id, shown)[0]
+    family, parts = _found(id)
+    named = id, f"{family.name}.{parts.get('axis', '')}", wording(id, shown)[0]
     nearest = (*(one for name in named if name for one in (f"{name}:{kind}", name)), f":{kind}")
     return (said[one] for one in nearest if one in said)
 
@@ -479,8 +436,8 @@ def words_of(table: Mapping[str, str], id: str, kind: str, shown: Symbol) -> Ite
 @lru_cache(maxsize=4096)
 def plan(id: str) -> str:
     """The id of the scale that a length on paper is measured with; "" for anything else."""
-    found, parts = _found(id)
-    return found.plan.format(**parts)
+    family, parts = _found(id)
+    return family.plan.format(**parts)
 
 
 def is_laid(id: str) -> bool:
@@ -488,7 +445,7 @@ def is_laid(id: str) -> bool:
     return any(id in family for family in (ids.laid_line, ids.laid, ids.laid_force))
 
 
-def distance(id: str, one: Value, other: Value) -> Value:
+def distance(id: str, value: Value, reference: Value) -> Value:
     """How far two values (SI) of a quantity lie apart: of directions, around the circle."""
-    apart = np.abs(one - other)
-    return np.abs(np.mod(one - other + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart
+    apart = np.abs(value - reference)
+    return np.abs(np.mod(value - reference + np.pi, 2 * np.pi) - np.pi) if row(id).around else apart

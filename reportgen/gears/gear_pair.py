@@ -92,12 +92,12 @@ class Parameters(Part):
 
 @lru_cache(maxsize=64)
 def _chosen(given: Parameters) -> Chosen:
-    told = given.shifts if isinstance(given.shifts, Shifts) else None
+    shifts = given.shifts if isinstance(given.shifts, Shifts) else None
     blank = GearPair(Rack(given.alpha.si, given.ha, given.c), given.m.si, (given.z1, given.z2), np.zeros(2))
     limits = PairLimits(given.limits.epsilon, given.limits.tip, given.limits.sliding)
-    rule = "given" if told else given.by
+    rule = "given" if shifts else given.by
     a_w = None if given.a_w is None else given.a_w.si
-    return choose(blank, limits, rule, a_w, None if told is None else (told.x1, told.x2))
+    return choose(blank, limits, rule, a_w, None if shifts is None else (shifts.x1, shifts.x2))
 
 
 # --- what cannot be -------------------------------------------------------------------------------
@@ -117,8 +117,8 @@ def _keys(given: Parameters) -> Iterator[Finding]:
         # The rounding may be as large as what is left of the tip.
         room = math.pi / 4 - given.ha * math.tan(rack.alpha)
         most = room * (1 - math.sin(rack.alpha)) / math.cos(rack.alpha)
-        told = {"c": f"{given.c:g}", "most": f"{math.floor(most * 1000) / 1000:g}"}
-        yield Finding("gear-rack" if most >= 0.05 else "gear-rack-pointed", (*TOP, "c"), told)
+        clearances = {"c": f"{given.c:g}", "most": f"{math.floor(most * 1000) / 1000:g}"}
+        yield Finding("gear-rack" if most >= 0.05 else "gear-rack-pointed", (*TOP, "c"), clearances)
 
 
 def _mesh(given: Parameters) -> Iterator[Finding]:
@@ -138,13 +138,15 @@ def _mesh(given: Parameters) -> Iterator[Finding]:
         yield Finding("gear-no-mesh", where, {"sum": f"{pair.x.sum():g}"})
         return
     for i in (0, 1):
-        told = {"wheel": str(i + 1), "x": f"{pair.x[i]:.4g}"}
+        wheel_shift = {"wheel": str(i + 1), "x": f"{pair.x[i]:.4g}"}
         if pair.d_f[i] <= 0 or pair.d_a[i] <= pair.d_f[i]:
-            yield Finding("gear-no-teeth", where, told)
+            yield Finding("gear-no-teeth", where, wheel_shift)
         elif not pair.s_a[i] >= 0:
-            yield Finding("gear-beyond-point", where, told)
+            yield Finding("gear-beyond-point", where, wheel_shift)
         elif pair.rho_p[i] <= 0:
-            yield Finding("gear-beyond-line", where, told | {"mate": str(2 - i), "x_min": f"{pair.x_min[i]:.3f}"})
+            yield Finding(
+                "gear-beyond-line", where, wheel_shift | {"mate": str(2 - i), "x_min": f"{pair.x_min[i]:.3f}"}
+            )
 
 
 def pair_base(given: Parameters) -> float:
@@ -154,8 +156,8 @@ def pair_base(given: Parameters) -> float:
 
 def check(given: Parameters) -> Iterator[Finding]:
     """Keys first, then what the pair comes to."""
-    found = list(_keys(given))
-    yield from found or _mesh(given)
+    faults = list(_keys(given))
+    yield from faults or _mesh(given)
 
 
 CHECKS = (of_parameters(check),)
@@ -171,7 +173,7 @@ def physics(assignment: Assignment) -> Iterator[Finding]:
     for name, wheel, actual, limit in given.chosen.broken():
         # Radii of curvature are lengths (m).
         scale = MM if name == "interference" else 1.0
-        told = {
+        figures = {
             "wheel": str(wheel),
             "mate": str(3 - wheel),
             "is": f"{actual * scale:.3f}",
@@ -179,7 +181,7 @@ def physics(assignment: Assignment) -> Iterator[Finding]:
         }
         at = {1: ("x1",), 2: ("x2",)}.get(wheel, ()) if isinstance(given.shifts, Shifts) and name == "undercut" else ()
         at = at if at and getattr(given.shifts, at[0]) is not None else ()
-        yield Finding(f"gear-{name}", (*shifts, *at), told)
+        yield Finding(f"gear-{name}", (*shifts, *at), figures)
 
 
 WARNINGS = (physics,)

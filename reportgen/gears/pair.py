@@ -202,8 +202,8 @@ def balanced(pair: GearPair, total: float) -> Floats:
         λ1, λ2 = np.where(shifted.rho_p > 0, shifted.sliding, np.nan)
         return np.asarray(λ1 - λ2)
 
-    found = unlike(first)
-    [crossings] = np.nonzero((found[:-1] <= 0) & (found[1:] > 0))
+    differences = unlike(first)
+    [crossings] = np.nonzero((differences[:-1] <= 0) & (differences[1:] > 0))
     if not crossings.size:
         raise NoPairError("gear-no-balance")
     k = int(crossings[0])
@@ -265,15 +265,15 @@ class Chosen:
 
 
 def choose(
-    blank: GearPair, limits: PairLimits, rule: str, a_w: float | None, told: tuple[float, float | None] | None
+    blank: GearPair, limits: PairLimits, rule: str, a_w: float | None, given_shifts: tuple[float, float | None] | None
 ) -> Chosen:
     """The shifts of a pair by a rule, in hundredths unless a centre distance (m) decides.
 
     Raises `NoPairError` where there are none.
     """
     total = None if a_w is None else sum_for(blank.rack, blank.m, blank.teeth, a_w)
-    if told is not None:
-        first, second = told[0], told[1] or 0.0
+    if given_shifts is not None:
+        first, second = given_shifts[0], given_shifts[1] or 0.0
     elif rule == "x_min":
         first, second = map(float, least_shifts(blank))
     elif total is None:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
-from typing import Any
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -30,8 +28,8 @@ from reportgen.drawing.charts import Area
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
-from reportgen.formula import Symbol, ids, vocabulary
-from reportgen.formula.sheet import Family
+from reportgen.formula import Symbol
+from reportgen.gears import gears_ids
 from reportgen.gears import pair_views as views
 from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
@@ -48,10 +46,8 @@ from reportgen.gears.pair_drawings import (
     turned,
 )
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import Block, Document
-from reportgen.report.key import Key, Span
+from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
-from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn, on_sheet
 
 
@@ -59,71 +55,35 @@ from reportgen.sheets.plates import drawn, on_sheet
 class PairCase(SolvedPair):
     """A gear pair, as a `Case`."""
 
-    @property
-    def families(self) -> Mapping[str, Family]:
-        return self.ledger.families
-
-    @property
-    def positions_of_a_turn(self) -> int:
-        return self.count
-
-    @property
-    def balance(self) -> None:
-        """It has no forces."""
-
-    @property
-    def speed(self) -> None:
-        """It has no speed."""
+    PAGE = views.PairPage
 
     def fault(self) -> str:
         return "gear-limits" if any(self.chosen.broken()) else ""
-
-    def document(self) -> Document:
-        return self.bounded(views.PairPage.report)
-
-    def summary(self) -> Sequence[Block]:
-        return self.bounded(views.PairPage.summary)
 
     @property
     def shafts(self) -> Sequence[Shaft]:
         """It has no speed: wheels of an outer mesh turn against each other."""
         return tuple(Shaft(name, None, turn) for name, turn in zip(self.words["pair"]["shafts"], (1, -1), strict=True))
 
-    def key(self) -> Key:
-        from reportgen.marking.key import make_key
-
-        labels = tuple(map(str, range(1, self.count + 1)))
-        return make_key(self, self.ledger, self.printed, Span(labels, self.count, self.worked), self._sense)
-
-    def _sense(self, id: str) -> str:
-        family = self.ledger[id]
-        return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
-
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.marking.paper import design_task
-
-        return self.bounded(partial(design_task, of=views.PairPage, key=key, by_section=by_section))
-
-    def results(self) -> dict[str, Any]:
+    @cached_property
+    def entries(self) -> ResultEntries:
         """The pair and its wheels, then contact and sliding along the active path, from its beginning on."""
-        from reportgen.marking.results import results
-
         ledger = self.ledger
-        own = sorted({parts["quantity"] for id in ledger.families if (parts := ids.gear.read(id))})
-        single = [one for one in own if len(ledger[ids.gear(one, 1)].values) == 1]
-        wheels = [{one: float(ledger[ids.gear(one, wheel)].values[0]) for one in single} for wheel in WHEELS]
+        own = sorted({parts["quantity"] for id in ledger.families if (parts := gears_ids.of_wheel.read(id))})
+        single = [one for one in own if len(ledger[gears_ids.of_wheel(one, 1)].values) == 1]
+        wheels = [{one: ledger[gears_ids.of_wheel(one, wheel)].values[0] for one in single} for wheel in WHEELS]
         pair = {
-            id.removeprefix("gears."): float(family.values[0])
+            id.removeprefix("gears."): family.values[0]
             for id, family in ledger.families.items()
-            if not ids.gear.read(id) and len(family.values) == 1
+            if not gears_ids.of_wheel.read(id) and len(family.values) == 1
         }
         along = ("rho.1", "rho.2", "lambda.1", "lambda.2")
         positions = [
-            {"number": k + 1, "contact": {one: float(ledger[f"gears.{one}"].values[k]) for one in along}}
+            {"number": k + 1, "contact": {one: ledger[f"gears.{one}"].values[k] for one in along}}
             for k in range(self.count)
         ]
         broken = [{"check": name, "wheel": wheel} for name, wheel, _, _ in self.chosen.broken()]
-        return results(self, positions, pair=pair, wheels=wheels, broken=broken)
+        return ResultEntries(positions, {"pair": pair, "wheels": wheels, "broken": broken})
 
     def animations(self) -> tuple[Animation, ...]:
         return (_animation(self),)
@@ -134,11 +94,6 @@ class PairCase(SolvedPair):
 
     def true_sizes(self) -> Sequence[DrawingSheet]:
         return [_true_size(self, number) for number in (0, 1)]
-
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        return [*on_sheets(self, self.plates(), size, block), *self.true_sizes()]
 
 
 # --- the page on which it turns ---------------------------------------------------------------------

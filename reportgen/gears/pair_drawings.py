@@ -27,7 +27,8 @@ from reportgen.drawing.charts import Area, Plotted, plotted
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula import Chain, Number, Symbol
+from reportgen.gears import gears_ids
 from reportgen.gears.involute import Complexes, Floats
 from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
@@ -280,7 +281,7 @@ def region(case: SolvedPair, area: Area | None = None) -> Scene:
         # Both axes have one scale.
         scale = max(area.per_mm(wide, area.width), area.per_mm(tall, area.height))
         per = (1 / scale / area.enlarged, 1 / scale / area.enlarged)
-        notes = [Chain((Symbol("μ", "x"), Number(scale, unit="1/mm")))]
+        notes = [Chain((Symbol("μ", "x"), Number(scale, unit="mm⁻¹")))]
     frame = complex(wide * per[0], tall * per[1])
     grid = _at(pair, x1, x2)
 
@@ -382,6 +383,6 @@ def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
         least = max(DEEPEST, 1.2 * float(-pair.sliding.min()))
         shown = np.where(λ >= -least, λ, np.nan)
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
-        curves.append(PlottedCurve(case.ledger.symbol(ids.gear("lambda", wheel)), ρ1 * MM, shown, marks))
-    across = Chain((case.ledger.symbol(ids.gear("rho", 1)),), "mm")
+        curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, shown, marks))
+    across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), "mm")
     return plotted(Diagram(tuple(curves), across, Chain((Symbol("λ"),), ""), turn=False), area=area)

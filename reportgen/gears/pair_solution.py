@@ -6,85 +6,38 @@ The points of the active path of contact at which sliding is worked out are rows
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula import PI, Expression, Operand, Ref, Symbol, acos, arcinv, cos, ids, refs, sin, tan
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
+from reportgen.formula import PI, Expression, Operand, Ref, acos, arcinv, cos, refs, sin, tan
 from reportgen.formula.sheet import Sheet
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import Chapter, row
+from reportgen.gears import gears_ids
+from reportgen.gears.gears_ids import LENGTH
 from reportgen.gears.pair import Chosen, GearPair
-from reportgen.report.case import LoadedAssignment, Misconceptions, with_another
+from reportgen.report.case import Misconceptions, with_another
+from reportgen.report.design import DesignCase
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
 WHEELS = (1, 2)
-LENGTH, NUMBER, FIGURE, ANGLE, INVOLUTE = "gear length", "gear number", "gear figure", "gear angle", "involute"
-PAIR: Mapping[str, tuple[Symbol, str]] = {
-    "m": (Symbol("m"), LENGTH),
-    "alpha": (Symbol("α"), "angle"),
-    "ha": (Symbol("h", "a", "*"), NUMBER),
-    "c": (Symbol("c", "", "*"), NUMBER),
-    "limit.epsilon": (Symbol("[ε]"), NUMBER),
-    "limit.tip": (Symbol("[s/m]"), NUMBER),
-    "limit.sliding": (Symbol("[λ]"), NUMBER),
-    "u": (Symbol("u"), NUMBER),
-    "a": (Symbol("a"), LENGTH),
-    "inv": (Symbol("inv α"), INVOLUTE),
-    "inv_w": (Symbol("inv α", "w"), INVOLUTE),
-    "x_sum": (Symbol("x", "Σ"), NUMBER),
-    "alpha_w": (Symbol("α", "w"), ANGLE),
-    "a_w": (Symbol("a", "w"), LENGTH),
-    "y": (Symbol("y"), NUMBER),
-    "dy": (Symbol("Δy"), NUMBER),
-    "h": (Symbol("h"), LENGTH),
-    "p": (Symbol("p"), LENGTH),
-    "p_b": (Symbol("p", "b"), LENGTH),
-    "epsilon": (Symbol("ε", "α"), FIGURE),
-    "g": (Symbol("g"), LENGTH),
-    "g_a": (Symbol("g", "α"), LENGTH),
-    "t": (Symbol("t"), NUMBER),
-}
-"""Symbol and kind of what the pair has,"""
-WHEEL: Mapping[str, tuple[Symbol, str]] = {
-    "z": (Symbol("z"), "count"),
-    "x": (Symbol("x"), NUMBER),
-    "x_min": (Symbol("x", "min"), NUMBER),
-    "d": (Symbol("d"), LENGTH),
-    "d_b": (Symbol("d", "b"), LENGTH),
-    "d_w": (Symbol("d", "w"), LENGTH),
-    "h_a": (Symbol("h", "a"), LENGTH),
-    "d_a": (Symbol("d", "a"), LENGTH),
-    "d_f": (Symbol("d", "f"), LENGTH),
-    "s": (Symbol("s"), LENGTH),
-    "s_w": (Symbol("s", "w"), LENGTH),
-    "alpha_a": (Symbol("α", "a"), ANGLE),
-    "inv_a": (Symbol("inv α", "a"), INVOLUTE),
-    "s_a": (Symbol("s", "a"), LENGTH),
-    "tip": (Symbol("s", "a", "*"), FIGURE),
-    "rho_a": (Symbol("ρ", "a"), LENGTH),
-    "rho_p": (Symbol("ρ", "p"), LENGTH),
-    "rho_f": (Symbol("ρ", "f"), LENGTH),
-    "rho": (Symbol("ρ"), LENGTH),
-    "lambda": (Symbol("λ"), FIGURE),
-}
-"""and of what each wheel has."""
-ALIKE = tuple(one for one in WHEEL if one not in ("z", "x", "rho"))
-"""What both wheels have with as many decimals; ρ₂ = g − ρ₁ goes on from that of the other one."""
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
 """What the report sets out of the pair in mesh,"""
 DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
 """of each wheel,"""
 OF_BOTH = {"undercut": ("x_min",), "contact": ("rho_a", "rho_p"), "fillets": ("rho_f",), "sliding": ("rho", "lambda")}
 """and of both wheels together."""
+ALIKE = ("x_min", *DIMENSIONS, "rho_a", "rho_p", "rho_f", "lambda")
+"""What both wheels have with as many decimals; ρ₂ = g − ρ₁ goes on from that of the other one."""
 
 
 @dataclass(frozen=True)
-class SolvedPair(LoadedAssignment):
+class SolvedPair(DesignCase):
     """An assignment of a gear pair with its ledger; each part is computed when it is first asked for."""
+
+    SAME = tuple(tuple(gears_ids.of_wheel(one, wheel) for wheel in WHEELS) for one in ALIKE)
 
     @cached_property
     def chosen(self) -> Chosen:
@@ -98,22 +51,6 @@ class SolvedPair(LoadedAssignment):
     @cached_property
     def sheet(self) -> Sheet:
         return PairSheet(self.chosen).q
-
-    @cached_property
-    def ledger(self) -> Ledger:
-        sheet = self.sheet
-        units, alike = self.words["units"], tuple(tuple(ids.gear(one, wheel) for wheel in WHEELS) for one in ALIKE)
-        made = Ledger(sheet.families, sheet.positions, units=units, same=alike, lines=sheet.lines)
-        return made.in_language(self.words["symbols"])
-
-    @cached_property
-    def printed(self) -> Ledger:
-        return carried(self.ledger)
-
-    @property
-    def count(self) -> int:
-        """The points of the path."""
-        return POINTS
 
     @property
     def worked(self) -> tuple[int, ...]:
@@ -147,19 +84,18 @@ class PairSheet:
         return self.q[f"gears.{quantity}"]
 
     def of(self, quantity: str, wheel: int) -> Ref:
-        return self.q[ids.gear(quantity, wheel)]
+        return self.q[gears_ids.of_wheel(quantity, wheel)]
 
     def both(self, quantity: str) -> tuple[Ref, Ref]:
         return self.of(quantity, 1), self.of(quantity, 2)
 
     def give(self, quantity: str, value: object, wheel: int = 0) -> Ref:
-        id, symbol, kind = named(quantity, wheel)
-        return self.q.give(id, value, symbol, kind)
+        return self.q.give(named(quantity, wheel), value)
 
     def define(self, quantity: str, definition: Operand, wheel: int = 0) -> Ref:
         """Enter a quantity; below 1e-9 of a module, or of 1, it is nothing."""
-        id, symbol, kind = named(quantity, wheel)
-        return self.q.define(id, definition, symbol, kind, scale=self.pair.m if kind == LENGTH else 1.0)
+        id = named(quantity, wheel)
+        return self.q.define(id, definition, scale=self.pair.m if row(id).kind == LENGTH else 1.0)
 
     def enter_given(self) -> None:
         pair, limits = self.pair, self.chosen.limits
@@ -247,18 +183,15 @@ class PairSheet:
     def set_out(self) -> None:
         self.q.set_out("mesh", *(f"gears.{one}" for one in MESH))
         for name, wheel in zip(("pinion", "wheel"), WHEELS, strict=True):
-            self.q.set_out(name, *(ids.gear(one, wheel) for one in DIMENSIONS))
+            self.q.set_out(name, *(gears_ids.of_wheel(one, wheel) for one in DIMENSIONS))
         self.q.set_out("contact", "gears.epsilon", "gears.g", "gears.g_a")
         for name, among in OF_BOTH.items():
-            self.q.set_out(name, *(ids.gear(one, wheel) for one in among for wheel in WHEELS))
+            self.q.set_out(name, *(gears_ids.of_wheel(one, wheel) for one in among for wheel in WHEELS))
 
 
-def named(quantity: str, wheel: int) -> tuple[str, Symbol, str]:
-    """Id, symbol and kind of a quantity of the pair (0) or of a wheel."""
-    if not wheel:
-        return (f"gears.{quantity}", *PAIR[quantity])
-    symbol, kind = WHEEL[quantity]
-    return ids.gear(quantity, wheel), replace(symbol, sub=f"{symbol.sub}{wheel}"), kind
+def named(quantity: str, wheel: int) -> str:
+    """The id of a quantity of the pair (0) or of a wheel."""
+    return gears_ids.of_wheel(quantity, wheel) if wheel else f"gears.{quantity}"
 
 
 # --- what is often done in place of it --------------------------------------------------------------
@@ -267,7 +200,7 @@ def named(quantity: str, wheel: int) -> tuple[str, Symbol, str]:
 def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
     """Definitions that are often used in place of the right ones."""
     found: dict[str, list[tuple[str, Expression]]] = {}
-    angles = {"gears.inv": "gears.alpha", **{ids.gear("inv_a", wheel): ids.gear("alpha_a", wheel) for wheel in WHEELS}}
+    angles = {named("inv", 0): named("alpha", 0), **{named("inv_a", one): named("alpha_a", one) for one in WHEELS}}
     if "gears.alpha_w" in refs(sheet.families["gears.inv_w"].definition or Ref("")):
         angles["gears.inv_w"] = "gears.alpha_w"
     for id, angle in angles.items():
@@ -277,7 +210,7 @@ def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
         ("gear-ratio", "gears.u", 1 / Ref("gears.u")),
     ]
     for wheel in WHEELS:
-        x, d, d_b = (ids.gear(one, wheel) for one in ("x", "d", "d_b"))
+        x, d, d_b = (gears_ids.of_wheel(one, wheel) for one in ("x", "d", "d_b"))
         taken += [("gear-shift-sign", x, -Ref(x)), ("gear-base-circle", d_b, Ref(d))]
     taken.append(("gear-truncation", "gears.dy", 0.0))
     for name, id, other in taken:
@@ -289,11 +222,11 @@ def _changed(sheet: Sheet) -> Mapping[str, list[tuple[str, Expression]]]:
 def _ways(follows: bool) -> Mapping[str, list[Expression]]:
     """Other ways to what a student may as well have from the centre distance and the radii of curvature."""
     a, a_w, m, g, p_b = (Ref(f"gears.{one}") for one in ("a", "a_w", "m", "g", "p_b"))
-    z1, z2 = (Ref(ids.gear("z", wheel)) for wheel in WHEELS)
-    path = Ref(ids.gear("rho_a", 1)) + Ref(ids.gear("rho_a", 2)) - g
+    z1, z2 = (Ref(gears_ids.of_wheel("z", wheel)) for wheel in WHEELS)
+    path = Ref(gears_ids.of_wheel("rho_a", 1)) + Ref(gears_ids.of_wheel("rho_a", 2)) - g
     found: dict[str, list[Expression]] = {"gears.epsilon": [path / p_b], "gears.g_a": [path]}
     if not follows:
         found["gears.y"] = [(a_w - a) / m]
     for wheel, z in zip(WHEELS, (z1, z2), strict=True):
-        found[ids.gear("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
+        found[gears_ids.of_wheel("d_w", wheel)] = [2 * a_w * z / (z1 + z2)]
     return found

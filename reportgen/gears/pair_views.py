@@ -8,11 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from reportgen.drawing import Scene
-from reportgen.formula import Number, Symbol, ids, vocabulary
+from reportgen.formula import Number, Symbol, vocabulary
+from reportgen.gears import gears_ids
 from reportgen.gears.pair_drawings import mesh, region, sliding
 from reportgen.gears.pair_solution import WHEELS, SolvedPair
 from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
 from reportgen.report.design import DesignPage
+from reportgen.report.wording import phrase
 
 DATA = (95.0, 25.0, 40.0)
 PAIR = (68.0, 22.0, 35.0, 35.0)
@@ -46,7 +48,7 @@ class PairPage(DesignPage[SolvedPair]):
             "iso": math.isclose(chosen.pair.rack.alpha, math.radians(20))
             and (chosen.pair.rack.ha, chosen.pair.rack.c) == (1.0, 0.25),
             "count": case.count,
-            "of": ids.gear,
+            "of": gears_ids.of_wheel,
             "sheet": case.printed.lines,
             "data": self.data,
             "pair_table": self.pair_table,
@@ -94,8 +96,6 @@ class PairPage(DesignPage[SolvedPair]):
 
     def _said(self, id: str) -> Inlines:
         """What a quantity is, in words; that of a wheel goes for both."""
-        from reportgen.marking.key import phrase
-
         text = phrase(id, self.case.ledger, self.case.words)
         return (Text(text[:1].upper() + text[1:]),)
 
@@ -103,7 +103,7 @@ class PairPage(DesignPage[SolvedPair]):
     def data(self) -> Table:
         """The data with their names, symbols and values; shifts that were found are left out."""
         ledger, heads = self.case.printed, self.case.words["table"]
-        sought = {ids.gear("x", wheel) for wheel in WHEELS} if self.sought else set()
+        sought = {gears_ids.of_wheel("x", wheel) for wheel in WHEELS} if self.sought else set()
         rows = [
             ((Text(str(name)),), (InlineMath(ledger.symbol(id)),), (Value(ledger.number(id)),))
             for id, name in self.case.words["given"].items()
@@ -117,9 +117,9 @@ class PairPage(DesignPage[SolvedPair]):
         rows: list[tuple[Inlines, ...]] = []
         for one in OWN:
             symbol = vocabulary.in_language(
-                _without_number(ledger.symbol(ids.gear(one, 1))), self.case.words["symbols"]
+                _without_number(ledger.symbol(gears_ids.of_wheel(one, 1))), self.case.words["symbols"]
             )
-            both = tuple((Value(ledger.result(ids.gear(one, wheel))),) for wheel in WHEELS)
+            both = tuple((Value(ledger.result(gears_ids.of_wheel(one, wheel))),) for wheel in WHEELS)
             rows.append(((Text(words["own"][one]),), (InlineMath(symbol),), *both))
         for one in SHARED:
             id = f"gears.{one}"
@@ -130,7 +130,7 @@ class PairPage(DesignPage[SolvedPair]):
     @property
     def sliding_table(self) -> Table:
         ledger = self.case.printed
-        columns = ("gears.t", *(ids.gear(one, wheel) for one in ("rho", "lambda") for wheel in WHEELS))
+        columns = ("gears.t", *(gears_ids.of_wheel(one, wheel) for one in ("rho", "lambda") for wheel in WHEELS))
         rows: list[tuple[Inlines, ...]] = [
             ((Text(str(k)),), *((Value(ledger.number(id, k)),) for id in columns))
             for k in range(1, self.case.count + 1)
@@ -156,17 +156,23 @@ class PairPage(DesignPage[SolvedPair]):
             rows.append(((Text(text),), symbol, (Text(sign), Value(limit)), (Value(shown),), (Text(str(holds)),)))
 
         for wheel in WHEELS:
-            row("undercut", wheel, "≥ ", ledger.number(ids.gear("x_min", wheel)), ids.gear("x", wheel))
+            row(
+                "undercut",
+                wheel,
+                "≥ ",
+                ledger.number(gears_ids.of_wheel("x_min", wheel)),
+                gears_ids.of_wheel("x", wheel),
+            )
         for wheel in WHEELS:
-            row("tip", wheel, "≥ ", ledger.number("gears.limit.tip"), ids.gear("tip", wheel))
+            row("tip", wheel, "≥ ", ledger.number("gears.limit.tip"), gears_ids.of_wheel("tip", wheel))
         for wheel in WHEELS:
-            begun = ledger.number(ids.gear("rho_f", wheel))
+            begun = ledger.number(gears_ids.of_wheel("rho_f", wheel))
             limit = begun if begun.value > 0 else Number(0.0, 0, "mm")
-            row("interference", wheel, "≥ ", limit, ids.gear("rho_p", wheel))
+            row("interference", wheel, "≥ ", limit, gears_ids.of_wheel("rho_p", wheel))
         row("epsilon", 0, "≥ ", ledger.number("gears.limit.epsilon"), "gears.epsilon")
         if chosen.limits.sliding is not None:
             for wheel, end in zip(WHEELS, case_ends(self.case), strict=True):
-                number_ = ledger.number(ids.gear("lambda", wheel), end)
+                number_ = ledger.number(gears_ids.of_wheel("lambda", wheel), end)
                 shown = Number(-number_.shown, number_.decimals)
                 row("sliding", wheel, "≤ ", ledger.number("gears.limit.sliding"), shown)
         return self._table("checks", CHECKS, ((Text(str(one)),) for one in words["head"]), rows)

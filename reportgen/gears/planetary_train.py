@@ -52,25 +52,25 @@ def check(given: Parameters) -> Iterator[Finding]:
     if given.u is not None and given.u.si in (0, 1):
         yield Finding("train-no-ratio", (*TOP, "u"), {"u": given.u.text})
         return
-    found = given.choice
-    if len(found.sets):
+    choice = given.choice
+    if len(choice.sets):
         return
-    failed = next(name for name in CONDITIONS if not found.left[name])
+    failed = next(name for name in CONDITIONS if not choice.left[name])
     wanted, limits = given.wanted, {"least": str(given.z.from_), "most": str(given.z.to)}
     about = {"u": f"{wanted:.6g}", "k": str(given.k), **limits}
     if failed in ("ratio", "interference"):
         key = ("u",) if given.u is not None else ("n_out",)
-        if found.nearest is None:
+        if choice.nearest is None:
             yield Finding("train-interference", (*TOP, "z"), about)
             return
-        nearest = given.of_input(float(found.nearest.ratio)) if found.nearest.ratio else math.inf
-        off = float(found.demand.off(float(found.nearest.ratio)))
-        about |= {"nearest": f"{nearest:.6g}", "teeth": told(found.nearest), "tolerance": given.tolerance.text}
+        nearest = given.of_input(float(choice.nearest.ratio)) if choice.nearest.ratio else math.inf
+        off = float(choice.demand.off(float(choice.nearest.ratio)))
+        about |= {"nearest": f"{nearest:.6g}", "teeth": told(choice.nearest), "tolerance": given.tolerance.text}
         if off < 1:
             about |= {"enough": f"{math.ceil(off * 1e5) / 1e5:g}"}
         yield Finding("train-ratio", (*TOP, *key), about)
         return
-    others = mended(found.demand)
+    others = mended(choice.demand)
     mend = {"others": ", ".join(map(str, others))} if others else {}
     yield Finding(f"train-{failed}", (*TOP, "k"), about | mend)
 
@@ -84,14 +84,14 @@ CHECKS = (one_of("parameters", "u", "n_out"), of_parameters(check))
 def physics(assignment: Assignment) -> Iterator[Finding]:
     """A ratio that is not met exactly, inner wheels that mesh only with profile shift."""
     given: Parameters = assignment.parameters
-    found = given.choice
-    reached = float(found.chosen.ratio)
-    if abs(reached - found.demand.ratio) > DUST * abs(reached):
+    choice = given.choice
+    reached = float(choice.chosen.ratio)
+    if abs(reached - choice.demand.ratio) > DUST * abs(reached):
         key = "u" if given.u is not None else "n_out"
         met = {"u": f"{given.wanted:.6g}", "reached": f"{given.of_input(reached):.6g}"}
         yield Finding("train-off", (*TOP, key), met)
-    if not found.free[found.first]:
-        yield Finding("train-shift", (*TOP, "z"), {"teeth": told(found.chosen)})
+    if not choice.free[choice.first]:
+        yield Finding("train-shift", (*TOP, "z"), {"teeth": told(choice.chosen)})
 
 
 WARNINGS = (physics,)

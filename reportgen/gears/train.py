@@ -97,9 +97,9 @@ class Demand:
 
     def off(self, ratio: NDArray[np.float64] | float) -> NDArray[np.float64]:
         """By what share of the ratio that is asked for trains with u₁H [...] miss it."""
-        found = np.asarray(ratio, float)
+        asked = np.asarray(ratio, float)
         with np.errstate(divide="ignore"):
-            missed: NDArray[np.float64] = np.abs((self.ratio / found if self.by_carrier else found / self.ratio) - 1)
+            missed: NDArray[np.float64] = np.abs((self.ratio / asked if self.by_carrier else asked / self.ratio) - 1)
         return missed
 
 
@@ -145,15 +145,15 @@ class Train:
 
 def ratios(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
     z1, z2, z2p, z3 = z
-    found: NDArray[np.float64] = 1 + scheme.sign * (z2 * z3) / (z1 * z2p)
-    return found
+    u1H: NDArray[np.float64] = 1 + scheme.sign * (z2 * z3) / (z1 * z2p)
+    return u1H
 
 
 def axis(scheme: TrainScheme, z: Wholes) -> Wholes:
     """Twice the distance between the axes of wheel 1 and satellite 2, in modules."""
     first, _ = scheme.signs
-    found: Wholes = np.abs(z[0] - first * z[1])
-    return found
+    distance: Wholes = np.abs(z[0] - first * z[1])
+    return distance
 
 
 def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
@@ -226,13 +226,13 @@ def coaxial(demand: Demand) -> Iterator[Wholes]:
     scheme = demand.of
     first, second = scheme.signs
     every = np.arange(demand.least, demand.most + 1, dtype=np.int64)
-    two, other = (every, every) if scheme.single else (part.ravel() for part in np.meshgrid(every, every))
+    z2, z2p = (every, every) if scheme.single else (part.ravel() for part in np.meshgrid(every, every))
     top, below = demand.modules.numerator, demand.modules.denominator
-    for one in every:
-        apart = top * (one - first * two)
-        three = apart // below + second * other
-        kept = (apart > 0) & (apart % below == 0) & (three >= demand.least) & (three <= demand.most)
-        yield np.column_stack((np.full(kept.sum(), one), two[kept], other[kept], three[kept]))
+    for z1 in every:
+        apart = top * (z1 - first * z2)
+        z3 = apart // below + second * z2p
+        kept = (apart > 0) & (apart % below == 0) & (z3 >= demand.least) & (z3 <= demand.most)
+        yield np.column_stack((np.full(kept.sum(), z1), z2[kept], z2p[kept], z3[kept]))
 
 
 @shown("first", "left")
@@ -270,8 +270,8 @@ def _train(demand: Demand, row: Wholes) -> Train:
 def sizes(scheme: TrainScheme, z: Wholes, modules: Fraction) -> NDArray[np.float64]:
     """The circle that the satellites' reference circles touch from inside, in modules m₂; an inner wheel lies on it."""
     m = float(modules)
-    found: NDArray[np.float64] = axis(scheme, z) * m + np.maximum(z[1] * m, z[2])
-    return found
+    circle: NDArray[np.float64] = axis(scheme, z) * m + np.maximum(z[1] * m, z[2])
+    return circle
 
 
 def in_order(demand: Demand, sets: Wholes) -> Wholes:
@@ -304,12 +304,12 @@ def choice(demand: Demand) -> TrainChoice:
         if len(sound):
             off = demand.off(ratios(demand.of, sound.T))
             nearest = min(nearest, (float(off.min()), sound[off.argmin()]), key=lambda one: one[0])
-    found = in_order(demand, np.concatenate(kept))
+    trains = in_order(demand, np.concatenate(kept))
     refused = {name: in_order(demand, np.concatenate(rows)) for name, rows in misses.items()}
     return TrainChoice(
         demand,
-        found,
-        unshifted(demand.of, found.T),
+        trains,
+        unshifted(demand.of, trains.T),
         left,
         None if nearest[1] is None else _train(demand, nearest[1]),
         {name: _train(demand, rows[0]) for name, rows in refused.items() if len(rows)},
@@ -349,12 +349,12 @@ def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ..
     # Wheel 3 is turned until it meets the first satellite: by a part of a tooth.
     missing = fits(0.0, first(0.0), 0.0)
     three = -missing * math.tau / z.three * scheme.signs[1]
-    found: list[float | None] = []
+    angles: list[float | None] = []
     for number in range(satellites):
         γ = number * math.tau / satellites
         tried = (first(γ) + tooth * math.tau / z.two for tooth in range(z.two))
-        found.append(next((ψ for ψ in tried if abs(fits(γ, ψ, three)) < FITS), None))
-    return three, tuple(found)
+        angles.append(next((ψ for ψ in tried if abs(fits(γ, ψ, three)) < FITS), None))
+    return three, tuple(angles)
 
 
 # --- efficiency -------------------------------------------------------------------------------------------

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from pathlib import Path
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -15,18 +14,15 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.drawing.sheet import DrawingSheet
-from reportgen.formula import Chain, Number, Symbol, ids, signed, vocabulary
-from reportgen.formula.sheet import Family
-from reportgen.gears import train_drawings
+from reportgen.formula import Chain, Number, Symbol, signed, vocabulary
+from reportgen.gears import train_drawings, train_ids
 from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
 from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
-from reportgen.report import Block, Column, Document, Equation, InlineMath, Inlines, Table, Text, Value, listed
+from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.design import DesignPage
-from reportgen.report.key import Key
+from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
-from reportgen.sheets import on_sheets
 from reportgen.sheets.plates import drawn
 
 ROWS, SHORT_ROWS = 15, 6
@@ -66,7 +62,7 @@ class TrainPage(DesignPage[SolvedTrain]):
             "free": bool(choice.free[choice.first]),
             "one_smaller": choice.first == 1,
             "rows": bool(given.before or given.behind),
-            "self_locking": given.efficiency is not None and written[ids.train_efficiency("train")].at(1) <= 0,
+            "self_locking": given.efficiency is not None and written[train_ids.efficiency("train")].at(1) <= 0,
             "tolerance": Value(self.tolerance),
             "possible": listed(Text(str(k)) for k in case.train.satellites),
             "shown": shown,
@@ -209,7 +205,7 @@ class TrainPage(DesignPage[SolvedTrain]):
         """Angular velocities by Willis and as they are read off, with the difference."""
         rows = []
         for wheel in ("1", "2", "H"):
-            by, read = (self.case.printed.number(id(wheel)) for id in (ids.train_omega, ids.train_read))
+            by, read = (self.case.printed.number(id(wheel)) for id in (train_ids.omega, train_ids.read))
             off = Number((read.shown / by.shown - 1) * 100, 2)
             rows.append((Symbol("ω", wheel), Number(by.value, by.decimals), Number(read.value, read.decimals), off))
         return self._table("rates", self.words["rates"], rows, (40, 40, 40, 40))
@@ -246,27 +242,9 @@ def _short(value: float, decimals: int) -> Number:
 class TrainCase(SolvedTrain):
     """A planetary train, as a `Case`."""
 
-    @property
-    def families(self) -> Mapping[str, Family]:
-        return self.ledger.families
+    PAGE = TrainPage
 
-    @property
-    def positions_of_a_turn(self) -> int:
-        return 1
-
-    @property
-    def balance(self) -> None:
-        """It has no forces."""
-
-    def fault(self) -> str:
-        # That a train is found is among the checks of its file.
-        return ""
-
-    def document(self) -> Document:
-        return self.bounded(TrainPage.report)
-
-    def summary(self) -> Sequence[Block]:
-        return self.bounded(TrainPage.summary)
+    # That a train is found is among the checks of its file: no fault shows only in the results.
 
     @property
     def shafts(self) -> Sequence[Shaft]:
@@ -276,34 +254,19 @@ class TrainCase(SolvedTrain):
         turn, share = round(math.copysign(1, reached)), self.given.tolerance.si
         return Shaft(driving, self.speed, 1, datum="n_in"), Shaft(driven, speed, turn, share=share)
 
-    def key(self) -> Key:
-        from reportgen.marking.key import make_key
-
-        return make_key(self, self.ledger, self.printed, sense_of=self._sense)
-
-    def _sense(self, id: str) -> str:
-        family = self.ledger[id]
-        return str(next(vocabulary.words_of(self.words["positive"], id, family.kind, family.symbol), ""))
-
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        from reportgen.marking.paper import design_task
-
-        return self.bounded(partial(design_task, of=TrainPage, key=key, by_section=by_section))
-
-    def results(self) -> dict[str, Any]:
+    @cached_property
+    def entries(self) -> ResultEntries:
         """All tooth numbers that fulfil the conditions, by size; the chosen ones, their ratio and their rates."""
-        from reportgen.marking.results import results
-
-        found = self.choice
-        omega = {id.rpartition(".")[2]: self.ledger[id].at(1) for id in self.ledger.families if id in ids.train_omega}
+        found, rates = self.choice, [id for id in self.ledger.families if id in train_ids.omega]
+        wheels = {id.rpartition(".")[2]: {"omega": self.ledger[id].at(1)} for id in rates}
         shown = range(min(len(found.sets), SHOWN_SETS))
-        sets = [{**_told(found.train(n)), "unshifted": bool(found.free[n])} for n in shown]
-        return results(
-            self,
-            [{"number": 1, "wheels": {wheel: {"omega": float(rate)} for wheel, rate in omega.items()}}],
-            train={**_told(self.train), "satellites": self.given.k, "possible": list(self.train.satellites)},
-            found=len(found.sets),
-            sets=sets,
+        return ResultEntries(
+            [{"number": 1, "wheels": wheels}],
+            {
+                "train": {**_told(self.train), "satellites": self.given.k, "possible": list(self.train.satellites)},
+                "found": len(found.sets),
+                "sets": [{**_told(found.train(n)), "unshifted": found.free[n]} for n in shown],
+            },
         )
 
     def animations(self) -> tuple[Animation, ...]:
@@ -317,11 +280,6 @@ class TrainCase(SolvedTrain):
             DrawingPlate(captions[name], (), "tables", (drawn(one, self.assignment.language),)) for name, one in tables
         ]
         return {"train": [*train_drawings.plates(self), *(replace(one, spare=True) for one in told)]}
-
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        return on_sheets(self, self.plates(), size, block)
 
 
 def _told(train: Train) -> dict[str, Any]:

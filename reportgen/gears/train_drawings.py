@@ -28,8 +28,9 @@ from reportgen.drawing.labels import Canvas, Request, finish, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
-from reportgen.formula import Symbol, ids
+from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
+from reportgen.gears import train_ids
 from reportgen.gears.train import ALPHA, turned
 from reportgen.gears.train_solution import OTHER, SolvedTrain, pole_distance
 from reportgen.sheets.plates import on_sheet
@@ -180,15 +181,15 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
     to the line of its body and cuts off its angular velocity from the foot of K, which is that of wheel 3.
     """
     ledger = case.ledger
-    symbols = {of: ledger.symbol(ids.train_scale(of)) for of in ("l", "v", "omega")}
-    usual = {of: case.printed.number(ids.train_scale(of)) for of in symbols}
+    symbols = {of: ledger.symbol(train_ids.scale(of)) for of in ("l", "v", "omega")}
+    usual = {of: case.printed.number(train_ids.scale(of)) for of in symbols}
     larger = {of: usual[of].value / size.scale(usual[of].value) for of in ("l", "v")}
 
     def mm(id: str, of: str) -> float:
         return float(ledger[id].values[0]) * MM * larger[of] / size.enlarged
 
-    p1, p3, pH = (mm(ids.train_line(line), "l") for line in ("OA", "OP", "OB"))
-    Aa, Bb = (mm(ids.train_line(line), "v") for line in ("A", "B"))
+    p1, p3, pH = (mm(train_ids.line(line), "l") for line in ("OA", "OP", "OB"))
+    Aa, Bb = (mm(train_ids.line(line), "v") for line in ("A", "B"))
     slopes = {"1": Aa / p1, "2": Aa / (p1 - p3), "H": Bb / pH}
     h = float(ledger["train.pole"].values[0]) * MM
     if size.steps:
@@ -277,7 +278,7 @@ def _at(case: SolvedTrain) -> float:
 def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
     train, r, at = case.train, radii(case), _at(case)
     z, (inner1, inner3) = train.teeth, case.scheme.inner
-    ω1, ω2, ωH = (float(case.ledger[ids.train_omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
+    ω1, ω2, ωH = (float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
     θ = math.copysign(1, ωH) * knots
     one, satellite = ω1 / ωH, ω2 / ωH
     still, placed = turned(train, case.given.k)
@@ -310,7 +311,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
 
 def _values(case: SolvedTrain) -> Iterator[MomentValue]:
     for id in case.ledger.families:
-        if id in ids.train_omega:
+        if id in train_ids.omega:
             number = case.printed.number(id)
             shown = case.ledger[id].at(1) / KINDS["angular velocity"].scale
             yield MomentValue(case.ledger.symbol(id), number.unit, Track(np.array([shown])), number.decimals or 2)

@@ -11,14 +11,14 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import MM, SERIES, nice_up
-from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, ids, signed, sin
-from reportgen.formula.carrying import carried
-from reportgen.formula.ledger import Ledger
+from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
+from reportgen.gears import train_ids
 from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
 from reportgen.gears.train_file import Parameters
-from reportgen.report.case import LoadedAssignment, Misconceptions
+from reportgen.report.case import Misconceptions
+from reportgen.report.design import DesignCase
 
 OTHER = "2′"
 """The second wheel of a double satellite."""
@@ -45,7 +45,7 @@ LINES: Mapping[str, tuple[str, ...]] = {
 
 
 @dataclass(frozen=True)
-class SolvedTrain(LoadedAssignment):
+class SolvedTrain(DesignCase):
     """An assignment of a planetary train with its ledger; each part is computed when it is first asked for."""
 
     @property
@@ -66,14 +66,8 @@ class SolvedTrain(LoadedAssignment):
         return self.choice.chosen
 
     @cached_property
-    def ledger(self) -> Ledger:
-        sheet = TrainSheet(self.given).written()
-        made = Ledger(sheet.families, sheet.positions, units=self.words["units"], lines=sheet.lines)
-        return made.in_language(self.words["symbols"])
-
-    @cached_property
-    def printed(self) -> Ledger:
-        return carried(self.ledger)
+    def sheet(self) -> Sheet:
+        return TrainSheet(self.given).written()
 
     @property
     def speed(self) -> float:
@@ -83,16 +77,16 @@ class SolvedTrain(LoadedAssignment):
     @cached_property
     def misconceptions(self) -> Misconceptions:
         """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
-        z = {wheel: Ref(ids.train_teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
+        z = {wheel: Ref(train_ids.teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
         term, sign, one = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
-        ω1, ωH = (Ref(ids.train_omega(wheel)) for wheel in ("1", "H"))
+        ω1, ωH = (Ref(train_ids.omega(wheel)) for wheel in ("1", "H"))
         driven, inverse = (ω1, ωH * Ref("train.uH1")) if self.given.by_carrier else (ωH, ω1 * Ref("train.u1H"))
         side, turned = self.scheme.signs[0], z["1"] / z["2"]
         module, wheel = larger_satellite(self.train)
         changed: Mapping[str, list[tuple[str, Expression]]] = {
             "train.u1H": [("train-without-one", signed(sign, term)), ("train-ratio-sign", one + signed(-sign, term))],
             driven.id: [("train-inverse", inverse)],
-            ids.train_omega("2"): [
+            train_ids.omega("2"): [
                 ("train-carrier-still", signed(side, ω1 * turned)),
                 ("train-carrier-added", signed(side, (ω1 - ωH) * turned)),
             ],
@@ -148,7 +142,7 @@ class TrainSheet:
         for i, row in enumerate((*given.before, *given.behind)):
             one, other = str(FIRST_ROW_WHEEL + 2 * i), str(FIRST_ROW_WHEEL + 2 * i + 1)
             for wheel, teeth in zip((one, other), row, strict=True):
-                self.z[wheel] = q.give(ids.train_teeth(wheel), float(teeth))
+                self.z[wheel] = q.give(train_ids.teeth(wheel), float(teeth))
             self.rows.append((one, self.z[other] / self.z[one]))
         wanted = Symbol("u", "H1" if given.by_carrier else "1H", "*")
         if given.u is not None:
@@ -172,7 +166,7 @@ class TrainSheet:
 
         def factor(letter: str, value: int) -> Ref:
             # They follow from the tooth numbers that a student finds: no data, which could be misread.
-            return q.give(ids.train_factor(letter), float(value), letter, "count", hidden=True)
+            return q.give(train_ids.factor(letter), float(value), letter, "count", hidden=True)
 
         if scheme.single:
             ratio = Fraction(z.three, z.one)
@@ -193,14 +187,14 @@ class TrainSheet:
             t = factor("t", z.one // (numbers[0] * long // common))
             formulas = {"1": A * e * t, "2": B * e * t, OTHER: C * f * t, "3": D * f * t}
         for wheel, formula in formulas.items():
-            self.z[wheel] = q.define(ids.train_teeth(wheel), formula, Symbol("z", wheel))
+            self.z[wheel] = q.define(train_ids.teeth(wheel), formula, Symbol("z", wheel))
         q.set_out("teeth", *(self.z[wheel] for wheel in ("1", "2", OTHER, "3") if wheel in formulas))
         self.z.setdefault(OTHER, self.z["2"])
 
     def _factor(self, letter: str, times: int, of: Expression, over: int) -> Ref:
         whole: Expression = of if times == 1 else times * of
         formula = whole if over == 1 else whole / over
-        return self.q.define(ids.train_factor(letter), formula, letter, "count", optional=True)
+        return self.q.define(train_ids.factor(letter), formula, letter, "count", optional=True)
 
     # --- ratio
 
@@ -214,7 +208,7 @@ class TrainSheet:
         self.u = u
         q.define("train.off", (u - q["train.u"]) / q["train.u"], "Δu", "share", scale=1.0, optional=True)
         of_rows = [
-            q.define(ids.train_row_ratio(one), -slower, Symbol("u", f"{one},{int(one) + 1}"))
+            q.define(train_ids.row_ratio(one), -slower, Symbol("u", f"{one},{int(one) + 1}"))
             for one, slower in self.rows
         ]
         if of_rows:
@@ -254,17 +248,17 @@ class TrainSheet:
         """Shaft by shaft from the motor to the machine; wheels on one shaft turn together."""
         q, given, z = self.q, self.given, self.z
         driver, driven = ("H", "1") if given.by_carrier else ("1", "H")
-        pairs = [(one, str(int(one) + 1), q[ids.train_row_ratio(one)]) for one, _ in self.rows]
+        pairs = [(one, str(int(one) + 1), q[train_ids.row_ratio(one)]) for one, _ in self.rows]
         pairs.insert(len(given.before), (driver, driven, self.u))
         ω: Expression = 2 * PI * q["train.n.in"] / 60
         for one, other, ratio in pairs:
-            start = q.define(ids.train_omega(one), ω)
-            ω = end = q.define(ids.train_omega(other), start / ratio)
+            start = q.define(train_ids.omega(one), ω)
+            ω = end = q.define(train_ids.omega(other), start / ratio)
             q.set_out("rates", start, end)
             if one == driver:
-                ω1, ωH = q[ids.train_omega("1")], q[ids.train_omega("H")]
+                ω1, ωH = q[train_ids.omega("1")], q[train_ids.omega("H")]
                 turned = signed(self.scheme.signs[0], (ω1 - ωH) * z["1"] / z["2"])
-                q.set_out("rates", q.define(ids.train_omega("2"), ωH + turned, scale=given.n_in.si))
+                q.set_out("rates", q.define(train_ids.omega("2"), ωH + turned, scale=given.n_in.si))
 
     # --- triangles of velocities
 
@@ -274,39 +268,39 @@ class TrainSheet:
         r1 = self._length("train.r.1", self.m * z["1"] / 2, Symbol("r", "1"))
         r3 = self._length("train.r.3", self.m2 * z["3"] / 2, Symbol("r", "3"))
         v = {
-            "A": q.define(ids.train_velocity("A"), q[ids.train_omega("1")] * r1),
-            "B": q.define(ids.train_velocity("B"), q[ids.train_omega("H")] * a),
+            "A": q.define(train_ids.velocity("A"), q[train_ids.omega("1")] * r1),
+            "B": q.define(train_ids.velocity("B"), q[train_ids.omega("H")] * a),
         }
         far, fast = max(q.si(r1), q.si(r3), q.si(a)), max(abs(q.si(one)) for one in v.values())
         μl = self._scale("l", nice_up(far * MM / PLAN_HEIGHT), "length on paper")
         μv = self._scale("v", nice_up(fast * MM / PLAN_WIDTH), "velocity on paper")
         at = {
-            place: q.si(q.define(ids.train_line(f"O{place}"), size / μl, over(f"O{place}"), "segment", optional=True))
+            place: q.si(q.define(train_ids.line(f"O{place}"), size / μl, over(f"O{place}"), "segment", optional=True))
             for place, size in (("A", r1), ("B", a), ("P", r3))
         }
         known, read = ("B", "A") if self.given.by_carrier else ("A", "B")
         drawn = q.define(
-            ids.train_line(known), v[known] / μv, over(f"{known}{known.lower()}"), "segment", optional=True
+            train_ids.line(known), v[known] / μv, over(f"{known}{known.lower()}"), "segment", optional=True
         )
         q.set_out("velocities", r1, r3, v[known])
-        q.set_out("laid_off", *(ids.train_line(f"O{place}") for place in at), drawn)
+        q.set_out("laid_off", *(train_ids.line(f"O{place}") for place in at), drawn)
         length = {known: q.si(drawn)}
         length[read] = length[known] * (at[read] - at["P"]) / (at[known] - at["P"])
-        self._measured(ids.train_line(read), length[read], over(f"{read}{read.lower()}"))
+        self._measured(train_ids.line(read), length[read], over(f"{read}{read.lower()}"))
         slopes = {"1": length["A"] / at["A"], "2": length["A"] / (at["A"] - at["P"]), "H": length["B"] / at["B"]}
         wide = max(*slopes.values(), 0.0) - min(*slopes.values(), 0.0)
         pole = pole_distance(q.si(μv) / q.si(μl), wide) / MM
         h = q.give("train.pole", pole, "h", "segment", optional=True)
         μω = self._scale("omega", μv / (μl * h), "rotation on paper")
         for wheel, slope in slopes.items():
-            s = self._measured(ids.train_segment(wheel), pole * slope, Symbol("s", wheel))
-            ω = q.define(ids.train_read(wheel), μω * s, Symbol("ω", wheel), "angular velocity", optional=True)
+            s = self._measured(train_ids.segment(wheel), pole * slope, Symbol("s", wheel))
+            ω = q.define(train_ids.read(wheel), μω * s, Symbol("ω", wheel), "angular velocity", optional=True)
             q.set_out("segments", s)
             q.set_out("readings", ω)
 
     def _scale(self, of: str, value: Operand, kind: str) -> Ref:
         enter = self.q.give if isinstance(value, float) else self.q.define
-        return enter(ids.train_scale(of), value, Symbol("μ", "ω" if of == "omega" else of), kind, optional=True)
+        return enter(train_ids.scale(of), value, Symbol("μ", "ω" if of == "omega" else of), kind, optional=True)
 
     def _measured(self, id: str, value: float, symbol: Symbol) -> Ref:
         return self.q.give(id, value, symbol, "segment", exact=False, optional=True)
@@ -322,10 +316,10 @@ class TrainSheet:
 
         def give(of: str, value: float, symbol: Symbol) -> Ref:
             with q.within(Chapter.data):
-                return q.give(ids.train_efficiency(of), value, symbol)
+                return q.give(train_ids.efficiency(of), value, symbol)
 
         η0 = q.define(
-            ids.train_efficiency("0"),
+            train_ids.efficiency("0"),
             give("12", of_mesh[0], Symbol("η", "12")) * give("23", of_mesh[1], second),
             Symbol("η", "0"),
         )
@@ -333,10 +327,10 @@ class TrainSheet:
         lossless = 1 - u0
         lost = 1 - u0 * η0 if power_way(float(self.train.ratio), given.by_carrier) > 0 else 1 - u0 / η0
         formula = lossless / lost if given.by_carrier else lost / lossless
-        η = q.define(ids.train_efficiency("train"), formula, Symbol("η", "H1" if given.by_carrier else "1H"))
+        η = q.define(train_ids.efficiency("train"), formula, Symbol("η", "H1" if given.by_carrier else "1H"))
         if self.rows:
             ηr = give("row", given.efficiency.outer, Symbol("η", "r"))
-            q.define(ids.train_efficiency("total"), η * ηr ** len(self.rows), Symbol("η", "tot"))
+            q.define(train_ids.efficiency("total"), η * ηr ** len(self.rows), Symbol("η", "tot"))
 
 
 def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:

@@ -15,7 +15,8 @@ from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.forces import Forces, Load, inertia_loads, mean_over, solve_forces, virtual_work_torque, weights
 from reportgen.machine.gas import indicated_work, stroke_at
-from reportgen.machine.loads import FULL_TURN, Applied, Piston, Stroke, Torque
+from reportgen.machine.laws import FULL_TURN, Stroke
+from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.machine.motion import Motion, solve_motion
 
 
@@ -89,10 +90,7 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
     linkage = machine.linkage
     motion = motion_at(machine, angles)
     gas = {piston.name: gas_in(piston, motion, angles) for piston in machine.pistons}
-    applied = (
-        *(_load(force, angles, motion) for force in machine.applied),
-        *(_couple(torque, angles, motion) for torque in machine.torques),
-    )
+    applied = tuple(load.load(angles, motion) for load in machine.loads)
     heavy, inert = weights(linkage, motion), inertia_loads(linkage, motion)
     loads = (*heavy, *inert, *applied)
     forces = solve_forces(linkage, motion, loads)
@@ -115,29 +113,11 @@ def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
     return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
 
 
-def _load(force: Applied, cycle_angle: np.ndarray, motion: Motion) -> Load:
-    size = force.law.value(cycle_angle, motion)
-    return Load(
-        force.name,
-        force.link,
-        np.asarray(size * force.direction, dtype=np.complex128),
-        motion.points[force.point].p,
-        np.zeros_like(cycle_angle),
-    )
-
-
-def _couple(torque: Torque, cycle_angle: np.ndarray, motion: Motion) -> Load:
-    still = np.zeros(cycle_angle.shape, dtype=np.complex128)
-    size = torque.law.value(cycle_angle, motion)
-    return Load(torque.name, torque.link, still, motion.origins[torque.link].p, size)
-
-
 def breaks(machine: Machine) -> np.ndarray:
     """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
-    laws = [*(force.law for force in machine.applied), *(torque.law for torque in machine.torques)]
-    found = [corner for law in laws for corner in law.breaks(partial(motion_at, machine))]
+    corners = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
-    return np.array(sorted(set(np.mod(found, whole).round(13).tolist())))
+    return np.array(sorted(set(np.mod(corners, whole).round(13).tolist())))
 
 
 def _work(machine: Machine) -> float:
@@ -145,26 +125,17 @@ def _work(machine: Machine) -> float:
     whole = machine.turns * FULL_TURN
     pistons = {piston.name: piston for piston in machine.pistons}
     total = 0.0
-    for force in machine.applied:
-        if force.name in pistons:
-            total += _indicated(machine, pistons[force.name])
+    for load in machine.loads:
+        if load.name in pistons:
+            total += _indicated(machine, pistons[load.name])
             continue
 
-        def power(angle: np.ndarray, force: Applied = force) -> np.ndarray:
+        def power(angle: np.ndarray, load: Applied | Torque = load) -> np.ndarray:
             motion = motion_at(machine, angle)
-            along = np.real(np.conj(force.direction) * motion.points[force.point].v)
-            return np.asarray(force.law.value(angle, motion) * along)
+            return load.load(angle, motion).power(motion)
 
-        corners = force.law.breaks(partial(motion_at, machine))
+        corners = load.law.breaks(partial(motion_at, machine))
         total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
-    for torque in machine.torques:
-
-        def turning(angle: np.ndarray, torque: Torque = torque) -> np.ndarray:
-            motion = motion_at(machine, angle)
-            return np.asarray(torque.law.value(angle, motion) * motion.links[torque.link].omega)
-
-        corners = torque.law.breaks(partial(motion_at, machine))
-        total += mean_over(turning, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
     return total
 
 
@@ -293,6 +264,11 @@ class Machine:
     """Sections that the task of the kind asks for, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """What the kind's own words may name beside quantities."""
+
+    @property
+    def loads(self) -> tuple[Applied | Torque, ...]:
+        """The forces and torques that act on it, beside weights and inertia."""
+        return (*self.applied, *self.torques)
 
     @property
     def way(self) -> float:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks
 from reportgen.machine.forces import Load, virtual_work_torque
-from reportgen.machine.loads import FULL_TURN
+from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
 
 Floats = NDArray[np.float64]

@@ -41,6 +41,11 @@ class Load:
         """Moment about a point: (point − about) × force + couple."""
         return cross(self.point - about, self.force) + self.couple
 
+    def power(self, motion: Motion) -> Floats:
+        """F·v + M ω (W) [N]."""
+        moved = motion.of(self.link, self.point).v
+        return dot(self.force, moved) + self.couple * motion.links[self.link].omega
+
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
     """Weights m·g at the mass centres, named "G" and the link's number; a massless link has none."""
@@ -110,8 +115,7 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
         raise ValueError("virtual work needs a moving driver")
     power = np.where(motion.reachable, 0.0, np.nan)
     for load in loads:
-        moved = motion.of(load.link, load.point).v
-        power = power + dot(load.force, moved) + load.couple * motion.links[load.link].omega
+        power = power + load.power(motion)
     return -power / motion.rate
 
 
@@ -257,12 +261,12 @@ def _balance(dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mappin
             known[row : row + 3] += _components(wrench, pole, length, -1.0)
     matrix[:, :, ~valid] = np.eye(6)[:, :, None]
     known[:, ~valid] = np.nan
-    found = np.linalg.solve(np.moveaxis(matrix, 2, 0), known.T[:, :, None])[:, :, 0].T
+    reactions = np.linalg.solve(np.moveaxis(matrix, 2, 0), known.T[:, :, None])[:, :, 0].T
     return [
         _Wrench(
-            first.force * found[2 * k] + second.force * found[2 * k + 1],
+            first.force * reactions[2 * k] + second.force * reactions[2 * k + 1],
             first.point,
-            first.couple * found[2 * k] + second.couple * found[2 * k + 1],
+            first.couple * reactions[2 * k] + second.couple * reactions[2 * k + 1],
         )
         for k, (first, second) in enumerate(zip(columns[::2], columns[1::2], strict=True))
     ]

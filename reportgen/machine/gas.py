@@ -9,12 +9,15 @@ the crank when positive.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from reportgen.formula import Expression, Fraction, Symbol
 
 Floats = NDArray[np.float64]
 Stroke = Literal["intake", "compression", "expansion", "exhaust"]
@@ -31,6 +34,8 @@ AT_DEAD_CENTRE = 1e-9
 
 HALVINGS = 60
 """A stroke halved so often is below the spacing of floats there."""
+DRAWN_IN_A_STROKE = 91
+"""Points of a stroke's line that is drawn from a table over the angle, two degrees apart."""
 SETTLED = 1e-9
 """A last step (rad) whose square is far below rounding."""
 
@@ -47,6 +52,52 @@ def _within(cycle_angle: ArrayLike) -> Floats:
     """The angle in [0, 4π), where rounding just below 4π counts as 0."""
     turned = np.mod(np.asarray(cycle_angle, dtype=np.float64) + AT_DEAD_CENTRE, CYCLE) - AT_DEAD_CENTRE
     return np.maximum(turned, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Tabled:
+    """A table as it is given: sizes (SI) at nodes, in a row for each stroke or in one for the whole cycle.
+
+    `over` is what the nodes are values of, `kind` its kind of quantity.
+    """
+
+    over: Expression
+    kind: str
+    nodes: tuple[float, ...]
+    rows: tuple[tuple[float, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Bracket:
+    """Where positions lie in a table: at `at` between two nodes next to each other, with their pressures (Pa); all [N].
+
+    `kind` is the kind of quantity that the nodes have: the "ratio" s/H, or the "angle" of the cycle.
+    """
+
+    kind: str
+    at: Floats
+    before: Floats
+    after: Floats
+    pressure_before: Floats
+    pressure_after: Floats
+
+    @classmethod
+    def among(cls, kind: str, at: Floats, nodes: Sequence[float], pressures: Floats) -> Bracket:
+        """The bracket of each place `at` [N] among nodes [K] with their pressures at each position [N, K]."""
+        index = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
+        each, places = np.arange(len(at)), np.asarray(nodes)
+        return cls(
+            kind=kind,
+            at=at,
+            before=places[index],
+            after=places[index + 1],
+            pressure_before=pressures[each, index],
+            pressure_after=pressures[each, index + 1],
+        )
+
+
+Branch = tuple[tuple[float, ...], tuple[float, ...]]
+"""The line of a stroke in a diagram: fractions s/H and the pressures (Pa) there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,10 +123,20 @@ class StrokeIndicator:
         """The four rows in the order of `STROKES`."""
         return self.intake, self.compression, self.expansion, self.exhaust
 
-    @property
-    def nodes(self) -> tuple[float, ...]:
-        """The fractions where the pressure bends."""
-        return self.fractions
+    def tabled(self, turns: int = 2) -> Tabled:
+        """The table as it is given of so many turns, two strokes each."""
+        return Tabled(Fraction(Symbol("s"), Symbol("H")), "ratio", self.fractions, self.rows[: 2 * turns])
+
+    def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
+        """Between which nodes of its stroke's row the piston stands at cycle angles [N] and fractions [N]."""
+        rows = np.asarray(self.rows)[stroke_at(cycle_angle, dead_centres)]
+        return Bracket.among("ratio", fraction, self.fractions, rows)
+
+    def branches(
+        self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
+    ) -> tuple[Branch, ...]:
+        """Each stroke's line over s/H."""
+        return tuple((self.fractions, row) for row in self.rows)
 
     def pressure(self, cycle_angle: ArrayLike, fraction: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> Floats:
         """Pressure (Pa) [N] at cycle angles [N] where the piston stands at fractions [N] of its stroke."""
@@ -98,8 +159,8 @@ class StrokeIndicator:
         high = np.repeat(edges[1:], inner.size)
         wanted = np.tile(inner, starts.size)
         outward = np.repeat(np.asarray(OUTWARD), inner.size)
-        found = crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
-        return tuple(sorted({*edges.tolist(), *found.tolist()}))
+        bends = crossings(lambda angle: outward * (fraction_of(angle) - wanted), low, high)
+        return tuple(sorted({*edges.tolist(), *bends.tolist()}))
 
     def work(self, area: float, stroke: float) -> float:
         """Indicated work of one cylinder per cycle (J), W = A H Σ ±∫ p d(s/H), exact for the table.
@@ -131,10 +192,27 @@ class AngleIndicator:
         """The one row of pressures."""
         return (self.pressures,)
 
-    @property
-    def nodes(self) -> tuple[float, ...]:
-        """The cycle angles where the pressure bends."""
-        return self.angles
+    def tabled(self, turns: int = 2) -> Tabled:
+        """The table as it is given of so many turns."""
+        count = sum(angle <= turns * 2 * math.pi * (1 + 1e-15) for angle in self.angles)
+        return Tabled(Symbol("φ"), "angle", self.angles[:count], (self.pressures[:count],))
+
+    def bracket(self, cycle_angle: Floats, fraction: Floats, dead_centres: ArrayLike = DEAD_CENTRES) -> Bracket:
+        """Between which nodes the cycle angles [N] lie."""
+        rows = np.tile(self.pressures, (len(cycle_angle), 1))
+        return Bracket.among("angle", np.mod(cycle_angle, CYCLE), self.angles, rows)
+
+    def branches(
+        self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
+    ) -> tuple[Branch, ...]:
+        """Each stroke's line over s/H, carried over by the piston's motion: `fraction_of` gives s/H at cycle angles."""
+        found = []
+        for start, end in pairwise((*np.asarray(dead_centres), CYCLE)):
+            nodes = [angle for angle in self.angles if start < angle < end]
+            angle = np.union1d(np.linspace(start, end, DRAWN_IN_A_STROKE), nodes)
+            pressure = np.interp(angle, self.angles, self.pressures)
+            found.append((tuple(map(float, fraction_of(angle))), tuple(map(float, pressure))))
+        return tuple(found)
 
     def pressure(
         self, cycle_angle: ArrayLike, fraction: ArrayLike = 0.0, dead_centres: ArrayLike = DEAD_CENTRES
@@ -186,22 +264,22 @@ def crossings(rise: Callable[[Floats], Floats], low: Floats, high: Floats) -> Fl
     both ends, and its error falls with the square of the step before.
     """
     below, above = rise(low), rise(high)
-    found = low
+    root_at = low
     for _ in range(HALVINGS):
         middle = (low + high) / 2
         between = rise(middle)
         root = np.sqrt(np.maximum(between**2 - below * above, 0.0))
-        way = np.divide(between, root, out=np.zeros_like(root), where=root > 0)
-        before, found = found, middle - (middle - low) * way
-        there = rise(found)
-        if np.all(np.abs(found - before) <= SETTLED):
+        step = np.divide(between, root, out=np.zeros_like(root), where=root > 0)
+        before, root_at = root_at, middle - (middle - low) * step
+        there = rise(root_at)
+        if np.all(np.abs(root_at - before) <= SETTLED):
             break
-        for angle, value in ((middle, between), (found, there)):
+        for angle, value in ((middle, between), (root_at, there)):
             short = (value < 0) & (angle > low)
             low, below = np.where(short, angle, low), np.where(short, value, below)
             past = (value >= 0) & (angle < high)
             high, above = np.where(past, angle, high), np.where(past, value, above)
-    return found
+    return root_at
 
 
 def _rising(nodes: tuple[float, ...], first: float, last: float) -> None:

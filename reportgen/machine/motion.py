@@ -215,8 +215,8 @@ def _prp(dyad: Dyad, first: Rail, second: Rail) -> Assembled:
     q = first.at.p + s * d
     under, over = first.carried(q), second.carried(q)
     v, w = solve2(d, -e, over.v - under.v)
-    turning, other = 2j * first.carrier.omega * v * d, 2j * second.carrier.omega * w * e
-    a, b = solve2(d, -e, over.a + other - under.a - turning)
+    turning, turning_second = 2j * first.carrier.omega * v * d, 2j * second.carrier.omega * w * e
+    a, b = solve2(d, -e, over.a + turning_second - under.a - turning)
     middle = PointMotion(q, under.v + v * d, under.a + turning + a * d)
     i, j = dyad.links
     links = (

@@ -115,12 +115,12 @@ def plans_read(ledger: Ledger) -> dict[str, frozenset[str]]:
     read: dict[str, list[str]] = {}
     for size, vector in ledger.vectors.items():
         read.setdefault(vector, []).append(size)
-    found: dict[str, frozenset[str]] = {}
+    scales_of: dict[str, frozenset[str]] = {}
     for id in ledger.families:
-        before = [size for name in ledger.inputs[id] for size in (name, *read.get(name, ())) if size in found]
+        before = [size for name in ledger.inputs[id] for size in (name, *read.get(name, ())) if size in scales_of]
         own = {_measured_on(ledger, id)} if id in measured else set()
-        found[id] = frozenset(own).union(*(found[name] for name in before))
-    return found
+        scales_of[id] = frozenset(own).union(*(scales_of[name] for name in before))
+    return scales_of
 
 
 def _measured_on(ledger: Ledger, id: str) -> str:
@@ -132,8 +132,8 @@ def _measured_on(ledger: Ledger, id: str) -> str:
 
 def _may_be_measured(family: Family) -> bool:
     """Whether a length from a plan's pole, worked out by similarity from another, can be read from the plan as well."""
-    plan, found = vocabulary.plan(family.id), ids.segment.read(family.id)
-    from_pole = found is not None and found["start"] == ids.POLE
+    plan, lengths = vocabulary.plan(family.id), ids.segment.read(family.id)
+    from_pole = lengths is not None and lengths["start"] == ids.POLE
     return bool(from_pole and family.definition and any(vocabulary.plan(id) == plan for id in refs(family.definition)))
 
 
@@ -141,11 +141,14 @@ def _pressure_slopes(ledger: Ledger) -> dict[str, np.ndarray]:
     """How steeply the pressure on each piston changes over its way [N], from the flatter side of each position."""
     slopes: dict[str, np.ndarray] = {}
     for id, family in ledger.families.items():
-        found = ids.pressure.read(id)
-        if found and (displacement := ids.displacement(link := found["link"])) in ledger:
-            way = ledger[displacement].values
+        names = ids.pressure.read(id)
+        if names and (displacement := ids.displacement(link := names["link"])) in ledger:
+            displacements = ledger[displacement].values
             with np.errstate(all="ignore"):
-                sides = [np.abs((np.roll(family.values, k) - family.values) / (np.roll(way, k) - way)) for k in (1, -1)]
+                sides = [
+                    np.abs((np.roll(family.values, k) - family.values) / (np.roll(displacements, k) - displacements))
+                    for k in (1, -1)
+                ]
             slopes[link] = np.nan_to_num(np.min(np.where(np.isfinite(sides), sides, np.inf), axis=0), posinf=0.0)
     return slopes
 
@@ -250,11 +253,11 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
     upper, lower = np.max(balanced - most**2 * inertia / 2), np.min(balanced - least**2 * inertia / 2)
     rates = float(ledger["unevenness"].values[0].real) * float(ledger["omega.1"].values[0].real) ** 2
     flywheel = (upper - lower) / rates
-    found = {"A.excess": balanced, "J.d": np.array([flywheel])}
+    by_rule = {"A.excess": balanced, "J.d": np.array([flywheel])}
     if "omega.of" in ledger:
         energy = most**2 * flywheel / 2 - upper
-        found["omega.of"] = np.sqrt(2 * (energy + balanced) / (flywheel + inertia))
-    return {id: np.abs(values - ledger[id].values.real) for id, values in found.items()}
+        by_rule["omega.of"] = np.sqrt(2 * (energy + balanced) / (flywheel + inertia))
+    return {id: np.abs(values - ledger[id].values.real) for id, values in by_rule.items()}
 
 
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
-from string import Formatter
 from typing import Any
 
 from reportgen import report as tree
@@ -19,6 +18,7 @@ from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragra
 from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
 from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.report.key import Key, KeyRow
+from reportgen.report.wording import sentence
 from reportgen.workbook import Book, BookSheet, Entry
 from reportgen.workbook.writing import Style
 
@@ -240,17 +240,6 @@ def _counted(
 
 
 # --- verdicts and mistakes in words ---------------------------------------------------------------
-
-
-def sentence(words: str, /, **parts: Inline | str) -> Inlines:
-    """Words with texts and inlines put in where they are named."""
-    result: list[Inline] = []
-    for text, name, _, _ in Formatter().parse(words):
-        result += [Text(text)] if text else []
-        if name:
-            part = parts[name]
-            result.append(Text(part) if isinstance(part, str) else part)
-    return tuple(result)
 
 
 def points_text(points: float, language: Language) -> str:

@@ -137,25 +137,25 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """A position whose values are those of another one, figure for figure, where the key tells them apart."""
     positions = sorted({position for _, position in _filled(cells) if position})
     copies: set[int] = set()
-    for one, other in combinations(positions, 2):
-        telling = [id for id, position in cells if position == one and _differ(cells, (id, one), (id, other))]
-        same = [id for id in telling if cells[id, one].given == cells[id, other].given]
-        if len(telling) < FEWEST_ROWS or len(same) < FOREIGN_SHARE * len(telling) or {one, other} <= copies:
+    for first, second in combinations(positions, 2):
+        telling = [id for id, position in cells if position == first and _differ(cells, (id, first), (id, second))]
+        same = [id for id in telling if cells[id, first].given == cells[id, second].given]
+        if len(telling) < FEWEST_ROWS or len(same) < FOREIGN_SHARE * len(telling) or {first, second} <= copies:
             continue
-        right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (one, other)}
-        copy = one if one in copies or (other not in copies and right[one] < right[other]) else other
+        right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (first, second)}
+        copy = first if first in copies or (second not in copies and right[first] < right[second]) else second
         copies.add(copy)
         # What is right in spite of it stays.
         spoiled = tuple(place for place in cells if place[1] == copy and cells[place].verdict is Verdict.follows)
         yield Notice("columns", tuple((id, copy) for id in same), spoiled, other="", count=len(telling))
 
 
-def _differ(cells: Cells, one: Place, other: Place) -> bool:
+def _differ(cells: Cells, first: Place, second: Place) -> bool:
     """Whether both hold a value, and the key's lie apart."""
-    if other not in cells or cells[one].given is None or cells[other].given is None:
+    if second not in cells or cells[first].given is None or cells[second].given is None:
         return False
-    band = max(cells[one].band, cells[other].band)
-    return abs(cells[one].expected - cells[other].expected) >= APART * band
+    band = max(cells[first].band, cells[second].band)
+    return abs(cells[first].expected - cells[second].expected) >= APART * band
 
 
 def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
@@ -169,15 +169,17 @@ def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classm
     alone = [place for place in first if not any(id in scheme.rows for id in scheme.before[place[0]])]
     unnamed = [place for place in alone if not cells[place].mistake]
     misread = {cells[place].where for place in named}
-    other = ""
+    classmate_id = ""
     if len(misread) >= NAMED:
-        other = next((one.key.id for one in classmates if _is_right_for(scheme, cells, one)), "")
-    if other or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
+        classmate_id = next((one.key.id for one in classmates if _is_right_for(scheme, cells, one)), "")
+    if classmate_id or len(misread) + len(unnamed) >= (OTHER_DATA if len(misread) >= NAMED else INVENTED):
         causes = {*named, *unnamed}
         follows = (place for place, cell in cells.items() if cell.verdict is Verdict.follows)
         spoiled = (one for one in follows if scheme.stands_on(one, causes) or misread & {*scheme.before[one[0]]})
         # In the order of the sheet, which is the same in every run.
-        yield Notice("other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=other)
+        yield Notice(
+            "other-data", tuple(place for place in first if place in causes), tuple(spoiled), other=classmate_id
+        )
 
 
 def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:
@@ -213,7 +215,7 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
     flags: list[Notice] = []
     for classmate in others:
         meets = {place: _meets(scheme, cell, classmate) for place, cell in own.items()}
-        found: dict[Place, None] = {}
+        copied: dict[Place, None] = {}
         chance = 1.0
         wrong = [[place for place in part if not _is_near(own[place])] for part in parts]
         for part in (*parts, *wrong):
@@ -223,10 +225,10 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
                 continue
             by_chance = compared * _tail([NEAR if _is_near(own[place]) else FAR for place in telling], len(met))
             if by_chance < CHANCE:
-                found |= dict.fromkeys(met)
+                copied |= dict.fromkeys(met)
                 chance = min(chance, by_chance)
-        if found:
-            flags.append(Notice("classmate", tuple(found), other=classmate.key.id, chance=chance))
+        if copied:
+            flags.append(Notice("classmate", tuple(copied), other=classmate.key.id, chance=chance))
     # Of several with the same values the nearest is named; a whole sheet is one whose values are nearly all met.
     flags.sort(key=lambda flag: -len(flag.places))
     by_id = {one.key.id: one for one in others}
@@ -277,10 +279,10 @@ def _row(classmate: Classmate, cell: Marked) -> KeyRow | None:
     return row if row is not None and row.has(cell.position) and cell.position <= len(row.values) else None
 
 
-def _apart(scheme: MarkingScheme, cell: Marked, one: float, other: float) -> float:
+def _apart(scheme: MarkingScheme, cell: Marked, first: float, second: float) -> float:
     """How far two values of a cell lie apart, in printed units."""
     unit = scheme.ledger[cell.id].how.scale
-    return float(scheme.distance(cell.id, one * unit, other * unit)) / unit
+    return float(scheme.distance(cell.id, first * unit, second * unit)) / unit
 
 
 def _theirs(classmate: Classmate, place: Place) -> float | None:
@@ -343,8 +345,8 @@ def _meets(scheme: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | 
 def _tail(chances: Sequence[float], met: int) -> float:
     """The chance that so many or more of independent events happen."""
     counts = np.array([1.0])
-    for one in chances:
-        counts = np.convolve(counts, (1 - one, one))
+    for chance in chances:
+        counts = np.convolve(counts, (1 - chance, chance))
     return float(counts[met:].sum())
 
 

@@ -5,7 +5,7 @@ Its rows are the ledger's own families, so key, report and marker cannot disagre
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterable, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
@@ -15,11 +15,10 @@ import numpy as np
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
-from reportgen.base.gaps import gaps
 from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words, search_path
-from reportgen.formula import Expression, Number, Symbol, ids, refs, substitute, vocabulary
+from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
@@ -33,10 +32,9 @@ from reportgen.marking.bands import (
     plans_read,
     trapezoid_errors,
 )
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
-from reportgen.report.equations import heading_words
-from reportgen.report.key import INSTANT, Key, KeyRow, Role, Span
-from reportgen.report.report import Report
+from reportgen.report.case import Case, CaseOfParts
+from reportgen.report.key import Key, KeyRow, Role
+from reportgen.report.wording import BY_FORMULA, OPEN, definition_of, phrase
 
 
 def words_of(key: Key) -> Mapping[str, Any]:
@@ -54,26 +52,11 @@ def shown_number(row: KeyRow, value: float) -> Number:
     return Number(value if row.decimals is not None else float(f"{value:.12g}"), row.decimals)
 
 
-def machine_key(case: MachineAnalysis) -> Key:
-    """The key of a machine, over all positions of its cycle."""
-    machine, report = case.analysis.machine, Report(case)
-    labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
-    printed = report.all_positions if report.thinned else ()
-    span = Span(labels, machine.count, tuple(case.assignment.worked_positions), printed)
-    return make_key(case, case.ledger, case.printed, span, lambda id: positive_sense(id, report))
-
-
-def make_key(
-    case: LoadedAssignment,
-    ledger: Ledger,
-    printed: Ledger,
-    span: Span = INSTANT,
-    sense_of: Callable[[str], str] = lambda id: "",
-) -> Key:
-    """The key of an assignment from its ledger, unrounded and as `printed`, over the positions of its `span`.
-
-    `sense_of` a quantity is which sense of it counts as positive, in words; without it all are sizes.
-    """
+def key_of(case: Case) -> Key:
+    """The key of a case, from its ledger, unrounded and as printed, over the positions of its span."""
+    if isinstance(case, CaseOfParts):
+        return case.joined_key([key_of(part) for part in case.parts.values()])
+    ledger, printed, span = case.ledger, case.printed, case.span
     assignment, words, worked = case.assignment, case.words, span.worked
     by_rule = trapezoid_errors(ledger)
     on_paper, by_rounding, read = drawn_bands(ledger), computed_bands(ledger), plans_read(ledger)
@@ -83,7 +66,7 @@ def make_key(
         family = ledger[id]
         scale = family.how.scale
         values, written = _values(ledger, id), _values(printed, id)
-        sense = sense_of(id)
+        sense = case.sense(id)
         role = _role(ledger, family)
         part = Chapter.data if role is Role.given and len(values) == 1 else family.chapter
         # What is read from a diagram can be worked out on paper, an integral over the cycle cannot.
@@ -170,101 +153,9 @@ def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
 
 
-# --- what each quantity is ------------------------------------------------------------------------
-# In words, and which sense of it counts as positive, for the rows of task, sheet and key.
-# The phrases ("normal acceleration of B about A") stand in `words.yaml` under `quantities`, by the families of the
-# vocabulary; a quantity that a machine has for itself, or calls by another name, stands there by its own id, or among
-# the names of the given data. Those of the senses stand under `positive`, by ids, families and kinds, of which the
-# nearest decides; those of a machine come before the common ones.
-
-MAGNITUDE = "magnitude"
-"""Stands in place of a phrase where the sign of a quantity says nothing."""
-FORMULA, EITHER_SIGN = "formula", "formula, either sign"
-"""Stand there where the formula tells what the quantity is; the other where it may be set up with the opposite sign."""
-BY_FORMULA, OPEN = frozenset({FORMULA, EITHER_SIGN}), frozenset({MAGNITUDE, EITHER_SIGN})
-
-
-def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
-    """What a quantity is, without a capital; "" where the words have no phrase for it."""
-    if given := words.get("given", {}).get(id):
-        return _uncapitalised(str(given))
-    phrases: Mapping[str, str] = words["quantities"]
-    shown, kind = (ledger[id].symbol, ledger[id].kind) if id in ledger else (_symbol(id), "")
-    vector = vocabulary.vector_of(id)
-    _, parts = vocabulary.wording(id, shown)
-    of = phrase(vector, ledger, words) if vector else ""
-    bodies = {name: _body(parts[link], phrases) for name, link in (("body", "link"), ("onto", "other"))}
-    found = next(vocabulary.words_of(phrases, id, kind, shown), "")
-    return found.format(**parts, **bodies, of=of)
-
-
-def _body(link: str, phrases: Mapping[str, str]) -> str:
-    """A link, or the frame, as what acts or is acted on."""
-    return str(phrases["frame"]) if link == "0" else str(phrases["link"]).format(link=link)
-
-
-def _uncapitalised(text: str) -> str:
-    """A name of the given data as it stands in a sentence; what begins with an abbreviation stays."""
-    return text if text[1:2].isupper() else text[:1].lower() + text[1:]
-
-
-def _symbol(id: str) -> Symbol:
-    """The symbol of a vector that has no row of its own."""
-    try:
-        return vocabulary.symbol(id)
-    except KeyError:
-        return Symbol("")
-
-
-# --- senses ----------------------------------------------------------------------------------------
-
-
-def positive_sense(id: str, report: Report) -> str:
-    """The phrase of a quantity or what stands in its place, as `MAGNITUDE`; "" where no words say anything."""
-    family, ledger = report.ledger[id], report.ledger
-    known = _points(id, ledger) | _way(id, report)
-    for phrase in vocabulary.words_of(report.words["positive"], id, family.kind, family.symbol):
-        # Another may speak of something that this quantity has not.
-        if gaps(phrase) <= known.keys():
-            return phrase.format(**known)
-    return ""
-
-
-def _points(id: str, ledger: Ledger) -> dict[str, str]:
-    """Both ends, and the letters, of the rod or slot that a projection or an assumed sense goes by."""
-    along, component = ids.projection.read(id), ids.reaction.read(id)
-    if component and (assumed := ids.assumed(ids.reaction_force.of(component))) in ledger:
-        (direction, *_) = refs(_definition(ledger, assumed))
-        along = ids.rod.read(direction) or ids.slot.read(direction)
-    if along is None or (rod := ids.rod(along["link"])) not in ledger:
-        return {}
-    end, start = (vocabulary.lowered(_point(place)) for place in refs(_definition(ledger, rod)))
-    return {"start": start, "end": end, "line": f"{start}{end}"}
-
-
-def _point(id: str) -> str:
-    """The name of the point whose place it is."""
-    found = ids.place.read(id)
-    assert found is not None, f"{id} is no place"
-    return found["point"]
-
-
-def _definition(ledger: Ledger, id: str) -> Expression:
-    definition = ledger[id].definition
-    assert definition is not None, f"{id} is constructed from nothing"
-    return definition
-
-
-def _way(id: str, report: Report) -> dict[str, str]:
-    """Where a slider's motion counts as positive, in words."""
-    found = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
-    way = report.slider_senses.get(found["point"]) if found else None
-    return {} if way is None else {"way": heading_words(report, float(np.degrees(np.angle(way))))}
-
-
 def _formula(ledger: Ledger, id: str) -> Expression:
     """What a quantity is defined as, in symbols."""
-    return substitute(_definition(ledger, id), lambda ref: ledger.symbol(ref.id))
+    return substitute(definition_of(ledger, id), lambda ref: ledger.symbol(ref.id))
 
 
 def is_open(values: np.ndarray, sense: str) -> bool:

@@ -67,10 +67,10 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
     for search in SEARCHES:
-        found = search(working, cells)
-        for place, mistake in found.items():
+        mistakes = search(working, cells)
+        for place, mistake in mistakes.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
-        cells |= _charged_once(working, cells, found)
+        cells |= _charged_once(working, cells, mistakes)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
     if scheme.policy.guard:
@@ -132,7 +132,7 @@ def _follows(scheme: MarkingScheme, id: str, value: float, own: float, band: flo
     return bool(scheme.distance(id, value, own) <= band)
 
 
-def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]) -> dict[Place, Marked]:
+def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mistake]) -> dict[Place, Marked]:
     """Of all wrong values that come from one mistake before the sheet, only the first costs its mark.
 
     Whoever took the stroke for the radius without writing the radius down went wrong once, though no
@@ -142,12 +142,14 @@ def _charged_once(working: Working, cells: Cells, found: Mapping[Place, Mistake]
     order = {row.id: index for index, row in enumerate(scheme.judged)}
     changed: dict[Place, Marked] = {}
     unseen = {
-        (one.name, one.where): one for one in found.values() if not any(map(working.shows, one.changes or [one.where]))
+        (one.name, one.where): one
+        for one in mistakes.values()
+        if not any(map(working.shows, one.changes or [one.where]))
     }
     for (name, where), mistake in unseen.items():
         own_values = working.own_values(changes=mistake.changes)
         once = len(scheme.ledger[where].values) == 1 or name == WRONG_DATUM
-        caused = [place for place, one in found.items() if (one.name, one.where) == (name, where)]
+        caused = [place for place, one in mistakes.items() if (one.name, one.where) == (name, where)]
         charged: dict[int, Place] = {}
         for place in sorted(caused, key=lambda place: order[place[0]]):
             # In a quantity with a value at each position, it is a mistake of its own at each of them.

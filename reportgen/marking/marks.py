@@ -22,7 +22,7 @@ from reportgen.base.units import Given, Language
 from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
 from reportgen.marking.bands import DIGITS, PAPER_ERROR, computed_bands, drawn_bands, is_chosen_length, is_direction
-from reportgen.marking.key import Ask
+from reportgen.marking.key import Ask, key_of
 from reportgen.report.case import Case, Misconceptions
 from reportgen.report.key import Key, KeyRow, Role
 
@@ -458,9 +458,7 @@ class MarkingScheme:
 def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
     """The marking scheme of an assignment, computed as its report is."""
     parts = tuple(marking_scheme(one, policy) for one in case.parts.values())
-    return MarkingScheme(
-        case.key(), case.ledger, case.misconceptions, case.positions_of_a_turn, policy or Policy(), parts
-    )
+    return MarkingScheme(key_of(case), case.ledger, case.misconceptions, case.span.count, policy or Policy(), parts)
 
 
 def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:

@@ -67,14 +67,14 @@ def _candidates(working: Working, places: Sequence[Place]) -> Iterator[Mistake]:
         behind = [place for place in places if id in working.scheme.before[place[0]]]
         if len(behind) < FEWEST:
             continue
-        found = list(_crossings(working, id, behind))
-        factors = np.array([factor for factor, _ in found])
+        crossings = list(_crossings(working, id, behind))
+        factors = np.array([factor for factor, _ in crossings])
         near = np.abs(factors[:, None] / factors[None, :] - 1) < SAME_DATUM
-        if not found or near.sum(axis=1).max() < FEWEST:
+        if not crossings or near.sum(axis=1).max() < FEWEST:
             continue
         together = near[near.sum(axis=1).argmax()]
         # What is worked out shows it more closely than what is drawn.
-        exact = [factor for (factor, single), one in zip(found, together, strict=True) if one and single]
+        exact = [factor for (factor, single), one in zip(crossings, together, strict=True) if one and single]
         for factor in (*exact[:1], float(np.median(factors[together]))):
             if abs(factor - 1) > UNLIKE:
                 yield Mistake(WRONG_DATUM, id, {id: _times(factor)})
@@ -112,9 +112,9 @@ def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[t
             column, given = np.abs(column), abs(given)
         apart = column - given
         for at in np.flatnonzero(np.diff(np.sign(apart)) != 0):
-            one, other = apart[at], apart[at + 1]
-            if np.isfinite(one) and np.isfinite(other):
-                share = one / (one - other)
+            before, after = apart[at], apart[at + 1]
+            if np.isfinite(before) and np.isfinite(after):
+                share = before / (before - after)
                 yield float(FACTORS[at] * (1 - share) + FACTORS[at + 1] * share), position == 0
 
 
@@ -147,7 +147,7 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
         place: [one for one in _possible_data(working, cells[place]) if _explains(working, cells[place], one)]
         for place in left
     }
-    found: dict[Place, Mistake] = {}
+    mistakes: dict[Place, Mistake] = {}
     candidates = list(dict.fromkeys(one for data in possible.values() for one in data))
     candidates = [one for one in candidates if not _is_contradicted(scheme, cells, one)]
     while left and candidates:
@@ -158,15 +158,15 @@ def misread_data(working: Working, cells: Cells) -> dict[Place, Mistake]:
             break
         # What stands on wrong values as well tells two apart that explain these equally.
         best = equal[0] if len(equal) == 1 else max(equal, key=lambda one: _following(working, cells, one))
-        found |= dict.fromkeys(explained[best], best.mistake)
+        mistakes |= dict.fromkeys(explained[best], best.mistake)
         left = [place for place in left if place not in explained[best]]
         candidates.remove(best)
     for place in left:
         # Elsewhere the datum was right, so it must be a slip in copying it: one figure, met in all figures.
         slip = next((one for one in possible[place] if _is_slip(working, cells[place], one)), None)
         if slip is not None:
-            found[place] = slip.mistake
-    return found
+            mistakes[place] = slip.mistake
+    return mistakes
 
 
 def _following(working: Working, cells: Cells, datum: _Datum) -> int:
@@ -193,8 +193,8 @@ def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
         values = _at(scheme, cell, id, WIDE * right) - _given(working, cell)
         crossing = np.flatnonzero(np.diff(np.sign(values)) != 0)
         for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
-            one, other = values[index], values[index + 1]
-            share = one / (one - other)
+            before, after = values[index], values[index + 1]
+            share = before / (before - after)
             factor = float(WIDE[index : index + 2] @ (1 - share, share))
             yield _Datum(id, _neat(scheme, id, right * factor))
 
@@ -293,11 +293,11 @@ def mistakes_of_plans(working: Working, cells: Cells) -> dict[Place, Mistake]:
     """The vectors reversed or left out behind first wrong values that have no name yet."""
     open_ones = [place for place, cell in cells.items() if cell.first and not cell.mistake and place[1]]
     candidates = list(_vectors_laid(working.scheme))
-    found: dict[Place, Mistake] = {}
+    mistakes: dict[Place, Mistake] = {}
     for position in dict.fromkeys(position for _, position in open_ones):
         here = [place for place in open_ones if place[1] == position]
-        found |= behind_many(working, cells, here, candidates, FEWEST_READ)
-    return found
+        mistakes |= behind_many(working, cells, here, candidates, FEWEST_READ)
+    return mistakes
 
 
 def behind_many(
@@ -312,13 +312,13 @@ def behind_many(
         return {}
     values = foreseen(working, first, candidates)
     met = {place: _met(working, cells, place, values[place[0]]) for place in places}
-    found: dict[Place, Mistake] = {}
+    mistakes: dict[Place, Mistake] = {}
     left = list(places)
     while best := _best(candidates, left, met, before, fewest):
         mistake, explained = best
-        found |= dict.fromkeys(explained, mistake)
+        mistakes |= dict.fromkeys(explained, mistake)
         left = [place for place in left if place not in explained]
-    return found
+    return mistakes
 
 
 def _vectors_laid(scheme: MarkingScheme) -> Iterator[Mistake]:

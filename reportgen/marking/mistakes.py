@@ -259,7 +259,11 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
     first = {place: cell for place, cell in cells.items() if cell.first}
     found = (
         *_misplaced(scheme, first, cells),
-        *(("too-few-figures", place) for place, cell in first.items() if _has_too_few_figures(cell)),
+        *(
+            ("too-few-figures", place)
+            for place, cell in first.items()
+            if _has_too_few_figures(cell) and not _comes_of_a_misconception(working, place, cell)
+        ),
         # A scale was taken from the task while the plan was drawn at another.
         *(
             ("other-scale", place)
@@ -285,6 +289,15 @@ def _has_too_few_figures(cell: Marked) -> bool:
         given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > cell.band
         for value in (cell.own, cell.expected)
     )
+
+
+def _comes_of_a_misconception(working: Working, place: Place, cell: Marked) -> bool:
+    """Whether a mistake known of the quantity gives the value in all its figures: a_w = a of 200 mm is not rounded."""
+    (id, position), scheme = place, working.scheme
+    known = [Mistake(name, id, {id: _with(other, {})}) for name, other in scheme.misconceptions.changed.get(id, ())]
+    index = scheme.rows[id].at(position)
+    values = foreseen(working, [id], known)[id][:, index] / working.unit(id)[index]
+    return cell.given is not None and bool(np.isclose(values, cell.given, rtol=1e-9).any())
 
 
 def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tuple[str, Place]]:

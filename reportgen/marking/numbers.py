@@ -33,14 +33,14 @@ def is_blank(text: str) -> bool:
 
 def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
     """The decimal mark that a sheet's texts agree on, and whether they do; else that of the language."""
-    found: set[DecimalMark] = set()
+    marks_used: set[DecimalMark] = set()
     for text in texts:
         match = _matched(text)
         marks = re.findall("[.,]", match["body"]) if match else []
         if match and len(marks) == 1 and not _plain(match["body"], ".", text)[2]:
-            found.add("." if marks == ["."] else ",")
-    if len(found) == 1:
-        return found.pop(), True
+            marks_used.add("." if marks == ["."] else ",")
+    if len(marks_used) == 1:
+        return marks_used.pop(), True
     return ("," if language == "vi" else "."), False
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from itertools import groupby
 from typing import Any
 
@@ -15,12 +16,10 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
 from reportgen.report import Block, Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
-from reportgen.report.design import DesignPage
+from reportgen.report.case import AskedFor, Case, CaseOfParts, LoadedAssignment
 from reportgen.report.key import Key, KeyRow, Role
 from reportgen.report.numbering import number
-from reportgen.report.outline import names as names_of
-from reportgen.report.report import PLATES_UP_TO, Report
+from reportgen.report.report import PLATES_UP_TO
 
 MOST_POSITIONS, MOST_FILLED = 8, 4
 """Columns of positions beside one another: of what is given, and of what is to be filled in."""
@@ -126,48 +125,35 @@ def shared_symbols(rows: Iterable[KeyRow]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-def machine_task(case: MachineAnalysis, key: Key, by_section: bool = False) -> Document:
-    """The task of a machine, from the given data to the empty answer sheet; no answer is in it.
+def task_of(case: Case, key: Key, by_section: bool = False) -> Document:
+    """The task of a case, from the given data to the empty answer sheet of `key`; no answer is in it.
 
     `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
     """
-    report = Report(case)
-    prose, names, machine = report.prose, names_of(report), case.analysis.machine
-    every = range(1, machine.positions + 1)
-    asked = asked_positions(key)
-    (title, *given) = prose.render("given", names)
-    names |= {
-        "answer_tables": empty_sheet(key, by_section),
-        "asks_scales": any(row.role is Role.scale for row in key.asked),
-        "asked": tuple(map(key.label, asked)),
-        "known_tables": tuple(_known_tables(key, every if machine.count <= PLATES_UP_TO else asked)),
-    }
-    return task_paper(
-        case,
-        key,
-        (title, Paragraph((tree.Strong((Text(case.title),)),), "center")),
-        (*given, *prose.render("task", names)),
-    )
+    if isinstance(case, CaseOfParts):
+        pages = zip(case.parts.values(), key.pages, strict=True)
+        return case.joined_task([task_of(part, page, by_section) for part, (_, page) in pages])
+    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
+    return case.bounded(partial(_task, key=key, by_section=by_section))
 
 
-def task_paper(case: LoadedAssignment, key: Key, title: Iterable[Block], blocks: Iterable[Block]) -> Document:
-    """A task: whose it is between its title and what follows."""
+def _task(case: LoadedAssignment, key: Key, by_section: bool) -> Document:
+    title, blocks = case.question(_asked_for(case, key, by_section))
     student = case.assignment.report.student.name or ""
     contents = (*title, *fields(student_rows(key)), *blocks)
     return paper(case.assignment.language, case.words, case.course, contents, student, key.variant)
 
 
-def design_task(case: Any, of: type[DesignPage[Any]], key: Key, by_section: bool = False) -> Document:
-    """The task of a case of what is designed: the given data and the empty answer sheet."""
-    page = of(case)
-    names = {
-        **page.names(),
-        "answer_tables": empty_sheet(key, by_section),
-        "is_part": case.assignment.is_part,
-        **page.asked(key),
-    }
-    title = (tree.Section(1, (Text(page.words["task"].format(title=case.title)),), numbered=False),)
-    return task_paper(case, key, title, page.section(of.TASK, names))
+def _asked_for(case: Case, key: Key, by_section: bool) -> AskedFor:
+    """What the answer sheet of a key asks for, and what is given at the positions of the plates or of the answers."""
+    asked = asked_positions(key)
+    known = range(1, len(case.span.labels) + 1) if case.span.count <= PLATES_UP_TO else asked
+    return AskedFor(
+        answers=empty_sheet(key, by_section),
+        positions=tuple(map(key.label, asked)),
+        known=tuple(_known_tables(key, known)),
+        scales=any(row.role is Role.scale for row in key.asked),
+    )
 
 
 def empty_sheet(key: Key, by_section: bool) -> tuple[Block, ...]:

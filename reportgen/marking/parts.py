@@ -70,11 +70,11 @@ def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
     return replace(whole, values=own(whole.values), problems=own(whole.problems), notes=(), rows=rows)
 
 
-def _own_classmate(one: Classmate, name: str) -> Classmate | None:
+def _own_classmate(classmate: Classmate, name: str) -> Classmate | None:
     """The same part of a classmate's work, if there is one."""
-    for part, (_, page) in zip(one.key.parts, one.key.pages, strict=False):
+    for part, (_, page) in zip(classmate.key.parts, classmate.key.pages, strict=False):
         if part.name == name:
-            sheet = one.submission and _own_submission(one.submission, one.key, part)
+            sheet = classmate.submission and _own_submission(classmate.submission, classmate.key, part)
             return Classmate(_own_key(page, part), sheet)
     return None
 

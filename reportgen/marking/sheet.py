@@ -199,10 +199,10 @@ def read_submission(
     """
     pages = read(path, language) if pages is None else pages
     sheets = _sheets(pages)
-    found = sheets[0] if sheets else None
-    if found is None:
+    first_sheet = sheets[0] if sheets else None
+    if first_sheet is None:
         raise as_error([Fault("sheet-no-head", Mark(str(path)))], language)
-    named = _beside(pages, "assignment") or _titled(found[0].rows[: found[1]])
+    named = _beside(pages, "assignment") or _titled(first_sheet[0].rows[: first_sheet[1]])
     name, mark = named or (path.stem, Mark(str(path)))
     if isinstance(key_of, Key):
         key = key_of
@@ -218,8 +218,8 @@ def read_submission(
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
         raise as_error([Fault("sheet-of-another", kind[1], about)], language)
     reading = _Reading(key, language)
-    for one in sheets if key.parts else sheets[:1]:
-        reading.sheet(*one)
+    for answers in sheets if key.parts else sheets[:1]:
+        reading.sheet(*answers)
     return Submission(
         key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
     )
@@ -241,23 +241,23 @@ def _says(cell: SheetCell, name: str) -> bool:
 
 def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
     """The pages of answers with the indices of their head rows: the page so called first, then all that have a head."""
-    found: dict[int, tuple[Page, int]] = {}
+    answers: dict[int, tuple[Page, int]] = {}
     called = [page for page in pages if page.name.strip().casefold() in _words("answers")]
     for page in (*called, *pages):
         for number, row in enumerate(page.rows[:HEAD_WITHIN]):
             # The head names more than the id: a lone cell could be anything.
             if any(_says(cell, "id") for cell in row) and any(_says(cell, "value") for cell in row):
-                found.setdefault(id(page), (page, number))
+                answers.setdefault(id(page), (page, number))
                 break
-    return list(found.values())
+    return list(answers.values())
 
 
 def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
     """What stands beside a label such as that of the assignment, if anything does."""
     for page in pages:
         for row in page.rows:
-            for one, cell in pairwise(row):
-                if _says(one, label) and cell.text.strip():
+            for label_cell, cell in pairwise(row):
+                if _says(label_cell, label) and cell.text.strip():
                     return cell.text.strip(), cell.mark
     return None
 
@@ -290,18 +290,18 @@ class _Reading:
     def sheet(self, page: Page, head: int) -> None:
         """Read all rows below the head."""
         at = next(number for number, cell in enumerate(page.rows[head]) if _says(cell, "id"))
-        found: dict[Place, SheetCell] = {}
+        filled: dict[Place, SheetCell] = {}
         rows = [(cells[at].text.strip() if at < len(cells) else "", cells) for cells in page.rows[head + 1 :]]
         columns = self.columns(page.rows[head], [id for id, _ in rows if self.key.find(id)])
         for place, cell in self.cells(rows, at, columns):
-            if place not in found:
-                found[place] = cell
-            elif found[place].text.strip() != cell.text.strip():
-                first = str(found[place].mark).removeprefix(f"{cell.mark.file}:")
+            if place not in filled:
+                filled[place] = cell
+            elif filled[place].text.strip() != cell.text.strip():
+                first = str(filled[place].mark).removeprefix(f"{cell.mark.file}:")
                 self.problem(place, Fault("cell-repeated", cell.mark, {"first": first}))
-        texts = (cell.text for cell in found.values() if isinstance(cell.value, str))
+        texts = (cell.text for cell in filled.values() if isinstance(cell.value, str))
         mark, agreed = decimal_mark(texts, self.key.language)
-        for place, cell in found.items():
+        for place, cell in filled.items():
             if place not in self.problems:
                 self.value(place, cell, mark, agreed)
 
@@ -370,8 +370,8 @@ class _Reading:
                 {read_number(cell.value, KINDS[row.kind].unit, one)[0] for one in get_args(DecimalMark)}, key=abs
             )
             number = _nearest(ways, float(row.values[row.at(place[1])]), number)
-            read, other = (units.write(way, None, self.language or self.key.language) for way in ways)
-            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": read, "other": other}))
+            read, other_reading = (units.write(way, None, self.language or self.key.language) for way in ways)
+            self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": read, "other": other_reading}))
         self.values[place] = Answer(number, cell.text, cell.mark)
         return None
 

@@ -50,8 +50,8 @@ class Working:
     @cached_property
     def bands(self) -> Mapping[str, np.ndarray]:
         """The tolerances (SI) [N] of every row, at the student's own scales."""
-        other = {id: factor for id, factor in self.drawn.items() if (np.abs(factor - 1) > CONFIRMED).any()}
-        return self.scheme.bands_at(other) if other else self.scheme.bands
+        own_scales = {id: factor for id, factor in self.drawn.items() if (np.abs(factor - 1) > CONFIRMED).any()}
+        return self.scheme.bands_at(own_scales) if own_scales else self.scheme.bands
 
     def unit(self, id: str) -> np.ndarray:
         """What one printed unit of a quantity stands for in `values` [N]: lengths as drawn at the student's scale."""
@@ -102,26 +102,30 @@ class Working:
         own centre distance is as right as by the angle.
         """
         ledger, index = self.scheme.ledger, row.at(position)
-        found = [float(self.values[other][index].real) for other in self.scheme.alike[row.id] if other in self.values]
+        accepted = [
+            float(self.values[other][index].real) for other in self.scheme.alike[row.id] if other in self.values
+        ]
         if row.role is Role.scale and row.id in self.scheme.makers:
             size, length = self.scheme.makers[row.id]
             if size in self.values and self.values.get(length, np.zeros(1))[0]:
-                found.append(float(self.values[size][0] / self.values[length][0]))
-        found += self._by_length_scale(row, index)
-        found += [self._by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
-        return [one for one in found if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)]
+                accepted.append(float(self.values[size][0] / self.values[length][0]))
+        accepted += self._by_length_scale(row, index)
+        accepted += [self._by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
+        return [
+            one for one in accepted if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)
+        ]
 
-    def _by_another_way(self, row: KeyRow, way: Expression, index: int) -> float:
+    def _by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
         """What another definition of a quantity gives from the student's own values."""
-        values = np.atleast_1d(evaluate(way, {id: self.world[id] for id in refs(way)}))
+        values = np.atleast_1d(evaluate(definition, {id: self.world[id] for id in refs(definition)}))
         return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)
 
     def _by_length_scale(self, row: KeyRow, index: int) -> list[float]:
         """The moment of a load on the lever by its drawn arm and μ_l as it is written down."""
-        found = ids.lever_moment.read(row.id)
-        if found is None:
+        names = ids.lever_moment.read(row.id)
+        if names is None:
             return []
-        load, arm = found["force"], ids.lever_arm(found["force"])
+        load, arm = names["force"], ids.lever_arm(names["force"])
         if not {arm, "mu.l"} <= self.values.keys():
             return []
         drawn = self.world[arm] / self.factors.get("mu.v", np.ones(1))
@@ -197,8 +201,8 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
-            if (found := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
-                tried.insert(0, float(found / usual[place]))
+            if (scale_used := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
+                tried.insert(0, float(scale_used / usual[place]))
             if first is not None:
                 with np.errstate(divide="ignore"):
                     tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
@@ -257,14 +261,14 @@ def in_use(scheme: MarkingScheme, values: Values, scale: str, place: slice, stat
     """
     if scheme.ledger[scale].definition is not None or scale == "mu.l":
         return None
-    found: list[np.ndarray] = []
+    ratios_read: list[np.ndarray] = []
     for length in (id for id in values if vocabulary.plan(id) == scale):
         for size in scheme.sizes[length] & values.keys():
             with np.errstate(all="ignore"):
                 # A short length may be rounded by more than scales differ.
                 rounding = READ_TO / np.abs(values[length])
-                found.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
-    ratios, rounding = np.concatenate(found, axis=1) if found else np.zeros((2, 0))
+                ratios_read.append(np.array([np.abs(values[size] / values[length]), rounding])[:, place])
+    ratios, rounding = np.concatenate(ratios_read, axis=1) if ratios_read else np.zeros((2, 0))
     known = np.isfinite(ratios) & (ratios > 0)
     ratios, rounding = ratios[known], rounding[known]
     if not ratios.size:

@@ -123,12 +123,12 @@ class Painter:
 
     def items(self, items: Iterable[Item], height: float = 0.0) -> str:
         """The elements of items, y turned over about the `height` of their sheet."""
-        found = []
+        paths = []
         shapes = (shape for item in items for shape in self._shapes(item, height))
         for (name, joins), group in groupby(shapes, key=lambda shape: shape[:2]):
             bodies = [body for _, _, body in group]
-            found.append(f'<path class="{name}" d="{"".join(bodies)}"/>' if joins else "".join(bodies))
-        return "".join(found)
+            paths.append(f'<path class="{name}" d="{"".join(bodies)}"/>' if joins else "".join(bodies))
+        return "".join(paths)
 
     def _shapes(self, item: Item, height: float) -> Iterator[tuple[str, bool, str]]:
         """(class, whether it is a path's data, the data or the element) of what an item is drawn with."""
@@ -420,8 +420,8 @@ class MathmlFormulas(TextSetter):
     def columns(self, equation: VectorEquation) -> list[tuple[str, list[str]]]:
         """Each column of a vector equation: its term, and below it what is known of it in the equation's rows."""
         return [
-            (self.leading(one.signs) + self.part(one.term), list(map(self.known, one.known)))
-            for one in columns(equation)
+            (self.leading(column.signs) + self.part(column.term), list(map(self.known, column.known)))
+            for column in columns(equation)
         ]
 
     def leading(self, signs: tuple[Sign, ...]) -> str:

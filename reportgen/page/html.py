@@ -370,8 +370,8 @@ class Blocks:
         if isinstance(first, VectorEquation):
             return self.vector_equation(first)
         lines = []
-        for one in rows:
-            left, rest = self.formulas.row(one)
+        for equated in rows:
+            left, rest = self.formulas.row(equated)
             pieces = BREAK.join(map(self.formulas.displayed, rest))
             lead = f'<span class="left">{self.formulas.displayed(left)}</span> ' if left else ""
             wide = "" if left else ' class="whole"'
@@ -427,8 +427,8 @@ class Blocks:
         return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{shown}</figure>'
 
     def scene(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
-        told = tree.plain(block.caption, self.language)
-        name = f"{self.words.figure} {block.number}. {told} {scene.title}".strip()
+        caption = tree.plain(block.caption, self.language)
+        name = f"{self.words.figure} {block.number}. {caption} {scene.title}".strip()
         title = f"<p>{escape(scene.title)}</p>" if scene.title else ""
         return f"<div>{self.painter.scene(scene, name)}{title}</div>"
 

@@ -47,7 +47,7 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motion_at
 from reportgen.machine.forces import Load, as_single_force
-from reportgen.machine.loads import FULL_TURN
+from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
@@ -102,8 +102,8 @@ class _Samples:
         near = np.abs(grid[:, None] - wanted).min(axis=1) <= SAME_SAMPLE
         # The ends stay where they are; a position there is one of them.
         near[[0, -1]] = False
-        found = np.sort(np.concatenate((grid[~near], wanted)))
-        return found[np.concatenate(([True], np.diff(found) > SAME_SAMPLE))]
+        angles = np.sort(np.concatenate((grid[~near], wanted)))
+        return angles[np.concatenate(([True], np.diff(angles) > SAME_SAMPLE))]
 
     def _jumps(self) -> np.ndarray:
         """Both sides of the angles of a turn at which a load jumps, as the friction of a slider that turns back."""
@@ -113,8 +113,8 @@ class _Samples:
         sides = [analyse(self.machine, corners + side * BESIDE) for side in (-1.0, 1.0)]
         jumping = np.zeros(corners.shape, dtype=bool)
         for before, after in zip(sides[0].applied, sides[1].applied, strict=True):
-            for one, other in ((before.force, after.force), (before.couple, after.couple)):
-                jumping |= np.abs(one - other) > JUMP * max(float(np.nanmax(np.abs(one))), 1e-300)
+            for before_jump, after_jump in ((before.force, after.force), (before.couple, after.couple)):
+                jumping |= np.abs(before_jump - after_jump) > JUMP * max(float(np.nanmax(np.abs(before_jump))), 1e-300)
         return np.mod(np.concatenate((corners[jumping] - BESIDE, corners[jumping] + BESIDE)), FULL_TURN)
 
     @cached_property
@@ -268,17 +268,17 @@ class _Samples:
 
     def _forces(self, scale: float) -> tuple[list[MovingItem], float]:
         """All forces as arrows where they act, and their scale (N/mm); reactions each once."""
-        found = self.analysis
+        analysis = self.analysis
         arrows: list[tuple[str, str, np.ndarray, np.ndarray]] = []
         groups: tuple[tuple[str, Sequence[Load]], ...] = (
-            ("loads", found.applied),
-            ("inertia", found.inertia),
-            ("weights", found.weights),
+            ("loads", analysis.applied),
+            ("inertia", analysis.inertia),
+            ("weights", analysis.weights),
         )
         for layer, loads in groups:
             arrows += [(layer, load.name, load.force, load.point) for load in loads]
         for name in self._reactions:
-            reaction = found.forces.reactions[name]
+            reaction = analysis.forces.reactions[name]
             arrows.append(("reactions", name, reaction.force, reaction.point))
         sizes = {name: np.abs(force) for _, name, force, _ in arrows}
         greatest = max((float(np.nanmax(size, initial=0.0)) for size in sizes.values()), default=0.0)
@@ -305,15 +305,15 @@ class _Samples:
     @cached_property
     def _reactions(self) -> list[str]:
         """The reactions, each once, as the force plans find them: R54 where the force of link 5 on link 4 is read."""
-        found = self.analysis.forces.reactions
+        reactions = self.analysis.forces.reactions
         edges = (edge for polygon in self.case.polygons for edge in (*polygon.edges, *polygon.reads))
-        return list(dict.fromkeys(edge.name for edge in edges if edge.unknown and edge.name in found))
+        return list(dict.fromkeys(edge.name for edge in edges if edge.unknown and edge.name in reactions))
 
     def _plan_of_motion(self, what: What, title: str, kind: str) -> Pane:
         """The plan of velocities or accelerations."""
         plan = motion_construction(self.report, what)
-        found = fitted(self._rates_on(plan, what), kind, self.knots.size)
-        return _plan(what, title, plan_items(plan, found.tracks), found)
+        plan_fitted = fitted(self._rates_on(plan, what), kind, self.knots.size)
+        return _plan(what, title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _rates_on(self, plan: Construction[str], what: What) -> dict[str, np.ndarray]:
         """The corners of a plan of velocities or accelerations, in SI units."""
@@ -322,8 +322,8 @@ class _Samples:
 
     def _plan_of_forces(self, polygon: Polygon, title: str) -> Pane:
         plan, per = force_construction(self.report, polygon), self.corners[ids.force_scale(polygon.name)]
-        found = fitted({corner: self.corners[corner] * per for corner in plan.corners}, "force", self.angles.size)
-        return _plan(f"R{polygon.name}", title, plan_items(plan, found.tracks), found)
+        plan_fitted = fitted({corner: self.corners[corner] * per for corner in plan.corners}, "force", self.angles.size)
+        return _plan(f"R{polygon.name}", title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _lever(self, title: str) -> Pane:
         """Zhukovsky's lever: the velocity plan turned by 90° against ω1, the line of every load through its image.
@@ -352,16 +352,16 @@ class _Samples:
             with np.errstate(invalid="ignore"):
                 corners[end] = image + (LEVER + LONGER * before) * reach * force / size
             drawn.append(start)
-        found = fitted(corners, "velocity", self.angles.size)
-        items = lever_items(plan, found.tracks)
+        lever = fitted(corners, "velocity", self.angles.size)
+        items = lever_items(plan, lever.tracks)
         for start in drawn:
             name = start.removesuffix(" start")
-            ends = found.tracks[start], found.tracks[f"{name} end"]
+            ends = lever.tracks[start], lever.tracks[f"{name} end"]
             balance = name == "Rcb"
             items.append(MovingVector(*ends, style.REACTION if balance else style.ACTIVE, name=name))
             shown = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
             items.append(MovingName(shown, ends[1], ends[:1], 0.6))
-        return _plan("lever", title, items, found)
+        return _plan("lever", title, items, lever)
 
     # --- curves and numbers
 
@@ -384,7 +384,7 @@ class _Samples:
 
     def values(self) -> Iterator[MomentValue]:
         """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""
-        motion, found, ledger = self._one_turn, self.analysis, self.report.ledger
+        motion, analysis, ledger = self._one_turn, self.analysis, self.report.ledger
         moving = [name for name in motion.points if name not in self.machine.linkage.ground]
         for base, kind in (("v", "velocity"), ("a", "acceleration")):
             for name in moving:
@@ -394,16 +394,16 @@ class _Samples:
                 rates = getattr(motion.links[link], attribute)
                 if np.nanmax(np.abs(rates)) > 0:
                     yield _value(Symbol(base, str(link)), kind, rates)
-        if not found.loads:
+        if not analysis.loads:
             return
-        for gas in found.gas.values():
+        for gas in analysis.gas.values():
             yield _value(Symbol("p", str(gas.piston.link)), "pressure", gas.pressure)
-        for load in found.applied:
+        for load in analysis.applied:
             if np.nanmax(np.abs(load.force)) > 0:
                 yield _value(_scalar(self._force_symbol(load.name)), "force", np.abs(load.force))
         for name in self._reactions:
-            yield _value(_scalar(self._force_symbol(name)), "force", np.abs(found.forces.reactions[name].force))
-        yield _value(self.report.balance_symbol(), ledger["M.eq"].kind, found.torque)
+            yield _value(_scalar(self._force_symbol(name)), "force", np.abs(analysis.forces.reactions[name].force))
+        yield _value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
 
     # --- what interpolation costs
 
@@ -438,8 +438,8 @@ class _Samples:
         return Errors(bound * scale, crank, share)
 
 
-def _plan(key: str, title: str, items: list[MovingItem], found: Fitted) -> Pane:
-    return Pane(key, title, tuple(items), -PANEL / 2, PANEL / 2, found.scales, finer=found.finer)
+def _plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> Pane:
+    return Pane(key, title, tuple(items), -PANEL / 2, PANEL / 2, plan_fitted.scales, finer=plan_fitted.finer)
 
 
 def _chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:

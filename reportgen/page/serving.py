@@ -120,8 +120,8 @@ class _Request(BaseHTTPRequestHandler):
         elif name == "news":
             self._tell()
         elif name in self.answers:
-            found = self.answers[name](self.server.session)
-            self._send(json.dumps(found, ensure_ascii=False).encode(), "application/json")
+            answer = self.answers[name](self.server.session)
+            self._send(json.dumps(answer, ensure_ascii=False).encode(), "application/json")
         else:
             self._refuse(HTTPStatus.NOT_FOUND)
 

@@ -47,12 +47,12 @@ def watch(
     path: Path,
     opens: Opener,
     language: Language | None = None,
-    told: Callable[[Case, Document], None] = nobody,
+    tell: Callable[[Case, Document], None] = nobody,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """Serve the page of a file and renew it until the program is interrupted; `told` of each finished report.
+    """Serve the page of a file and renew it until the program is interrupted; `tell` of each finished report.
 
     A faulty file has a page that tells its faults.  Raises `AssignmentError` if there is no file, `OutputError`.
     """
@@ -60,7 +60,7 @@ def watch(
         # A name mistyped is no file to wait for, nor is a pipe.
         opens(path, language)
     path = path.absolute()
-    session = LiveSession(partial(opens, path, language), language, told)
+    session = LiveSession(partial(opens, path, language), language, tell)
     with reported():
         server = Server(session, port)
     stop = threading.Event()

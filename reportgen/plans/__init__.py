@@ -16,8 +16,8 @@ from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
 from reportgen.machine.analysis import Analysis, GasState, no_formulas
-from reportgen.machine.gas import CYCLE, StrokeIndicator
-from reportgen.machine.loads import FULL_TURN, Piston, TableLaw
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
@@ -81,9 +81,8 @@ def enter_plans(
     if not analysis.loads:
         return q, ()
     _masses(q, analysis)
-    _gas(q, analysis)
     _applied(q, analysis)
-    applied = {one.name: (one.link, one.point, one.direction) for one in machine.applied}
+    applied = {one.name: (one.link, one.point, one.direction(analysis.motion)) for one in machine.applied}
     torques = {one.name: one.link for one in machine.torques}
     return q, enter_forces(q, machine.linkage, machine.turn, applied, torques)
 
@@ -98,18 +97,6 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
             q.define(weight, q[mass] * q["g"])
 
 
-def _gas(q: Sheet, analysis: Analysis) -> None:
-    """s/H and pressure read from the diagram, gas force P = p F."""
-    machine = analysis.machine
-    for name, state in analysis.gas.items():
-        if name in analysis.machine.idle:
-            continue
-        link, stroke = state.piston.link, state.piston.stroke
-        _way(q, machine.linkage, link, state.fraction * stroke, stroke)
-        p = q.give(ids.pressure(link), state.pressure, exact=False, written=_between_nodes(q, state))
-        q.define(name, p * q["F"])
-
-
 def _between_nodes(q: Sheet, state: GasState) -> Expression:
     """The pressure between the two points x′, p′ and x″, p″ of the diagram next to each position.
 
@@ -117,24 +104,22 @@ def _between_nodes(q: Sheet, state: GasState) -> Expression:
 
     x is s/H, or the angle φ of the cycle.
     """
-    link, diagram = state.piston.link, state.piston.indicator
-    if isinstance(diagram, StrokeIndicator):
-        x, letter, kind = q[ids.displacement(link)] / _stroke(q, state.piston), "x", "ratio"
-        at, nodes, rows = state.fraction, np.array(diagram.fractions), np.array(diagram.rows)[state.stroke]
+    piston, link = state.piston, state.piston.link
+    among = piston.indicator.bracket(state.angle, state.fraction, piston.dead_centres)
+    letter = {"ratio": "x", "angle": "φ"}[among.kind]
+
+    def give(mark: str, place: np.ndarray, pressure: np.ndarray) -> tuple[Ref, Ref]:
+        x = q.give(ids.node(f"x{mark}", link), place, Symbol(letter, sup=mark), among.kind, hidden=True)
+        p = q.give(ids.node(f"p{mark}", link), pressure, Symbol("p", sup=mark), "pressure", hidden=True)
+        return x, p
+
+    if among.kind == "angle":
+        degrees = np.radians(rounded(np.degrees(among.at), KINDS["angle"].decimals or 0))
+        x: Expression = q.give(ids.node("x", link), degrees, Symbol(letter), "angle", hidden=True)
     else:
-        at, nodes, letter, kind = np.mod(state.angle, CYCLE), np.array(diagram.angles), "φ", "angle"
-        degrees = np.radians(rounded(np.degrees(at), KINDS[kind].decimals or 0))
-        x = q.give(ids.node("x", link), degrees, Symbol(letter), kind, hidden=True)
-        rows = np.tile(diagram.pressures, (len(at), 1))
-    before = np.clip(np.searchsorted(nodes, at, side="right") - 1, 0, len(nodes) - 2)
-    ends = []
-    for mark, index in (("′", before), ("″", before + 1)):
-        pressure = rows[np.arange(len(at)), index]
-        place = q.give(ids.node(f"x{mark}", link), nodes[index], Symbol(letter, sup=mark), kind, hidden=True)
-        ends.append(
-            (place, q.give(ids.node(f"p{mark}", link), pressure, Symbol("p", sup=mark), "pressure", hidden=True))
-        )
-    (x1, p1), (x2, p2) = ends
+        x = q[ids.displacement(link)] / _stroke(q, piston)
+    x1, p1 = give("′", among.before, among.pressure_before)
+    x2, p2 = give("″", among.after, among.pressure_after)
     return p1 + (p2 - p1) / (x2 - x1) * (x - x1)
 
 
@@ -142,8 +127,8 @@ def _stroke(q: Sheet, piston: Piston) -> Ref:
     """The stroke of a piston: H as given, or with five figures as its dead centres are found."""
     if "H" in q and abs(q.si("H") - piston.stroke) <= ZERO * piston.stroke:
         return q["H"]
-    found = rounded(piston.stroke, significant_decimals(piston.stroke, KINDS["length"].digits))
-    return q.give(ids.stroke(piston.link), found, Symbol("H", str(piston.link)), "length", hidden=True)
+    stroke = rounded(piston.stroke, significant_decimals(piston.stroke, KINDS["length"].digits))
+    return q.give(ids.stroke(piston.link), stroke, Symbol("H", str(piston.link)), "length", hidden=True)
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
@@ -156,10 +141,10 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
         for reach in (rod + crank, rod - crank):
             line = q[ids.guide_place(link)], q[ids.guide(link)], float(dyad.sign)
             stop = circle_line(q[ids.place(driver.centre)], reach, *line)
-            way = abs((q[ids.place(dyad.middle)] - stop) * (q["mu.l"] / q["drawing"]))
-            found = evaluate(way, {name: family.values for name, family in q.families.items()})
-            if np.allclose(found, values, rtol=0, atol=ZERO * stroke):
-                q.define(id, way, scale=stroke)
+            displacement = abs((q[ids.place(dyad.middle)] - stop) * (q["mu.l"] / q["drawing"]))
+            measured = evaluate(displacement, {name: family.values for name, family in q.families.items()})
+            if np.allclose(measured, values, rtol=0, atol=ZERO * stroke):
+                q.define(id, displacement, scale=stroke)
                 return
     drawn = q.give(
         ids.displacement_on_paper(link), values / q.si("mu.l"), Symbol("s"), "ratio", exact=False, hidden=True
@@ -168,19 +153,31 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
 
 
 def _applied(q: Sheet, analysis: Analysis) -> None:
-    """Forces other than of gas, positive along their own direction, and torques, anticlockwise positive."""
-    loads = {load.name: load for load in analysis.applied}
-    for force in analysis.machine.applied:
-        if force.name not in q:
-            link, size = force.link, np.real(np.conj(force.direction) * loads[force.name].force)
-            if isinstance(force.law, TableLaw):
-                course = force.law.course
-                way = course.fraction(analysis.motion) * course.stroke
-                _way(q, analysis.machine.linkage, link, way, course.stroke)
-            q.give(force.name, size, exact=is_short(size))
-    for torque in analysis.machine.torques:
-        size = loads[torque.name].couple
-        q.give(torque.name, size, Symbol("M", str(torque.link)), exact=is_short(size))
+    """Forces, positive along their own direction, with what they are read by; torques, anticlockwise positive."""
+    machine = analysis.machine
+    for force in machine.applied:
+        if force.name in q:
+            continue
+        course = force.law.read_along
+        if course is not None:
+            displacements = course.fraction(analysis.motion) * course.stroke
+            _way(q, machine.linkage, force.link, displacements, course.stroke)
+        if force.name in analysis.gas:
+            state = analysis.gas[force.name]
+            q.give(ids.pressure(force.link), state.pressure, exact=False, written=_between_nodes(q, state))
+        _size(q, force, analysis)
+    for torque in machine.torques:
+        _size(q, torque, analysis, Symbol("M", str(torque.link)))
+
+
+def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:
+    """The size of a load by the formula of its law, or as it is given."""
+    formula = load.law.formula(q, load.link)
+    if formula is not None:
+        q.define(load.name, formula, symbol)
+    else:
+        size = load.law.value(analysis.cycle_angle, analysis.motion)
+        q.give(load.name, size, symbol, exact=is_short(size))
 
 
 def _cycle(q: Sheet, analysis: Analysis) -> None:
@@ -193,7 +190,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
-    way = q["span"] if machine.span else 2.0 * machine.turns * PI
+    angle = q["span"] if machine.span else 2.0 * machine.turns * PI
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
     largest = call("highest", call("abs", q["M.eq"]))
@@ -214,7 +211,7 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
         q.give(id, extreme, Symbol(letter, index), kind, exact=False, scale=size, written=line)
     work = q.give("W", _without_dust(summary.work, size * machine.way), exact=False)
     q.define("power", size_of(mean) * rate)
-    q.define("M.energy", work / way, Symbol(letter, "W"), kind)
+    q.define("M.energy", work / angle, Symbol(letter, "W"), kind)
 
 
 def _without_dust(value: float, size: float) -> float:
@@ -313,9 +310,9 @@ def _with_rest(
     scale: float = 0.0,
 ) -> Ref:
     """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
-    found = q.construct(ids.rule(id), by_rule)
-    rest = q.give(ids.rest(id), np.asarray(values) - q.value(found), Symbol(id), "ratio", hidden=True)
-    return q.define(id, call("re", found + rest), symbol, kind, scale=scale)
+    by_rule_alone = q.construct(ids.rule(id), by_rule)
+    rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)
+    return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

@@ -149,9 +149,9 @@ def _rpr(g: Group) -> Polygon:
     # One flat sum: a sum within it would vanish with the first of its terms that is left out.
     known = [*(moment.terms if isinstance(moment, Sum) else [moment] if moment else []), *([couple] if couple else [])]
     size = total(known) / _reach(g) if known else 0.0
-    found = q.define(ids.reaction(across, "s"), size, Symbol("R", across), scale=g.statics.force)
+    reaction = q.define(ids.reaction(across, "s"), size, Symbol("R", across), scale=g.statics.force)
     assumed = q.construct(ids.assumed(ids.reaction_force(across, "s")), -float(g.dyad.sign) * turned(q[ids.slot(g.j)]))
-    laid = q.construct(ids.force_vector(ids.reaction_force(across, "s")), found * assumed, of=found.id)
+    laid = q.construct(ids.force_vector(ids.reaction_force(across, "s")), reaction * assumed, of=reaction.id)
     polygon = _close(g, None, None, laid=laid)
     _offset(g, g.inner)
     return polygon

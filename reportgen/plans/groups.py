@@ -83,33 +83,33 @@ def _enter(q: Sheet, linkage: Linkage, turn: int, scales: Mapping[str, float | N
 # Both follow from two vector equations for the point where the group's two sides meet (`sides`).
 
 
-def velocity(k: Kinematics, one: Side, two: Side) -> None:
-    """v_M = v_P + v_MP, each side with one unknown size along a known direction: two lines meet in m."""
-    for side in (one, two):
+def velocity(k: Kinematics, first: Side, second: Side) -> None:
+    """v_M = v_P + v_MP, each side with one unknown size along a known direction: second lines meet in m."""
+    for side in (first, second):
         _guide_point(k, "v", side)
-    start1, start2 = _start(k, "v", one), _start(k, "v", two)
-    k.vertex("v", image(one.point), meet(start1, _sought(k, one), start2, _sought(k, two)))
-    for side in (one, two):
+    start1, start2 = _start(k, "v", first), _start(k, "v", second)
+    k.vertex("v", image(first.point), meet(start1, _sought(k, first), start2, _sought(k, second)))
+    for side in (first, second):
         if not side.still:
             _relative_velocity(k, side)
-    k.absolute("v", one.point)
-    for side in (one, two):
+    k.absolute("v", first.point)
+    for side in (first, second):
         if side.still and (side.turns or side.turning):
             # Relative to a fixed point the velocity is the velocity itself.
             _enter_relative(k, side, k.q[ids.velocity(side.point)])
 
 
-def acceleration(k: Kinematics, one: Side, two: Side) -> None:
-    """a_M = a_P + aⁿ_MP + aᵗ_MP or a_G + aᵏ_MG + aʳ_MG: known vectors first, then two lines meet in m′."""
-    for side in (one, two):
+def acceleration(k: Kinematics, first: Side, second: Side) -> None:
+    """a_M = a_P + aⁿ_MP + aᵗ_MP or a_G + aᵏ_MG + aʳ_MG: known vectors first, then second lines meet in m′."""
+    for side in (first, second):
         _guide_point(k, "a", side)
-    starts = [_known_acceleration(k, side) for side in (one, two)]
-    crossing = meet(starts[0], _sought(k, one), starts[1], _sought(k, two))
-    k.vertex("a", image(one.point), crossing)
-    same_letter = one.part == two.part
-    for side, start in zip((one, two), starts, strict=True):
+    starts = [_known_acceleration(k, side) for side in (first, second)]
+    crossing = meet(starts[0], _sought(k, first), starts[1], _sought(k, second))
+    k.vertex("a", image(first.point), crossing)
+    same_letter = first.part == second.part
+    for side, start in zip((first, second), starts, strict=True):
         _unknown_acceleration(k, side, start, same_letter)
-    k.absolute("a", one.point)
+    k.absolute("a", first.point)
 
 
 def _guide_point(k: Kinematics, what: What, side: Side) -> None:
@@ -396,8 +396,8 @@ def _by_similarity(k: Kinematics, what: What, point: LinkPoint, turn: Side) -> N
     laid = q.construct(ids.laid(what, f"{first}{new}"), ratio * angle * along, of=part.id)
     k.vertex(what, new, k.image(what, base) + laid)
     if _off_line(point) and not turn.measured:
-        other = q[ids.length(tip, point.name)] / q[ids.length(turn.rod)]
-        q.define(ids.segment(what, last, new), other * q[whole], segment(letters[1], target))
+        leg_ratio = q[ids.length(tip, point.name)] / q[ids.length(turn.rod)]
+        q.define(ids.segment(what, last, new), leg_ratio * q[whole], segment(letters[1], target))
     k.absolute(what, point.name)
 
 

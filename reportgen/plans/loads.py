@@ -17,6 +17,7 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
+from reportgen.machine.motion import Complexes
 from reportgen.plans.motion import NOWHERE, Sizes, longest
 from reportgen.plans.scales import LEAST_FORCES, extents, own_scales
 from reportgen.plans.sides import Scheme, image
@@ -24,8 +25,8 @@ from reportgen.plans.sides import Scheme, image
 FAINT = 1e-12
 """A reaction below this share of the loads is rounding and has no line of action."""
 
-Applied = Mapping[str, tuple[int, str, complex]]
-"""Applied forces: id → (link, point, unit vector of the positive sense, constant or per position)."""
+Applied = Mapping[str, tuple[int, str, Complexes | complex]]
+"""Applied forces: id → (link, point, unit vector of the positive sense, at each position [N] or one for all)."""
 
 
 class Origin(IntEnum):
@@ -124,7 +125,9 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
             loads.append(_inertia(statics, body))
     for name, (link, place, sense) in applied.items():
         # The machine has entered the sense of a force along a guide that is given by its angle.
-        positive = q.find(ids.sense(name)) or q.give(ids.sense(name), np.asarray(sense, dtype=complex), name, "ratio")
+        senses = np.atleast_1d(np.asarray(sense, dtype=complex))
+        fixed = bool(np.all(senses == senses[0]))
+        positive = q.find(ids.sense(name)) or q.give(ids.sense(name), senses[:1] if fixed else senses, name, "ratio")
         q.construct(ids.force_vector(name), q[name] * positive, of=name)
         loads.append(LoadOn(name, link, place, q[name], Origin.applied, name))
     loads += [LoadOn(name, link, "", q[name], Origin.applied) for name, link in torques.items()]
@@ -278,8 +281,8 @@ class Edge:
     @property
     def part(self) -> str:
         """The component of a reaction, n or t, "" for a whole force."""
-        found = ids.reaction_force.read(self.name)
-        return found["part"] if found else ""
+        read = ids.reaction_force.read(self.name)
+        return read["part"] if read else ""
 
 
 @dataclass(frozen=True, slots=True)

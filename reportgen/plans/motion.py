@@ -180,14 +180,14 @@ class Kinematics:
 
     def share_rotation(self, what: What, link: int) -> None:
         """Enter ω or ε of a link that turns with another one as that of the other."""
-        q, other = self.q, self.scheme.spins[link]
+        q, leader = self.q, self.scheme.spins[link]
         rate, order = ROTATION[what]
         rotation = ids.LINK_RATE[rate]
-        if other == link or rotation(other) not in q:
+        if leader == link or rotation(leader) not in q:
             return
         size = self.sizes.rotation**order
-        signed = self.omega(other) if what == "v" else q[ids.signed(rate, other)]
-        q.define(rotation(link), q[rotation(other)], scale=size)
+        signed = self.omega(leader) if what == "v" else q[ids.signed(rate, leader)]
+        q.define(rotation(link), q[rotation(leader)], scale=size)
         q.define(ids.signed(rate, link), signed, scale=size, of=rotation(link))
 
     def omega(self, link: int) -> Expression:

@@ -64,8 +64,8 @@ def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = 
     """
     known = np.isfinite(sizes).all(axis=0) & (sizes.max(axis=0) > UNLOADED * np.nanmax(sizes, initial=0.0))
     scales = [
-        max(filling(one[:, None], least), fitting(one[:, None], TEXT_BOX)) if there else 0.0
-        for one, there in zip(sizes.T, known, strict=True)
+        max(filling(sizes_here[:, None], least), fitting(sizes_here[:, None], TEXT_BOX)) if there else 0.0
+        for sizes_here, there in zip(sizes.T, known, strict=True)
     ]
     own = np.array([scale or max(scales) or PER_MM for scale in scales])
     coarsest: np.ndarray = np.max([own, *read_at], axis=0)

@@ -1,19 +1,18 @@
-"""What an assignment comes to, whatever kind of work it is: the one thing that every output is made of.
+"""What an assignment comes to, whatever kind of work it is: the data that every output is made of.
 
 Whoever makes files, marks or draws a class asks a `Case` and nothing else, and never which kind of case it is.  A
-machine is one implementation (`reportgen.cases`), an exercise of plane motion another; a further kind of work is one
-more and changes nobody else.
+machine is one (`reportgen.cases`), an exercise of plane motion another; a further kind of work is one more and changes
+nobody else.
 """
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar, get_args
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
@@ -22,11 +21,11 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path, word
 from reportgen.base.words import title as kind_title
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
-from reportgen.formula.ledger import Ledger
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Cover, Document
-from reportgen.report.key import Key
+from reportgen.report.key import INSTANT, Key, Span
+from reportgen.report.result_entries import ResultEntries, entries_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -94,104 +93,160 @@ class DriverMotion:
     signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)
 
 
-class Case(Protocol):
+@dataclass(frozen=True)
+class AskedFor:
+    """What a task asks for, as its words name it."""
+
+    answers: tuple[Block, ...]
+    """The empty answer sheet."""
+    positions: tuple[str, ...]
+    """The labels of the positions at which something is asked for."""
+    known: tuple[Block, ...]
+    """What is given at each position."""
+    scales: bool
+    """Whether scales are to be chosen."""
+
+
+@dataclass(frozen=True)
+class Case(ABC):
     """An assignment opened once; each part is computed when it is first asked for.
 
+    It is data: `key`, `task`, `solve`, `sheet` and marking are functions over it, each in the room that owns it.
     Making a part raises `TemplateError` for a fault in the words, and `NotOfferedError` for what this kind has not.
     """
 
-    @property
-    def assignment(self) -> Assignment: ...
+    assignment: Assignment
 
     @property
+    @abstractmethod
     def words(self) -> Mapping[str, Any]:
         """The short words of its language, kind and school."""
 
     @property
+    @abstractmethod
     def title(self) -> str:
         """What its kind is called, in its language."""
 
     @property
+    @abstractmethod
+    def course(self) -> str:
+        """What its course is called, in its language."""
+
+    # --- its numbers
+
+    @property
+    @abstractmethod
     def ledger(self) -> Ledger:
         """Every number by its id, unrounded."""
 
     @property
+    @abstractmethod
     def printed(self) -> Ledger:
         """Every number by its id as it is written down."""
 
     @property
+    @abstractmethod
+    def entries(self) -> ResultEntries:
+        """What holds at each of its positions, and besides."""
+
+    @property
+    def span(self) -> Span:
+        """Its positions."""
+        return INSTANT
+
+    def sense(self, id: str) -> str:
+        """Which sense of a quantity counts as positive, in words; "" for what is a size or follows the general rule."""
+        return ""
+
+    @property
     def families(self) -> Mapping[str, Family]:
         """What is worked out at its positions."""
-
-    @property
-    def used(self) -> Collection[Symbol] | None:
-        """The symbols that its report uses, of quantities, points and general formulas; None where it alone tells."""
-
-    @property
-    def positions_of_a_turn(self) -> int:
-        """After so many positions motion repeats."""
+        return self.ledger.families
 
     @property
     def speed(self) -> float | None:
         """Of its driver (rad/s or m/s); None where nothing drives it."""
+        return None
 
     @property
     def driver_motion(self) -> DriverMotion | None:
         """How its driver goes through its positions; None where these are none of a driver's."""
+        return None
 
     @property
     def balance(self) -> np.ndarray | None:
         """The torque or force on the driver that balances the loads [N]; None without loads."""
-
-    @property
-    def misconceptions(self) -> Misconceptions:
-        """What marking looks for beside the mistakes that any formula may have."""
-
-    @property
-    def parts(self) -> Mapping[str, Case]:
-        """The cases that a coursework is made of, by name, that of the machine first; none of a work without parts."""
-
-    def fault(self) -> str:
-        """The code of a fault that shows only in the results, "" if they are sound; variants are judged by it."""
-
-    def document(self) -> Document:
-        """The finished, numbered report."""
-
-    def key(self) -> Key:
-        """The answer key, from the ledger that the report prints."""
-
-    def task(self, key: Key, by_section: bool = False) -> Document:
-        """What a student is handed, from the given data to the empty answer sheet of `key`; no answer is in it.
-
-        `by_section` puts each section of the sheet on pages of its own, headed by whose it is.
-        """
-
-    def results(self) -> dict[str, Any]:
-        """The contract's JSON object: an entry a position, null where it cannot be reached."""
-
-    def animations(self) -> tuple[Animation, ...]:
-        """What moves on its page, an animation a part; none where nothing does."""
-
-    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
-        """What its drawing sheets show, by the names of the sets."""
-
-    def true_sizes(self) -> Sequence[DrawingSheet]:
-        """What is drawn 1:1 on paper of its own, without a frame."""
-
-    def summary(self) -> Sequence[Block]:
-        """Its main results, for the summary of a coursework that it is a part of."""
+        return None
 
     @property
     def shafts(self) -> Sequence[Shaft]:
         """Its shafts, that which drives it first; none of a work in which nothing turns."""
+        return ()
 
-    def sheets(
-        self, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
-    ) -> list[DrawingSheet]:
-        """Its drawing sheets, with `every` plate or those usually handed in.
+    @property
+    def misconceptions(self) -> Misconceptions:
+        """What marking looks for beside the mistakes that any formula may have."""
+        return Misconceptions()
 
-        Raises `SheetError` where there is nothing to draw, and `AssignmentError` where a plate is too large.
-        """
+    def fault(self) -> str:
+        """The code of a fault that shows only in the results, "" if they are sound; variants are judged by it."""
+        return ""
+
+    # --- its papers
+
+    @abstractmethod
+    def document(self) -> Document:
+        """The finished, numbered report."""
+
+    def summary(self) -> Sequence[Block]:
+        """Its main results, for the summary of a coursework that it is a part of."""
+        return ()
+
+    @property
+    def used(self) -> Collection[Symbol] | None:
+        """The symbols that its report uses, of quantities, points and general formulas; None where it alone tells."""
+        return None
+
+    def animations(self) -> tuple[Animation, ...]:
+        """What moves on its page, an animation a part; none where nothing does."""
+        return ()
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """What its drawing sheets show, by the names of the sets; `every` plate or those usually handed in."""
+        return {}
+
+    @property
+    def redrawn(self) -> tuple[float, Callable[[float], Case]] | None:
+        """The length (mm) that its crank is drawn with, and the same with another; None where none is drawn."""
+        return None
+
+    def true_sizes(self) -> Sequence[DrawingSheet]:
+        """What is drawn 1:1 on paper of its own, without a frame."""
+        return ()
+
+    # --- its parts
+
+    @property
+    def parts(self) -> Mapping[str, Case]:
+        """The cases that a coursework is made of, by name, that of the machine first; none of a work without parts."""
+        return {}
+
+
+@dataclass(frozen=True)
+class CaseOfParts(Case):
+    """A case made of cases: how what is made of each becomes one, with ids, letters and titles of its own."""
+
+    @abstractmethod
+    def joined_key(self, keys: Sequence[Key]) -> Key:
+        """The key, from those of its parts."""
+
+    @abstractmethod
+    def joined_task(self, papers: Sequence[Document]) -> Document:
+        """The task, from those of its parts."""
+
+    @abstractmethod
+    def joined_plates(self) -> Mapping[str, Sequence[DrawingPlate]]:
+        """What the drawing sheets of the parts show that follow its machine."""
 
 
 # --- an assignment opened once with its words -----------------------------------------------------
@@ -225,10 +280,9 @@ def _called(make: Callable[..., Made], arguments: tuple[Any, ...]) -> Made:
 
 
 @dataclass(frozen=True)
-class LoadedAssignment:
-    """An assignment with its words; each part is computed when it is first asked for."""
+class LoadedAssignment(Case):
+    """An assignment with its words, as a case of a single work."""
 
-    assignment: Assignment
     root: Path | None = field(default=None, kw_only=True, compare=False, repr=False)
     """The folder of its templates; None where it is the program's own."""
 
@@ -302,33 +356,9 @@ class LoadedAssignment:
         """The machine's name in the assignment's language."""
         return kind_title(self.assignment.kind, self.assignment.language)
 
-    @property
-    def parts(self) -> Mapping[str, Case]:
-        """It is a work of one part."""
-        return {}
-
-    @property
-    def used(self) -> Collection[Symbol] | None:
-        """Nobody knows before its report is composed."""
-        return None
-
-    @property
-    def driver_motion(self) -> DriverMotion | None:
-        """It has no positions of a driver."""
-        return None
-
-    def true_sizes(self) -> Sequence[DrawingSheet]:
-        """It has nothing that is made."""
-        return ()
-
-    def summary(self) -> Sequence[Block]:
-        """Its own report has one."""
-        return ()
-
-    @property
-    def shafts(self) -> Sequence[Shaft]:
-        """Nothing turns."""
-        return ()
+    @abstractmethod
+    def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
+        """What a student is handed, from the given data to the empty answer sheet: the title, and what follows it."""
 
     @property
     def variant_line(self) -> str:
@@ -372,6 +402,11 @@ class MachineAnalysis(LoadedAssignment):
     def printed(self) -> Ledger:
         """Every number by its id as it is written down: all that is printed or drawn comes from here."""
         return printed(self.ledger)
+
+    @cached_property
+    def entries(self) -> ResultEntries:
+        """What holds at each of its positions."""
+        return entries_of(self.analysis)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:

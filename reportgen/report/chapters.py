@@ -18,7 +18,8 @@ from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary,
 from reportgen.formula.plain import python
 from reportgen.formula.vocabulary import Chapter, on_plan
 from reportgen.machine import DRIVER
-from reportgen.machine.loads import FULL_TURN, Applied
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied
 from reportgen.report import (
     Block,
     Cell,
@@ -335,7 +336,7 @@ def program(report: Report) -> Listing:
         if id not in needed:
             continue
         names[id] = name = _python_name(id, names.values())
-        note = "  # " + ", ".join(filter(None, (KINDS_SI.get(family.kind, ""), report.given_names.get(id, ""))))
+        note = f"  {_comment(', '.join(filter(None, (KINDS_SI.get(family.kind, ''), report.given_names.get(id, '')))))}"
         try:
             assert family.definition is not None
             formulas += _assigned(name, python(family.definition, names), note)
@@ -345,21 +346,26 @@ def program(report: Report) -> Listing:
     title, given, worked, shown = report.words["listing"]
     return Listing(
         (
-            f"# {title.format(machine=report.case.title, id=report.assignment.id)}",
+            _comment(title.format(machine=report.case.title, id=report.assignment.id)),
             "import numpy as np",
             "",
             f"N = {report.cycle_count}",
-            f"# {given}",
+            _comment(given),
             *data,
-            f"# {worked}",
+            _comment(worked),
             *formulas,
-            f"# {shown}",
+            _comment(shown),
             "table = dict(",
             *(f"    {line}" for line in table),
             ")",
             *TABULATED.splitlines(),
         )
     )
+
+
+def _comment(text: str) -> str:
+    """Words of others as a comment, which ends with its line: none of them is run."""
+    return f"# {' '.join(text.splitlines())}"
 
 
 def _python_name(id: str, taken: Collection[str]) -> str:

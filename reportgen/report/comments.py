@@ -85,12 +85,12 @@ def labels(report: Report, positions: Sequence[int]) -> str:
 
 def where(report: Report, positions: Sequence[int]) -> str:
     """Positions with the words for one of them or for several: at positions 2, 4 and 6–8."""
-    one, many = report.words["at"]
-    return str(one if len(positions) == 1 else many).format(labels(report, positions))
+    single, many = report.words["at"]
+    return str(single if len(positions) == 1 else many).format(labels(report, positions))
 
 
 def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
-    """How a quantity goes over positions; None where it is nothing at all of them."""
+    """How a quantity extreme over positions; None where it is nothing at all of them."""
     values = shown(report, id, positions)
     sizes = np.abs(values)
     if not np.nanmax(sizes, initial=0.0) > 0:
@@ -120,15 +120,15 @@ def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> lis
     """How quantities go over one turn, or over the cycle, those that go alike together; nothing is left out."""
     positions = report.all_positions if cycle else report.positions
     alike: dict[tuple[object, ...], list[Peak]] = {}
-    for one in each_peak(report, quantities, positions):
-        alike.setdefault((one.value.number.shown, one.at, one.zero, one.turns), []).append(one)
+    for extreme in each_peak(report, quantities, positions):
+        alike.setdefault((extreme.value.number.shown, extreme.at, extreme.zero, extreme.turns), []).append(extreme)
     return [_joined(report, some) for some in alike.values()]
 
 
 def each_peak(report: Report, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
-    """How each quantity goes over positions; those that are nothing are left out."""
-    found = (peak(report, id, positions) for id in report.known(quantities))
-    return [one for one in found if one is not None]
+    """How each quantity extreme over positions; those that are nothing are left out."""
+    peaks_found = (peak(report, id, positions) for id in report.known(quantities))
+    return [one for one in peaks_found if one is not None]
 
 
 def _joined(report: Report, alike: Sequence[Peak]) -> Peak:
@@ -224,8 +224,8 @@ def cause(report: Report, top: Peak) -> Inlines:
     chief = chief_load(report, top)
     if chief is None:
         return ()
-    one, many = report.words["remarks"]["cause"]
-    return say(report, one if top.many == 1 else many, chief)
+    single, many = report.words["remarks"]["cause"]
+    return say(report, single if top.many == 1 else many, chief)
 
 
 def chief_load(report: Report, at: Peak) -> Peak | None:
@@ -233,8 +233,8 @@ def chief_load(report: Report, at: Peak) -> Peak | None:
     forces = [id for id in load_ids(report) if report.ledger[id].kind == "force"]
     bodies = [name(body) for body in report.bodies for name in (ids.inertia_force, ids.weight)]
     place = at.places[:1]
-    found = (peak(report, id, place) for id in report.known([*forces, *bodies]))
-    return max((one for one in found if one is not None), key=lambda one: one.value.number.value, default=None)
+    forces_there = (peak(report, id, place) for id in report.known([*forces, *bodies]))
+    return max((one for one in forces_there if one is not None), key=lambda one: one.value.number.value, default=None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,9 +261,13 @@ def balance_course(report: Report) -> TorqueSigns:
 def balance_senses(report: Report) -> list[Inlines]:
     """What the balancing torque does to the motion, and at which positions."""
     course, words = balance_course(report), report.words["remarks"]["balance"]
-    found = {"against": course.against, "along": course.along, "none": course.none}
+    positions_by_sense = {"against": course.against, "along": course.along, "none": course.none}
     motion = report.words["driven"][report.driver.kind]["motion_of"]
-    return [say(report, words[way], where=where(report, there), motion=motion) for way, there in found.items() if there]
+    return [
+        say(report, words[way], where=where(report, there), motion=motion)
+        for way, there in positions_by_sense.items()
+        if there
+    ]
 
 
 def balance_gaps(report: Report) -> list[Peak]:
@@ -290,7 +294,7 @@ class Range:
 
 
 def work_range(report: Report) -> Range:
-    """Between which values the excess work of the flywheel's calculation goes."""
+    """Between which values the excess work of the flywheel's calculation extreme."""
     positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
 
     def end(value: float) -> tuple[Value, str]:
@@ -354,12 +358,12 @@ def _peaks_of(report: Report, subject: Subject) -> list[Peak]:
     return peaks(report, subject.ids(report), subject.cycle)
 
 
-def _remark(report: Report, name: str, one: Peak) -> Remark:
+def _remark(report: Report, name: str, top: Peak) -> Remark:
     subject, words = SUBJECTS[name], report.words["remarks"]
     phrases = words["course"] | words.get(name, {})
-    course = "level" if one.level else "zeros" if one.zeros and subject.zeros else "greatest"
-    why = say(report, phrases["why"], slider=report.words["names"]["slider"]) if subject.why(report, one) else ()
-    return Remark(one.symbols, say(report, phrases[course], one), why)
+    course = "level" if top.level else "zeros" if top.zeros and subject.zeros else "greatest"
+    why = say(report, phrases["why"], slider=report.words["names"]["slider"]) if subject.why(report, top) else ()
+    return Remark(top.symbols, say(report, phrases[course], top), why)
 
 
 def main_peaks(report: Report) -> list[Peak]:

@@ -17,7 +17,7 @@ from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
-from reportgen.machine.loads import FULL_TURN
+from reportgen.machine.laws import FULL_TURN
 from reportgen.plans.sides import scheme
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words

@@ -5,17 +5,80 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
-from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Table
-from reportgen.report.case import LoadedAssignment
-from reportgen.report.key import Key
+from reportgen.formula.carrying import carried
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Sheet
+from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Section, Table, Text
+from reportgen.report.case import AskedFor, LoadedAssignment
+from reportgen.report.key import Span
 from reportgen.report.layout import contents
 from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
+from reportgen.report.wording import positive_sense
 
 Designed = TypeVar("Designed", bound=LoadedAssignment)
+
+
+@dataclass(frozen=True)
+class DesignCase(LoadedAssignment):
+    """What is designed, as a case: its numbers are one sheet, its papers one page of templates."""
+
+    PAGE: ClassVar[type[DesignPage[Any]]]
+    SAME: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    """Ids of what is printed with as many decimals."""
+
+    @property
+    @abstractmethod
+    def sheet(self) -> Sheet:
+        """Every quantity with its formula."""
+
+    @cached_property
+    def ledger(self) -> Ledger:
+        sheet, words = self.sheet, self.words
+        made = Ledger(sheet.families, sheet.positions, units=words["units"], same=self.SAME, lines=sheet.lines)
+        return made.in_language(words["symbols"])
+
+    @cached_property
+    def printed(self) -> Ledger:
+        return carried(self.ledger)
+
+    @property
+    def count(self) -> int:
+        """Its positions."""
+        return self.sheet.positions
+
+    @property
+    def worked(self) -> tuple[int, ...]:
+        """The positions written out in full."""
+        return (1,)
+
+    @property
+    def span(self) -> Span:
+        return Span(tuple(map(str, range(1, self.count + 1))), self.count, self.worked)
+
+    def sense(self, id: str) -> str:
+        return positive_sense(id, self.ledger, self.words)
+
+    def document(self) -> Document:
+        return self.bounded(self.PAGE.report)
+
+    def summary(self) -> Sequence[Block]:
+        return self.bounded(self.PAGE.summary)
+
+    def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
+        page = self.PAGE(self)
+        names = {
+            **page.names(),
+            "answer_tables": asked.answers,
+            "is_part": self.assignment.is_part,
+            **page.asked(asked),
+        }
+        title = Section(1, (Text(page.words["task"].format(title=self.title)),), numbered=False)
+        return (title,), page.section(page.TASK, names)
 
 
 @dataclass(frozen=True)
@@ -51,7 +114,7 @@ class DesignPage(ABC, Generic[Designed]):
     def names(self) -> dict[str, Any]:
         """All that the templates may name."""
 
-    def asked(self, key: Key) -> dict[str, Any]:
+    def asked(self, asked: AskedFor) -> dict[str, Any]:
         """What the task may name besides, of what is asked for."""
         return {}
 

@@ -25,6 +25,9 @@ MOST_ITEMS = 10_000
 MOST_STEPS = 100_000
 """Steps of all loops of a section; 720 positions of a report have a tenth of them."""
 
+LARGEST_NUMBER = 10**15
+"""Whole numbers of a template, which count and number things."""
+
 SIGNS = frozenset(
     (
         *(nodes.Template, nodes.Output, nodes.TemplateData, nodes.Include),
@@ -104,6 +107,8 @@ def _is_known(node: nodes.Node, filters: Container[str]) -> bool:
             return whole and node.name in filters
         case nodes.Name(name=name) | nodes.Getattr(attr=name):
             return not name.startswith("_") and name not in OF_JINJA
+        case nodes.Const(value=int(number)):
+            return number <= LARGEST_NUMBER
         case nodes.Keyword(key=name):
             return not name.startswith("_")
         case nodes.For():
@@ -146,6 +151,16 @@ class _Rewriting(NodeTransformer):
     def visit_List(self, node: nodes.List) -> nodes.Node:
         self.generic_visit(node)
         return nodes.Tuple(node.items, "load", lineno=node.lineno).set_environment(self.environment)
+
+    def visit_Compare(self, node: nodes.Compare) -> nodes.Node:
+        self.generic_visit(node)
+        node.expr = self._value(node.expr)
+        for operand in node.ops:
+            operand.expr = self._value(operand.expr)
+        return node
+
+    def _value(self, node: nodes.Expr) -> nodes.Expr:
+        return node if isinstance(node, nodes.Const) else self._by("value", node)
 
     def visit_Getitem(self, node: nodes.Getitem) -> nodes.Node:
         self.generic_visit(node)
@@ -190,11 +205,17 @@ def _number(value: Any) -> Any:
     return int(own) if isinstance(own, int) and not isinstance(own, bool) else own
 
 
+def _bounded(number: int) -> int:
+    if abs(number) > LARGEST_NUMBER:
+        raise TooMuchError
+    return number
+
+
 def _sum(of: tuple[Any, Any]) -> Any:
     """`a + b` of two numbers, two texts, or two lists."""
     match tuple(map(_number, of)):
         case int(one), int(other):
-            return one + other
+            return _bounded(one + other)
         case str(one), str(other):
             return short(one + other)
         case tuple(one), tuple(other) if len(one) + len(other) <= MOST_ITEMS:
@@ -208,7 +229,7 @@ def _sum(of: tuple[Any, Any]) -> Any:
 def _difference(of: tuple[Any, Any]) -> int:
     match tuple(map(_number, of)):
         case int(one), int(other):
-            return one - other
+            return _bounded(one - other)
         case one, other:
             raise TypeError(f"a {type(one).__name__} and a {type(other).__name__} have no difference")
     raise AssertionError
@@ -233,9 +254,9 @@ def _part(of: tuple[Any, ...]) -> Any:
 
 
 def _whole(value: Any) -> Any:
-    """The value, if no text of the template is in it.  Raises `ValueError`, since that would be cut in two."""
+    """The value, if no piece of the template is in it, which has marks.  Raises `ValueError`."""
     if isinstance(value, str) and SECRET in value:
-        raise ValueError("a piece of the template would be cut in two")
+        raise ValueError("a piece of the template is neither cut nor compared")
     return value
 
 
@@ -261,6 +282,7 @@ OWN = {
     " difference": _difference,
     " items": _items,
     " part": _part,
+    " value": _whole,
     " section": _section,
     " place": _place,
 }

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.gaps import NO_LETTER
 from reportgen.formula import (
     Chain,
     Expression,
@@ -176,7 +177,8 @@ def slider_ways(report: Report) -> Inlines:
 
 def _pointing(report: Report, angle: Number) -> Inlines:
     """Where a vector points, in words, and its angle from +x."""
-    before, after = report.words["pointing"].format(heading=heading_words(report, angle.shown), angle="|").split("|")
+    heading = heading_words(report, angle.shown)
+    before, _, after = report.words["pointing"].format(heading=heading, angle=NO_LETTER).partition(NO_LETTER)
     return Text(f" {before}"), Value(angle), Text(after)
 
 

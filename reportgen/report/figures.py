@@ -6,10 +6,9 @@ of the mechanism are its scheme, groups and positions, the gas beside the cylind
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import pairwise
 
 import numpy as np
 
@@ -38,8 +37,8 @@ from reportgen.formula.constructions import circle_circle
 from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine, motion_at
 from reportgen.machine.flywheel import SAME_ANGLE
-from reportgen.machine.gas import StrokeIndicator
-from reportgen.machine.loads import FULL_TURN, Piston
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Piston
 from reportgen.machine.motion import Motion, solve_motion
 from reportgen.plans.motion import NEAREST, centre_symbol
 from reportgen.plans.sides import Side
@@ -329,9 +328,11 @@ def _indicator(report: Report, factor: float) -> Scene:
     start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
     frame = indicator_figure.Frame(start, end, side, mu * report.enlarged, Chain((Symbol("p"),), "N/cm²"), note)
+    share_at = first.share_at(partial(motion_at, machine))
+    lines = first.indicator.branches(share_at, first.dead_centres)
     branches = [
         indicator_figure.Branch(name, x, tuple(p / unit for p in pressures))
-        for name, x, pressures in _branches(first, machine, report.words["strokes"])
+        for name, (x, pressures) in zip(report.words["strokes"], lines, strict=True)
     ]
     readings = [
         indicator_figure.Reading(
@@ -357,22 +358,6 @@ def _free_side(machine: Machine) -> complex:
 def _in_line(first: Piston, other: Piston) -> bool:
     """Whether a piston moves on the line of the first one, where its positions are projected from."""
     return abs(((other.top - first.top) / first.inward).imag) + abs((other.inward / first.inward).imag) < SAME_ANGLE
-
-
-def _branches(
-    piston: Piston, machine: Machine, names: Sequence[str]
-) -> Iterator[tuple[str, tuple[float, ...], tuple[float, ...]]]:
-    """Each stroke's line over s/H; a table by crank angle is carried over by the motion of the piston."""
-    table = piston.indicator
-    if isinstance(table, StrokeIndicator):
-        yield from ((name, table.fractions, row) for name, row in zip(names, table.rows, strict=True))
-        return
-    edges = (*piston.dead_centres, 2 * FULL_TURN)
-    for name, (start, end) in zip(names, pairwise(edges), strict=True):
-        angle = np.union1d(np.linspace(start, end, 91), [a for a in table.angles if start < a < end])
-        fractions = piston.fraction(motion_at(machine, angle - piston.phase))
-        pressure = np.interp(angle, table.angles, table.pressures)
-        yield name, tuple(map(float, fractions)), tuple(map(float, pressure))
 
 
 # --- Coriolis acceleration

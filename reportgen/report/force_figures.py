@@ -89,13 +89,13 @@ class _Bodies:
 
     def found_before(self, polygon: Polygon) -> list[Force]:
         """Reactions of other groups on the links of a force plan, found before."""
-        found = []
+        reactions = []
         for edge in polygon.carried:
             if edge.link in self.links:
                 at = complex(self.report.analysis.forces.reactions[edge.name].point[self.k - 1]) * self.scale
                 force = self.reaction(edge.name, at)
-                found.append(force if force.direction and np.isfinite(at) else replace(force, at=0j, direction=0j))
-        return found
+                reactions.append(force if force.direction and np.isfinite(at) else replace(force, at=0j, direction=0j))
+        return reactions
 
     def outer(self, group: GroupView, link: int) -> list[Force]:
         """The reaction in the outer joint of a group's link, by components where moments gave one of them."""
@@ -154,11 +154,16 @@ def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
     if report.parts("links-together") or {link for link, _ in alone} != {group.i, group.j}:
         scenes.append(both.scene(forces, turning=both.couples(), title=title))
     for link, pin in alone:
-        one = _Bodies(report, k, (link,))
-        forces = [*one.loads(), *one.found_before(group.polygon), *one.outer(group, link), one.inner(group, link)]
-        arms, title = one.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
+        bodies = _Bodies(report, k, (link,))
+        forces = [
+            *bodies.loads(),
+            *bodies.found_before(group.polygon),
+            *bodies.outer(group, link),
+            bodies.inner(group, link),
+        ]
+        arms, title = bodies.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
         extra = _percussion(report, link, k) + _foot(report, group, link, k)
-        scenes.append(one.scene(forces, arms=arms, turning=one.couples(), extra=extra, title=title))
+        scenes.append(bodies.scene(forces, arms=arms, turning=bodies.couples(), extra=extra, title=title))
     return scenes
 
 

@@ -285,24 +285,24 @@ class GroupView:
     @property
     def carried(self) -> list[CarriedPoint]:
         """Points that similarity does not give, as on a block: they turn about a joint at the link's rate."""
-        found = []
+        points = []
         for place in self.points:
             origin = self._origin(place.link)
             relative = f"{place.name}{origin}"
             if ids.velocity(relative) in self.ledger:
                 swings, still = ids.acceleration(relative, "t") in self.ledger, origin in self.fixed
-                found.append(CarriedPoint(place.name, place.link, origin, relative, still, swings))
-        return found
+                points.append(CarriedPoint(place.name, place.link, origin, relative, still, swings))
+        return points
 
     def similar(self, what: str) -> list[str]:
         """A link's segment ab and what the similarity theorem gives: as₂, and be where E is off the line of joints."""
-        found: list[str] = []
+        segments: list[str] = []
         for place in self.points:
             for side in self.sides:
                 if side.turns and side.link == place.link:
                     ends = "p" if side.still else image(side.base), image(self.M)
-                    found += [ids.segment(what, *ends), *(ids.segment(what, end, image(place.name)) for end in ends)]
-        return self.ledger.known(found)
+                    segments += [ids.segment(what, *ends), *(ids.segment(what, end, image(place.name)) for end in ends)]
+        return self.ledger.known(segments)
 
     def base(self, what: str, side: Side, k: int) -> str:
         """How the end of a base's vector comes on the plan: at the "pole", "drawn" before, or "new"."""
@@ -372,8 +372,8 @@ class GroupView:
     def contacts(self) -> list[Contact]:
         """The reactions of slides, whose place on the slide is to be found."""
         first, last = (self.inner, self.P, self.i), (self.guide, self.Q, self.j)
-        found = {"RRP": [last], "RPR": [first], "PRP": [(self.outer, self.Q, self.i), last], "RPP": [first, last]}
-        return [self._contact(*slide) for slide in found.get(self.kind, [])]
+        slides = {"RRP": [last], "RPR": [first], "PRP": [(self.outer, self.Q, self.i), last], "RPP": [first, last]}
+        return [self._contact(*slide) for slide in slides.get(self.kind, [])]
 
     def _contact(self, digits: str, pin: NamedPoint, link: int) -> Contact:
         moment, arms = ids.reaction_couple(digits), self.arms(pin, link)
@@ -411,8 +411,8 @@ class GroupView:
 
     def components(self, k: int) -> list[str]:
         """What moments have given before the plan; none where all of it is zero."""
-        found = self.by_moments
-        return found if any(self.ledger.number(id, k).value != 0 for id in found) else []
+        components = self.by_moments
+        return components if any(self.ledger.number(id, k).value != 0 for id in components) else []
 
     @property
     def last_known(self) -> str:
@@ -478,10 +478,10 @@ def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Led
     # A block turns about no base of a plan: the pin it sits on is its first joint.
     starts = {group.i: group.P for group in groups}
     starts |= {side.link: NamedPoint(side.base) for group in groups for side in group.sides if side.turns}
-    found = []
+    bodies = []
     for body in linkage.inertias:
         shown = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))
         if len(shown) == 2:
             start = starts[body.link]
-            found.append(BodyView(body.link, NamedPoint(body.centre), start, shown, start in linkage.ground))
-    return tuple(found)
+            bodies.append(BodyView(body.link, NamedPoint(body.centre), start, shown, start in linkage.ground))
+    return tuple(bodies)

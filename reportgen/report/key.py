@@ -134,12 +134,12 @@ class Key:
         if not self.parts:
             return (("", self),)
         first = 0
-        found = []
+        pages = []
         for part in self.parts:
             rows = self.rows[first : first + len(part.key.rows)]
             first += len(rows)
-            found.append((part.title, replace(part.key, rows=rows, student=self.student)))
-        return tuple(found)
+            pages.append((part.title, replace(part.key, rows=rows, student=self.student)))
+        return tuple(pages)
 
     def find(self, id: str) -> KeyRow | None:
         """The row of a quantity, or of the signed rotation whose size it is; None if there is none."""

@@ -88,10 +88,10 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
     Of short rows two have `room` (mm) side by side; one alone stays with the rows beside it.
     """
     groups = [list(run) for _, run in groupby(rows, lambda row: isinstance(row, VectorEquation))]
-    found: list[tuple[Expression, ...]] = []
+    alike: list[tuple[Expression, ...]] = []
     for group in groups:
         if isinstance(group[0], VectorEquation):
-            found += ((row,) for row in group)
+            alike += ((row,) for row in group)
             continue
         aligned: list[Expression] = []
         for short, run in groupby(group, lambda row: _is_short(row, room)):
@@ -99,11 +99,11 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
             if not short or len(members) == 1:
                 aligned += members
                 continue
-            found += [tuple(aligned)] if aligned else []
-            found.append(members)
+            alike += [tuple(aligned)] if aligned else []
+            alike.append(members)
             aligned = []
-        found += [tuple(aligned)] if aligned else []
-    return found
+        alike += [tuple(aligned)] if aligned else []
+    return alike
 
 
 def lines(rows: Sequence[Expression], room: float) -> int:

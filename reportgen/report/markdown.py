@@ -141,8 +141,8 @@ class _Reader:
                     yield tree.List(items, node.type == "ordered_list", int(node.attrs.get("start", 1)))
                 case "hr":
                     yield tree.PageBreak()
-                case other:
-                    raise self.fault(node, f"{_UNKNOWN.get(other, other)} is not in the vocabulary")
+                case kind:
+                    raise self.fault(node, f"{_UNKNOWN.get(kind, kind)} is not in the vocabulary")
 
     def paragraph(self, node: SyntaxTreeNode) -> Iterator[tree.Block]:
         items = self.items(node)
@@ -211,8 +211,8 @@ class _Reader:
                     result.append(tree.Strong(self.inlines(self.items(child))))
                 case "hardbreak":
                     result.append(tree.LineBreak())
-                case other:
-                    raise self.fault(child, f"{_UNKNOWN.get(other, other)} is not in the vocabulary")
+                case kind:
+                    raise self.fault(child, f"{_UNKNOWN.get(kind, kind)} is not in the vocabulary")
         return result + self.pieces(text)
 
     def pieces(self, text: str) -> list[_Item]:

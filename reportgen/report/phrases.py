@@ -19,13 +19,13 @@ from reportgen.base.shown import text as as_text
 from reportgen.base.units import MM
 from reportgen.base.words import unfilled
 from reportgen.formula import Chain, Expression, Number, Symbol, ids, vocabulary
-from reportgen.machine.loads import ConstantLaw, Law, Opposing, TableLaw
 from reportgen.plans.motion import POLES
 from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.prose import NamedPoint, subscripted
+from reportgen.report.markdown import SECRET
+from reportgen.report.prose import NamedPoint, inlines_of, subscripted
 from reportgen.report.report import Report
 
 if TYPE_CHECKING:
@@ -80,7 +80,9 @@ def inlines(of: Any) -> Inlines:
         return (InlineMath(of),)
     if isinstance(of, tuple):
         return tuple(part for one in of for part in inlines(one))
-    return (of,) if isinstance(of, get_args(Inline)) else (Text(as_text(of)),)
+    if isinstance(of, get_args(Inline)):
+        return (of,)
+    return inlines_of(text) if SECRET in (text := as_text(of)) else (Text(text),)
 
 
 def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> Inlines:
@@ -222,14 +224,8 @@ def no_mean(report: Report) -> Inlines:
     if not report.has_forces or not report.is_zero("M.mean"):
         return ()
     laws = [load.law for load in report.loads]
-    key = "free" if not laws else "constant" if all(map(_is_constant, laws)) else "other"
+    key = "free" if not laws else "constant" if all(law.constant for law in laws) else "other"
     return say(report, report.words["no_mean"][key], report.words["driven"][report.driver.kind])
-
-
-def _is_constant(law: Law) -> bool:
-    """Whether a load has one size over the whole cycle."""
-    in_table = {size for row in law.table.rows for size in row} if isinstance(law, TableLaw) else set()
-    return isinstance(law, ConstantLaw) or len(in_table) == 1
 
 
 def constant_force(report: Report) -> Inlines:
@@ -282,7 +278,7 @@ def label_pairs(report: Report) -> str:
 def load_sense(report: Report, name: str) -> Inlines:
     """What is said of the sense of a load that is constant or always against the motion."""
     words = report.words["load_senses"]
-    if any(load.name == name and isinstance(load.law, Opposing) for load in report.loads):
+    if any(load.name == name and load.law.kind == "opposing" for load in report.loads):
         return say(report, words["opposing"])
     return say(report, words[sign(report, name, 1)], sense=report.sense(report.ledger.number(name, 1).value))
 

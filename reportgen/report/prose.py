@@ -41,8 +41,10 @@ from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
 from reportgen.base.limits import TEMPLATES, LimitError
 from reportgen.base.shown import shown
+from reportgen.base.shown import text as as_text
+from reportgen.base.source import STRANGE
 from reportgen.base.units import MINUS, Language
-from reportgen.base.words import find, home, refuse_strangers, word
+from reportgen.base.words import find, home, of_file, refuse_strangers, word
 from reportgen.formula import Expression, Number, vocabulary
 from reportgen.report import BlankLine, Block, InlineMath, Inlines, Reference, Section, Text, Value, dialect, markdown
 from reportgen.report.dialect import (
@@ -56,9 +58,8 @@ from reportgen.report.dialect import (
     short,
 )
 from reportgen.report.markdown import SECRET, Emitted, Place, Rendered, SectionKey, Unnumbered
-from reportgen.report.values import PLAIN, FunctionToken, Token, Values, held
+from reportgen.report.values import PLAIN, FunctionToken, Marked, Token, Values, held
 
-_PRIVATE = re.compile("[\ue000-\ue004]")
 _PIECE = re.compile(
     f"\ue000{SECRET}:(?P<value>\\d+)\ue001"
     f"|\ue002{SECRET}:(?P<line>\\d+):(?P<file>[^\ue003]*)\ue003(?P<static>[^\ue004]*)\ue004"
@@ -122,10 +123,11 @@ class Prose:
 
         For functions called by a template while it is rendered; a plain string becomes plain text.
         """
-        return _inlines(words)
+        return inlines_of(words)
 
 
-def _inlines(words: str) -> Inlines:
+def inlines_of(words: Marked) -> Inlines:
+    """As `Prose.inlines`."""
     return markdown.inlines(_excerpt(words))
 
 
@@ -149,7 +151,8 @@ class _Compiled(BytecodeCache):
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         code = self.codes[bucket.key] = bucket.bytecode_to_string()
-        keep(self._kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
+        if NUMBER not in code:  # what a template says of it is no mark
+            keep(self._kept_as(bucket), code.replace(SECRET.encode(), NUMBER))
 
     def _kept_as(self, bucket: Bucket) -> str:
         # The code that a template becomes depends on what these modules do with it.
@@ -229,7 +232,7 @@ def _told(error: Exception, places: tuple[Path, ...]) -> str:
             return error.message or type(error).__name__
         case SecurityError() | UnknownSignError():
             return word("template_unsafe", _language(places))
-        case RecursionError():
+        case RecursionError() | SyntaxError():  # Python sets in one another no more than so much either
             return word("template_depth", _language(places))
         case TooMuchError():
             return _too_much(places)
@@ -330,7 +333,7 @@ def _join(values: object, separator: str = "") -> str:
 
 def _ref(*key: object) -> Reference:
     """A reference to what has a key; the key's parts are joined with dots."""
-    return Reference(".".join(_plain(str(part)) for part in key))
+    return Reference(".".join(_plain(as_text(part)) for part in key))
 
 
 def _key(name: str) -> SectionKey:
@@ -352,7 +355,7 @@ GLOBALS: Mapping[str, Callable[..., Any]] = {
     "key": _key,
     "unnumbered": Unnumbered,
     "blank": _blank,
-    "inlines": _inlines,
+    "inlines": inlines_of,
     "range": numbers,
 }
 """The functions that every template may call."""
@@ -361,6 +364,7 @@ GLOBALS: Mapping[str, Callable[..., Any]] = {
 # --- where things come from -----------------------------------------------------------------------
 
 
+_WHITE = {ord(letter): " " for letter in "\n\t"}
 _MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
 _REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.\w+)+)")
 
@@ -377,10 +381,13 @@ class _Provenance(Extension):
     def filter_stream(self, stream: TokenStream) -> Iterator[Sign]:
         file = stream.filename or stream.name or ""
         for token in stream:
-            if token.type == "data":
-                if found := _PRIVATE.search(token.value):
+            if token.type in ("data", "string"):
+                flat = token.value.translate(_WHITE) if token.type == "data" else token.value
+                if found := STRANGE.search(flat):
                     line = token.lineno + token.value.count("\n", 0, found.start())
-                    raise TemplateSyntaxError("private-use characters", line, stream.name, file)
+                    told = word("template_character", of_file(Path(file)))
+                    raise TemplateSyntaxError(told, line, stream.name, file)
+            if token.type == "data":
                 yield _static(token.lineno, file, token.value)
             else:
                 if token.type == "variable_begin":

@@ -21,7 +21,8 @@ from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
-from reportgen.machine.loads import FULL_TURN, Applied, Piston, Torque
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
@@ -319,7 +320,7 @@ class Report:
     @property
     def loads(self) -> tuple[Applied | Torque, ...]:
         """The forces and torques applied to the machine."""
-        return (*self.machine.applied, *self.machine.torques)
+        return self.machine.loads
 
     @property
     def speed_in_rpm(self) -> bool:

@@ -91,10 +91,10 @@ def labels(report: Report) -> Iterator[Sequence[object]]:
     words = report.words["tables"]["labels"]
     machine, motion = report.machine, report.analysis.motion
     course = machine.sliders[0]
-    pin, way = motion.points[course.pin], course.fraction(motion)
+    pin, fraction = motion.points[course.pin], course.fraction(motion)
     still, steady = (np.abs(rate) < AT_REST * np.abs(rate).max() for rate in (pin.v, pin.a))
     for k in range(machine.count):
-        end = ("top" if way[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
+        end = ("top" if fraction[k] < 0.5 else "bottom") if still[k] else "fastest" if steady[k] else ""
         angle = _two_decimals(math.degrees(machine.cycle_angles[k]))
         yield str(machine.position(k + 1)), angle, words.get(end, "")
 
@@ -255,37 +255,37 @@ def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tup
 
 def checks(report: Report) -> Iterator[Sequence[object]]:
     """Residuals of the independent checks, as powers of ten."""
-    found = residuals(report)
+    largest = residuals(report)
     for id, name in report.words["tables"]["checks"]["rows"].items():
-        if id in found:
-            residual, unit = found[id]
+        if id in largest:
+            residual, unit = largest[id]
             yield name, _power_of_ten(residual), unit
 
 
 def residuals(report: Report) -> dict[str, tuple[float, str]]:
     """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
     analysis, values = report.analysis, report.case.ledger.families
-    found = {"closure": (_closure(report), "m")}
+    largest = {"closure": (_closure(report), "m")}
     for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
         differences = [
-            float(np.max(np.abs(np.abs(values[one].values) - np.abs(values[other].values))))
-            / float(np.max(np.abs(values[one].values)))
-            for one, other in analysis.machine.compared
-            if values[one].chapter is chapter
+            float(np.max(np.abs(np.abs(values[printed_id].values) - np.abs(values[formula_id].values))))
+            / float(np.max(np.abs(values[printed_id].values)))
+            for printed_id, formula_id in analysis.machine.compared
+            if values[printed_id].chapter is chapter
         ]
         if differences:
-            found[name] = (max(differences), "")
+            largest[name] = (max(differences), "")
     if analysis.loads:
         forces = [
             float(np.nanmax(np.abs(reaction.force - values[ids.force_vector(name)].values)))
             for name, reaction in analysis.forces.reactions.items()
             if ids.force_vector(name) in values
         ]
-        found["ledger"] = (max(forces), "N")
+        largest["ledger"] = (max(forces), "N")
         difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
-        found["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
-        found["energy"] = (analysis.summary.energy_error, "")
-    return found
+        largest["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
+        largest["energy"] = (analysis.summary.energy_error, "")
+    return largest
 
 
 def _closure(report: Report) -> float:

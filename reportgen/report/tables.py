@@ -10,12 +10,11 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from reportgen.base.units import MM
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.drawing.geometry import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
-from reportgen.machine.gas import StrokeIndicator
-from reportgen.machine.loads import AngleLaw, Applied, TableLaw, Torque, WayLaw
+from reportgen.formula.vocabulary import KINDS
+from reportgen.machine.laws import Law
 from reportgen.report import (
     FIRST_COLUMN,
     TEXT_WIDTH,
@@ -236,66 +235,57 @@ def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Ta
     """The indicator diagram as given, in gauge pressure: by stroke, or against the cycle angle."""
     diagram = report.assignment.indicator
     heights = diagram.height if isinstance(diagram, ByOrdinates) else ()
-    law = report.machine.pistons[0].law
-    return _law_table(
-        report, law, key, caption, names=report.words["strokes"], shown=Symbol("p"), unit=1e4, heights=heights
-    )
+    piston = report.machine.pistons[0]
+    return _law_table(report, piston.name, piston.law, key, caption, names=report.words["strokes"], heights=heights)
 
 
 def working_force(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The working force as given (N): a row for each of the strokes of the head, or against the crank angle."""
-    law = report.machine.applied[0].law
-    assert isinstance(law, TableLaw)
-    return _law_table(report, law, key, caption, head, Symbol("P"))
+    force = report.machine.applied[0]
+    return _law_table(report, force.name, force.law, key, caption, head, shown=Symbol("P"))
 
 
 def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The gauge pressure (N/cm²) on a piston as given: by stroke, or against the cycle angle."""
-    gas = next(load for load in report.machine.applied if load.name == name)
-    assert isinstance(gas.law, TableLaw)
+    gas = next(load for load in report.loads if load.name == name)
     caption = caption.format(link=gas.link)
-    return _law_table(report, gas.law, key, caption, names=report.words["strokes"], shown=Symbol("p"), unit=1e4)
+    return _law_table(report, name, gas.law, key, caption, names=report.words["strokes"])
 
 
 def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
-    loads: tuple[Applied | Torque, ...] = (*report.machine.applied, *report.machine.torques)
-    load = next(load for load in loads if load.name == name)
-    law, shown = load.law, report.ledger.symbol(name)
+    load = next(load for load in report.loads if load.name == name)
     caption = caption.format(link=load.link, unit=report.ledger[name].how.unit)
-    if isinstance(law, AngleLaw):
-        angles = [math.degrees(angle) for angle in law.angles]
-        return _beside(report, key, caption, [(Symbol("φ"), angles), (shown, law.values)])
-    if isinstance(law, WayLaw):
-        ways = [way * MM for way in law.ways]
-        return _beside(report, key, caption, [(Symbol("s"), ways), (shown, law.values)])
-    assert isinstance(law, TableLaw)
-    return _law_table(report, law, key, caption, head, shown)
+    return _law_table(report, name, load.law, key, caption, head)
 
 
 def _law_table(
     report: Report,
-    law: TableLaw,
+    name: str,
+    law: Law,
     key: str,
     caption: str,
     names: Sequence[str],
-    shown: Symbol,
-    unit: float = 1.0,
+    shown: Symbol | None = None,
     heights: Sequence[float] = (),
 ) -> Table:
-    """The nodes of a law; `heights` (mm) are those it was read from, if it was read from a drawing."""
-    nodes = law.table
-    if isinstance(nodes, StrokeIndicator):
-        rows = [
-            (cell(name), *(_exact(value / unit) for value in row)) for name, row in zip(names, nodes.rows, strict=False)
-        ]
-        head = (cell(Fraction(Symbol("s"), Symbol("H"))), *map(_exact, nodes.nodes))
-        return _blocks(report, key, caption, head, rows, FIRST_COLUMN + 8)
-    last = law.turns * 2 * math.pi * (1 + 1e-15)
-    columns: list[tuple[Symbol, Sequence[float]]] = [
-        (Symbol("φ"), [math.degrees(angle) for angle in nodes.angles if angle <= last]),
-        *(((Symbol("y"), list(heights)),) if heights else ()),
-        (shown, [value / unit for value in nodes.pressures]),
+    """The table that the law of the load `name` is given by: one row, or those of the strokes that have `names`.
+
+    `shown` takes the place of the load's symbol; `heights` (mm) are those it was read from, if it was read from a
+    drawing.
+    """
+    given = law.tabled
+    assert given is not None, f"{name} is not given by a table"
+    unit = KINDS["pressure"].scale if law.symbol else report.ledger[name].how.scale
+    rows = [[value / unit for value in row] for row in given.rows]
+    if len(rows) > 1:
+        head = (cell(given.over), *map(_exact, given.nodes))
+        lines = [(cell(called), *map(_exact, row)) for called, row in zip(names, rows, strict=False)]
+        return _blocks(report, key, caption, head, lines, FIRST_COLUMN + 8)
+    columns: list[tuple[Expression, Sequence[float]]] = [
+        (given.over, [node / KINDS[given.kind].scale for node in given.nodes]),
+        *(((Symbol("y"), heights),) if heights else ()),
+        (law.symbol or shown or report.ledger.symbol(name), rows[0]),
     ]
     return _beside(report, key, caption, columns)
 
@@ -304,7 +294,7 @@ def _exact(value: float) -> Cell:
     return Cell((Value(Number(float(f"{value:.10g}"))),))
 
 
-def _beside(report: Report, key: str, caption: str, columns: Sequence[tuple[Symbol, Sequence[float]]]) -> Table:
+def _beside(report: Report, key: str, caption: str, columns: Sequence[tuple[Expression, Sequence[float]]]) -> Table:
     """Long columns, folded into sets side by side."""
     head = tuple(cell(shown) for shown, _ in columns)
     sets = [tuple(map(_exact, row)) for row in zip(*(values for _, values in columns), strict=False)]

@@ -30,17 +30,17 @@ def used_symbols(blocks: Iterable[Block]) -> frozenset[Symbol]:
     """The symbols of texts, equations, tables and figures, a vector as the symbol of its magnitude."""
     rest = list(_expressions(blocks))
     # Most symbols are met many times as one object: these are told apart without a look inside.
-    found: dict[int, Symbol] = {}
+    symbols: dict[int, Symbol] = {}
     while rest:
         node = rest.pop()
         if isinstance(node, Symbol):
-            found[id(node)] = node
+            symbols[id(node)] = node
         elif not isinstance(node, Number):
             rest += children(node)
         if isinstance(node, VectorEquation):
             known = (entry for side in node.sides for term in side for entry in term.known)
             rest += (entry for entry in known if entry is not None and not isinstance(entry, str))
-    return frozenset(replace(one, over="") if one.over == "vector" else one for one in set(found.values()))
+    return frozenset(replace(one, over="") if one.over == "vector" else one for one in set(symbols.values()))
 
 
 def explained(blocks: Iterable[Block]) -> frozenset[Symbol]:

@@ -7,9 +7,13 @@ template can get hold of leads into the program, whatever is done with it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence, Set
 from contextvars import ContextVar
-from types import MethodType
+from functools import cache, partial
+from inspect import CO_VARARGS
+from itertools import chain, repeat
+from types import FunctionType, MethodType
 from typing import Any
 
 import numpy as np
@@ -17,6 +21,7 @@ from jinja2 import Undefined
 from jinja2.exceptions import SecurityError
 
 from reportgen.base import shown
+from reportgen.report.markdown import SECRET
 
 PLAIN = frozenset((str, int, float, bool, type(None)))
 """Types of which a template holds the values themselves."""
@@ -120,13 +125,15 @@ class Values:
         return shown.text(self.own(value))
 
     def call(self, called: Any, arguments: Iterable[Any], named: Mapping[str, Any]) -> Any:
-        """What a function gives.  Raises `SecurityError` for what is none."""
+        """What a function gives.  Raises `SecurityError` for what is none, `TypeError` for what it does not take."""
         if not isinstance(called, FunctionToken):
             self.own(called)
             raise SecurityError("not a function")
         function: Callable[..., Any] = self.own(called)
-        own = {name: self.own(value) for name, value in named.items()} if named else {}
-        return self.plain(function(*map(self.own, arguments), **own))
+        own = [self.own(value) for value in arguments]
+        own_named = {name: self.own(value) for name, value in named.items()} if named else {}
+        _judge(function, own, own_named)
+        return self.plain(function(*own, **own_named))
 
     def _token(self, value: Any, kind: type[Token]) -> Token:
         # What is held is kept, so that no other value is ever taken for it.
@@ -144,6 +151,57 @@ def _counts(value: Any) -> bool:
         return bool(value)
     except ValueError:  # an array of several
         return True
+
+
+# --- what functions take ------------------------------------------------------------------------------
+# Where a function wants a text or a number it makes a name of it: of anything else, its inside would show.
+
+Marked = str
+"""A text that may have pieces of the template in it, of a function that reads them."""
+
+_PLAIN = r"(?:str|int|float|bool|None)"
+_ONE = re.compile(rf"{_PLAIN}(?: \| {_PLAIN})*")
+_SEVERAL = re.compile(rf"\w+\[{_PLAIN}(?:, \.\.\.)?\](?: \| None)?")
+
+
+def _is_text_or_number(value: Any) -> bool:
+    return SECRET not in value if isinstance(value, str) else value is None or isinstance(value, (int, float))
+
+
+def _are_texts_or_numbers(value: Any) -> bool:
+    return _is_text_or_number(value) or all(map(_is_text_or_number, value))
+
+
+@cache
+def _wanted(function: FunctionType, given: int) -> tuple[Sequence[str], str, Mapping[str, Callable[[Any], bool]]]:
+    """The names of a function's parameters behind those that are given already, that of all further ones, and what
+    each has to be."""
+    judges: dict[str, Callable[[Any], bool]] = {}
+    for name, wanted in function.__annotations__.items():
+        if _ONE.fullmatch(str(wanted)):
+            judges[name] = _is_text_or_number
+        elif _SEVERAL.fullmatch(str(wanted)):
+            judges[name] = _are_texts_or_numbers
+    names, count = function.__code__.co_varnames, function.__code__.co_argcount
+    further = count + function.__code__.co_kwonlyargcount
+    return names[given:count], names[further] if function.__code__.co_flags & CO_VARARGS else "", judges
+
+
+def _judge(function: Any, arguments: Sequence[Any], named: Mapping[str, Any]) -> None:
+    """Raise `TypeError` where a function that wants texts or numbers gets anything else."""
+    given = 0
+    while not isinstance(function, FunctionType):
+        if isinstance(function, partial):
+            given, function = given + len(function.args), function.func
+        elif isinstance(function, MethodType):
+            given, function = given + 1, function.__func__
+        else:
+            return
+    names, further, judges = _wanted(function, given)
+    pairs = zip(chain(names, repeat(further)), arguments, strict=False)
+    for name, value in (*pairs, *named.items()):
+        if name in judges and not judges[name](value):
+            raise TypeError(f"{name} is a text or a number, not a {type(value).__name__}")
 
 
 held: ContextVar[Values] = ContextVar("held")

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
-from reportgen.assignment.common import Drawing
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
 from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
-from reportgen.report.report import Report
-from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, read_block, room
+from reportgen.report.case import Case, CaseOfParts, MachineAnalysis
+from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
 from reportgen.sheets.plates import Set, Sources, plates_of
 
@@ -33,23 +30,29 @@ STEPS = 20
 
 
 def drawing_sheets(
-    case: MachineAnalysis, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
+    case: Case, size: str = "", sets: Collection[str] = (), block: Path | None = None, every: bool = False
 ) -> list[DrawingSheet]:
-    """The finished drawing sheets of a machine, with `every` plate or those usually handed in.
+    """The finished drawing sheets of a case, with `every` plate or those usually handed in, then its true sizes.
 
-    `sets` are some of `Set`, all if none is named.  Raises `SheetError` where there is nothing to draw, and as
-    `on_sheets` does.
+    `sets` are some of `Set` of a machine, all if none is named.  The parts that follow a machine stand on sheets as
+    large as its own, on no larger ones than A1 if these hold them.  Raises `SheetError` where there is nothing to draw,
+    and as `on_sheets` does.
     """
-    plates = plates_by_set(case, sets, every)
+    plates = case.plates(sets, every)
     if not plates:
         raise SheetError(word("no_plates", case.assignment.language, sets=", ".join(sets)))
-
-    def with_crank(length: float) -> Plates:
-        drawing = Drawing.model_validate({"crank": f"{length:g} mm"})
-        return plates_by_set(type(case)(replace(case.assignment, drawing=drawing)), sets, every)
-
-    crank = Report(case).drawn_crank
-    return on_sheets(case, plates, size, block, (crank, with_crank) if crank else None)
+    crank = None
+    if case.redrawn is not None:
+        length, redraw = case.redrawn
+        crank = length, lambda length: redraw(length).plates(sets, every)
+    found = on_sheets(case, plates, size, block, crank)
+    if isinstance(case, CaseOfParts):
+        assignment = case.assignment
+        least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
+        found += on_sheets(case, case.joined_plates(), size, block, least=least)
+        form = read_block(block or blocks(assignment.school or "")[DEFAULT[assignment.language]], assignment.language)
+        found = numbered(found, form, assignment.sheet.designation or "")
+    return [*found, *case.true_sizes()]
 
 
 def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
@@ -60,7 +63,7 @@ def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool
 
 
 def on_sheets(
-    case: LoadedAssignment,
+    case: Case,
     plates: Plates,
     size: str = "",
     block: Path | None = None,
@@ -77,12 +80,12 @@ def on_sheets(
     form = read_block(block or blocks(case.assignment.school or "")[DEFAULT[language]], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
-        paper, found = _chosen(plates, form, wanted, least)
+        paper, laid_out = _chosen(plates, form, wanted, least)
     except TooLargeError as error:
         raise _fault(case, error, plates, form, wanted or USUAL[-1], redrawn) from error
     if any(plate.larger for some in plates.values() for plate in some):
-        found = laid({name: enlarged(some, paper, form) for name, some in plates.items()}, paper, form)
-    return [_sheet(case, form, paper, number, found) for number in range(1, len(found) + 1)]
+        laid_out = laid({name: enlarged(some, paper, form) for name, some in plates.items()}, paper, form)
+    return [_sheet(case, form, paper, number, laid_out) for number in range(1, len(laid_out) + 1)]
 
 
 def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> list[DrawingPlate]:
@@ -100,21 +103,21 @@ def enlarged(plates: Sequence[DrawingPlate], paper: str, form: TitleBlock) -> li
     def larger(plate: DrawingPlate) -> DrawingPlate | None:
         return plate.larger() if plate.larger else None
 
-    found, most = list(plates), sheets(plates)
+    best, most = list(plates), sheets(plates)
     growing = {number: one for number, plate in enumerate(plates) if (one := larger(plate))}
     while growing:
         number = min(growing, key=lambda one: (growing[one].area / plates[one].area, one))
         tried = growing.pop(number)
-        with_it = [*found[:number], tried, *found[number + 1 :]]
+        with_it = [*best[:number], tried, *best[number + 1 :]]
         if sheets(with_it) <= most:
-            found = with_it
+            best = with_it
             if after := larger(tried):
                 growing[number] = after
-    return found
+    return best
 
 
 def _fault(
-    case: LoadedAssignment,
+    case: Case,
     error: TooLargeError,
     plates: Plates,
     form: TitleBlock,
@@ -122,17 +125,17 @@ def _fault(
     redrawn: tuple[float, Callable[[float], Plates]] | None,
 ) -> AssignmentError:
     """Says which plate is too large, the smallest size that holds all, and the longest crank with which this does."""
-    told = {"name": error.name, "width": f"{error.width:.0f}", "height": f"{error.height:.0f}", "size": size}
+    arguments = {"name": error.name, "width": f"{error.width:.0f}", "height": f"{error.height:.0f}", "size": size}
     larger = [paper for paper in BY_SIZE[BY_SIZE.index(size) + 1 :] if _holds(plates, paper, form)]
     if larger:
-        told |= {"larger": larger[0], "hint": "larger-sheet"}
+        arguments |= {"larger": larger[0], "hint": "larger-sheet"}
     if redrawn is not None:
         length, remake = redrawn
         shorter = (math.floor(length * (1 - step / STEPS)) for step in range(1, STEPS))
         crank = next((one for one in shorter if one > 0 and _holds(remake(one), size, form)), 0)
         if crank:
-            told |= {"crank": str(crank), "hint": "larger-sheet-or-crank" if larger else "shorter-crank"}
-    findings = [Finding("plate-too-large", ("drawing", "crank"), told)]
+            arguments |= {"crank": str(crank), "hint": "larger-sheet-or-crank" if larger else "shorter-crank"}
+    findings = [Finding("plate-too-large", ("drawing", "crank"), arguments)]
     return as_error(placed(read_source(case.assignment.source), findings), case.assignment.language)
 
 
@@ -161,24 +164,24 @@ def _chosen(plates: Plates, form: TitleBlock, wanted: str, least: str) -> tuple[
     too_large: TooLargeError | None = None
     for paper, whole in sizes:
         try:
-            found = laid(plates, paper, form)
+            laid_out = laid(plates, paper, form)
         except TooLargeError as error:
             too_large = error
         else:
-            if len(found) == len(plates) or not whole:
-                return paper, found
+            if len(laid_out) == len(plates) or not whole:
+                return paper, laid_out
     assert too_large is not None
     raise too_large
 
 
-def _sheet(case: LoadedAssignment, form: TitleBlock, paper: str, number: int, found: Sequence[Laid]) -> DrawingSheet:
+def _sheet(case: Case, form: TitleBlock, paper: str, number: int, laid_out: Sequence[Laid]) -> DrawingSheet:
     """One of the sheets with its frame and its title block."""
-    shown, parts = found[number - 1]
+    shown, parts = laid_out[number - 1]
     fields = fields_of(case, form, number) | {
         # A set of several works is called by its title itself.
         "title": case.words["plates"]["sets"].get(shown, shown),
         "sheet": str(number),
-        "sheets": str(len(found)),
+        "sheets": str(len(laid_out)),
         "format": paper,
     }
     return framed(parts, form, fields)

@@ -197,11 +197,11 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
 
 def _smooth(points: tuple[complex, ...], closed: bool) -> list[list[complex]]:
     """The pieces of a curve between its corners, each by no more points than a spline needs."""
-    found = [*points, points[0]] if closed else list(points)
-    sides = [cmath.phase(after - before) for before, after in pairwise(found)]
+    vertices = [*points, points[0]] if closed else list(points)
+    sides = [cmath.phase(after - before) for before, after in pairwise(vertices)]
     turned = [abs(math.remainder(other - one, 2 * math.pi)) for one, other in pairwise(sides)]
-    corners = [0, *(place for place, angle in enumerate(turned, start=1) if angle > CORNER), len(found) - 1]
-    pieces = [found[first : last + 1] for first, last in pairwise(corners)]
+    corners = [0, *(place for place, angle in enumerate(turned, start=1) if angle > CORNER), len(vertices) - 1]
+    pieces = [vertices[first : last + 1] for first, last in pairwise(corners)]
     return [[*piece[: -1 : max(len(piece) // FITTED, 1)], piece[-1]] for piece in pieces]
 
 

@@ -22,7 +22,7 @@ from reportgen.base.words import as_error, close_or_known, templates
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.drawing.geometry import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
-from reportgen.report.case import LoadedAssignment
+from reportgen.report.case import Case
 
 SIZES: Mapping[str, tuple[float, float]] = {
     "A0": (1189.0, 841.0),
@@ -39,8 +39,8 @@ HEIGHTS = (7.0, 5.0, 3.5, 2.5, 1.8)
 """Heights of capital letters, mm; the last in narrow cells of a title block only."""
 NARROW = 0.75
 """Letters are made narrower to this share of their width before smaller ones are taken, as type A is beside B."""
-PADDING = 0.6
-"""White beside a text in its cell, mm."""
+PADDING, BESIDE = 0.6, 0.25
+"""White around a text in its cell, mm; before and behind it also at least this share of its height."""
 LEADING = 1.6
 """From line to line, in heights of capitals."""
 
@@ -147,28 +147,33 @@ def _letters(cell: BlockCell) -> Iterator[Label]:
     """
     along, across = (cell.height, cell.width) if cell.turned else (cell.width, cell.height)
     heights = [height for height in HEIGHTS if height <= cell.letters] or [HEIGHTS[-1]]
-    tried = [_broken(cell.text, height, along - 2 * PADDING, across - 2 * PADDING) for height in heights]
+    tried = [_broken(cell.text, height, along - 2 * _beside(height), across - 2 * PADDING) for height in heights]
     height, lines, narrow = next((one for one in tried if one[2] >= NARROW), tried[-1])
     anchor: Anchor = "left" if cell.align == "left" else "center"
     u = 1j if cell.turned else 1 + 0j
     middle = complex(cell.x + cell.width / 2, cell.y + cell.height / 2)
-    start = middle - u * (along / 2 - PADDING) if cell.align == "left" else middle
+    start = middle - u * (along / 2 - _beside(height)) if cell.align == "left" else middle
     for number, line in enumerate(lines):
         down = LEADING * height * (number - (len(lines) - 1) / 2)
         yield Label(start - 1j * u * down, line, anchor, font_size(height), 90 * cell.turned, narrow=narrow)
+
+
+def _beside(height: float) -> float:
+    """White before and behind a text in letters of a height (mm)."""
+    return max(PADDING, BESIDE * height)
 
 
 def _broken(text: str, height: float, along: float, across: float) -> tuple[float, list[str], float]:
     """A text in letters of a height: its lines, as many as make the letters widest, and how narrow these are (≤ 1)."""
     most = max(int((across / height - LINE) / LEADING) + 1, 1) if across >= LINE * height else 0
     words = text.split()
-    found = (height, [text], 0.0)
+    best = (height, [text], 0.0)
     for count in range(1, min(most, len(words)) + 1):
         lines = _evenly(words, count, height)
         narrow = min(along / max(_width(line, height) for line in lines), 1.0)
-        if narrow > found[2]:
-            found = height, lines, narrow
-    return found
+        if narrow > best[2]:
+            best = height, lines, narrow
+    return best
 
 
 def _evenly(words: Sequence[str], count: int, height: float) -> list[str]:
@@ -349,19 +354,21 @@ def framed(parts: Iterable[PlacedScene], form: TitleBlock, fields: Mapping[str, 
 def numbered(sheets: Sequence[DrawingSheet], form: TitleBlock, designation: str) -> list[DrawingSheet]:
     """The sheets of several parts as one set: those with a title block numbered on, all of one designation if given."""
     total, number = sum(bool(sheet.fields) for sheet in sheets), 0
-    found = []
+    numbered_on = []
     for sheet in sheets:
         if sheet.fields:
             number += 1
-            told = {"designation": designation or _filled(form.designation, {**sheet.fields, "sheet": f"{number:02}"})}
-            told |= {"sheet": str(number), "sheets": str(total)}
+            fields = {
+                "designation": designation or _filled(form.designation, {**sheet.fields, "sheet": f"{number:02}"})
+            }
+            fields |= {"sheet": str(number), "sheets": str(total)}
             parts = (part for part in sheet.parts if part.layer != FRAME)
-            sheet = framed(parts, form, {**sheet.fields, **told})
-        found.append(sheet)
-    return found
+            sheet = framed(parts, form, {**sheet.fields, **fields})
+        numbered_on.append(sheet)
+    return numbered_on
 
 
-def fields_of(case: LoadedAssignment, block: TitleBlock, number: int) -> dict[str, str]:
+def fields_of(case: Case, block: TitleBlock, number: int) -> dict[str, str]:
     """What the assignment says for the title block of a sheet; who lays the sheets out adds their count and format."""
     given, variant = case.assignment.report, case.assignment.variant
     organisation = ", ".join(part for part in (given.university, given.faculty, given.department) if part)

@@ -151,7 +151,7 @@ class Packing:
         """As many plates as a share of a sheet's height holds, in columns that leave most room to the right."""
         high, above = share * self.high, min(share * self.high, self.above)
         ends = [0.0, *(math.inf for _ in plates)]
-        found: list[list[PlateColumn]] = [[] for _ in ends]
+        columns_at: list[list[PlateColumn]] = [[] for _ in ends]
         for start in range(len(plates)):
             for end in range(start + 1, len(ends)):
                 column = self._narrowest(plates[start:end], high) if ends[start] < math.inf else None
@@ -162,8 +162,8 @@ class Packing:
                     column = self._narrowest(plates[start:end], above)
                     right = ends[start] + GAP + column.width if column else math.inf
                 if column and right + GAP <= self.wide + DUST and right <= ends[end] + DUST:
-                    ends[end], found[end] = right, [*found[start], column]
-        return next((columns for columns in reversed(found) if columns), [])
+                    ends[end], columns_at[end] = right, [*columns_at[start], column]
+        return next((columns for columns in reversed(columns_at) if columns), [])
 
     def _narrowest(self, plates: Sequence[DrawingPlate], high: float) -> PlateColumn | None:
         """The plates in the narrowest column of a height; None where the sheet is not wide enough."""

@@ -24,7 +24,7 @@ from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
+from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
@@ -288,8 +288,8 @@ def _table(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = 
     """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
     report = sources.report
     at = report.all_positions if cycle else report.positions
-    found = dict.fromkeys(id for columns in listed for id in columns(report))
-    shown = [id for id in found if not all(report.is_zero(id, k) for k in at)]
+    tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
+    shown = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
     parts = -(-len(at) // MOST_ROWS)
     rows = [at[len(at) * n // parts : len(at) * (n + 1) // parts] for n in range(parts)]
     head, every = _quantities(report, shown, at)
@@ -316,7 +316,7 @@ def _quantities(
     return head, [[str(report.machine.position(k)), *(_bare(report, id, k) for id in quantities)] for k in positions]
 
 
-def on_sheet(case: LoadedAssignment, steps: int) -> FigureSize:
+def on_sheet(case: Case, steps: int) -> FigureSize:
     """How large a sheet shows a figure of a report, by so many standard scales larger."""
     return FigureSize(steps, ENLARGED, case.words["plates"]["report"], case.assignment.language)
 

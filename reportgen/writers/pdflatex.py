@@ -248,10 +248,10 @@ def _log(directory: Path) -> str:
 
 def _reason(log: str) -> str:
     """What went wrong, from the log: a missing package with the remedy, else the first error's lines."""
-    found = _ERROR.search(log)
-    if found is None:
+    error = _ERROR.search(log)
+    if error is None:
         return "pdflatex failed and left no message"
-    lines = [line for line in log[found.start() :].splitlines()[:8] if line.strip()]
+    lines = [line for line in log[error.start() :].splitlines()[:8] if line.strip()]
     message = "\n".join(lines[:5])
     if _MISSING.search(message):
         return f"a part of LaTeX is missing ({lines[0].strip()}); install it with\n    {INSTALL}"

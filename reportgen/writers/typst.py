@@ -280,8 +280,10 @@ class _Blocks:
     def vector_equation(self, equation: VectorEquation) -> str:
         known, part = self.formulas.known, self.formulas.part
         terms = (
-            _array((f"${''.join(sign.of for sign in one.signs)}$", f"${part(one.term)}$", *map(known, one.known)))
-            for one in columns(equation)
+            _array(
+                (f"${''.join(sign.of for sign in column.signs)}$", f"${part(column.term)}$", *map(known, column.known))
+            )
+            for column in columns(equation)
         )
         return ",".join((_array(map(literal, equation.rows)), *terms))
 

@@ -173,7 +173,7 @@ class _Blocks:
 
     def write(self, blocks: Sequence[tree.Block], level: int = 0) -> str:
         """Blocks in order; a run-in heading stands at the head of the paragraph behind it."""
-        found: list[str] = []
+        written: list[str] = []
         run_in = ""
         for block, following in pairwise((*blocks, None)):
             assert block is not None
@@ -182,20 +182,20 @@ class _Blocks:
                 case tree.Section(level=depth) if depth > CONTENTS_LEVEL:
                     run_in = self.run_in(block)
                     if not isinstance(following, tree.Paragraph):
-                        found.append(paragraph("Normal", run_in, KEPT + setting.indented))
+                        written.append(paragraph("Normal", run_in, KEPT + setting.indented))
                         run_in = ""
                     continue
                 case tree.Paragraph(inlines, align):
                     properties = setting.lines + setting.indented + (f'<w:jc w:val="{align}"/>' if align else "")
-                    found.append(paragraph("Normal", run_in + self.inlines(inlines), properties))
+                    written.append(paragraph("Normal", run_in + self.inlines(inlines), properties))
                     run_in = ""
                     continue
-            if found and found[-1].endswith("</w:tbl>"):
-                found.append(GAP)
-            found.append(self.block(block, setting))
-        if level and found and found[-1].endswith("</w:tbl>"):
-            found.append(GAP)
-        return "".join(found)
+            if written and written[-1].endswith("</w:tbl>"):
+                written.append(GAP)
+            written.append(self.block(block, setting))
+        if level and written and written[-1].endswith("</w:tbl>"):
+            written.append(GAP)
+        return "".join(written)
 
     def block(self, block: tree.Block, setting: _Setting) -> str:
         match block:
@@ -255,15 +255,15 @@ class _Blocks:
             self.starts.append((setting.level, block.start))
         number = BULLETS + len(self.starts) if block.ordered else BULLETS
         item = f'<w:numPr><w:ilvl w:val="{setting.level}"/><w:numId w:val="{number}"/></w:numPr>'
-        found = []
+        paragraphs = []
         for index, blocks in enumerate(block.items, start=1):
             first = blocks[0] if blocks and isinstance(blocks[0], tree.Paragraph) else tree.Paragraph(())
             others = blocks[1:] if blocks and first is blocks[0] else blocks
             leads = layout.leads(first, others[0] if others else None, self.language)
             kept = KEPT if leads or (setting.kept and index == len(block.items)) else ""
-            found.append(paragraph("List", self.inlines(first.inlines), kept + item))
-            found.append(self.write(others, setting.level + 1))
-        return "".join(found)
+            paragraphs.append(paragraph("List", self.inlines(first.inlines), kept + item))
+            paragraphs.append(self.write(others, setting.level + 1))
+        return "".join(paragraphs)
 
     def cover(self, cover: tree.Cover) -> str:
         first, *others = (*cover.institution, "")
@@ -361,16 +361,16 @@ class _Blocks:
         """A ruled table below its caption; its head is repeated on each page, a short one stays on one."""
         caption = self.caption(self.words.table, table)
         whole = len(table.rows) <= layout.WHOLE_TABLE
-        found = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
+        rows = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
         for index, row in enumerate(table.rows):
             left = len(table.rows) - 1 - index
             kept = left > 0 and (whole or index < layout.TOGETHER - 1 or left < layout.TOGETHER)
-            found.append(self.table_row(row, table, False, kept))
+            rows.append(self.table_row(row, table, False, kept))
         sides = rule("left", HEAVY), rule("right", HEAVY)
         outer = (rule("top", HEAVY), sides[0], rule("bottom", HEAVY), sides[1], rule("insideH", 0))
         frame = f"<w:tblBorders>{''.join(outer)}</w:tblBorders>" if table.framed else ""
         widths = [column.width for column in table.columns]
-        body = grid_table(RULED, widths, f"{CENTRE}{frame}", "".join(found))
+        body = grid_table(RULED, widths, f"{CENTRE}{frame}", "".join(rows))
         return (paragraph("Caption", caption, KEPT) if caption else "") + body + AFTER
 
     def table_row(self, row: Sequence[tree.Cell], table: tree.Table, head: bool, kept_or_last: bool) -> str:
@@ -392,12 +392,12 @@ class _Blocks:
     def figure(self, figure: tree.Figure) -> str:
         """Its rows with the caption below; where it has several parts, the later ones go on."""
         self._figure = figure.key
-        found = []
+        written = []
         for index, part in enumerate(layout.in_parts(figure)):
             caption = self.again(figure) if index else self.caption(self.words.figure, figure)
-            found += [self.row(row, figure) for row in part]
-            found.append(paragraph("Caption", caption))
-        return "".join(found)
+            written += [self.row(row, figure) for row in part]
+            written.append(paragraph("Caption", caption))
+        return "".join(written)
 
     def row(self, scenes: Sequence[Scene], block: tree.Figure | tree.Plate) -> str:
         """Scenes side by side, each over its title."""
@@ -419,5 +419,5 @@ class _Blocks:
         """A scene in its true size; who does not see it is told its caption."""
         self.scenes.append(scene)
         number = len(self.scenes)
-        told = f"{self.words.figure} {block.number}. {tree.plain(block.caption, self.language)} {scene.title}"
-        return drawing(number, scene.width, scene.height, " ".join(told.split()))
+        description = f"{self.words.figure} {block.number}. {tree.plain(block.caption, self.language)} {scene.title}"
+        return drawing(number, scene.width, scene.height, " ".join(description.split()))

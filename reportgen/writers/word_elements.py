@@ -69,14 +69,14 @@ SVG = "{96DAC541-7B7A-43D3-8B79-37D633B846F1}"
 """What a picture's extension with its SVG is called; who does not know it shows the PNG."""
 
 
-def drawing(number: int, width: float, height: float, told: str) -> str:
+def drawing(number: int, width: float, height: float, description: str) -> str:
     """The picture of a number in a line of text, in its size (mm), with what is told in its place."""
     size = f'cx="{round(width * EMU)}" cy="{round(height * EMU)}"'
     named = f'id="{number}" name="figure{number}"'
     vector = f'<a:extLst><a:ext uri="{SVG}"><asvg:svgBlip r:embed="rel-figure{number}.svg"/></a:ext></a:extLst>'
     return (
         f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {size}/>'
-        f'<wp:docPr {named} descr="{escape(told)}"/><wp:cNvGraphicFramePr>'
+        f'<wp:docPr {named} descr="{escape(description)}"/><wp:cNvGraphicFramePr>'
         '<a:graphicFrameLocks noChangeAspect="1"/></wp:cNvGraphicFramePr>'
         f'<a:graphic><a:graphicData uri="{NAMESPACES["pic"]}"><pic:pic>'
         f"<pic:nvPicPr><pic:cNvPr {named}/><pic:cNvPicPr/></pic:nvPicPr><pic:blipFill>"

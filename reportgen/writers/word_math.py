@@ -174,22 +174,22 @@ def broken(rows: Sequence[Expression], language: Language, room: float) -> list[
     sides = [displayed(row, language, fits) for row in rows]
     heads = [width(*first) if others else 0.0 for first, *others in sides]
     head = max(heads)
-    found: list[FormulaLine] = []
+    formula_lines: list[FormulaLine] = []
     for first, *others in sides:
         # No relation to align at, or what stands before it is too long: the row flows from the left.
         flowing = not others or head > LONG_HEAD * room
         equated = [_equated(side) for side in others]
         rest = tuple(chain.from_iterable(equated))
         if flowing and (head if others else 0.0) + width(*first, *rest) > room:
-            found += _filled([*first, *rest], room, HANGING * EM)
+            formula_lines += _filled([*first, *rest], room, HANGING * EM)
         elif flowing and not others:
-            found.append(FormulaLine(NOTHING, MathRow(tuple(first))))
+            formula_lines.append(FormulaLine(NOTHING, MathRow(tuple(first))))
         elif flowing or head + width(*rest) <= room:
-            found.append(FormulaLine(MathRow(tuple(first)), MathRow(rest)))
+            formula_lines.append(FormulaLine(MathRow(tuple(first)), MathRow(rest)))
         else:
             lines = _relations(equated, room - head)
-            found += [FormulaLine(MathRow(tuple(first)), lines[0].rest, lines[0].indent), *lines[1:]]
-    return found
+            formula_lines += [FormulaLine(MathRow(tuple(first)), lines[0].rest, lines[0].indent), *lines[1:]]
+    return formula_lines
 
 
 def _equated(side: Sequence[Part]) -> list[Part]:
@@ -199,13 +199,13 @@ def _equated(side: Sequence[Part]) -> list[Part]:
 
 def _relations(equated: Sequence[Sequence[Part]], room: float) -> list[FormulaLine]:
     """The sides of a row in lines, each as full as it may be; a side too wide for a line is broken inside."""
-    found: list[FormulaLine] = []
+    lines: list[FormulaLine] = []
     for side in equated:
-        if found and found[-1].widths[1] + width(*side) <= room:
-            found[-1] = replace(found[-1], rest=MathRow((found[-1].rest, *side)))
+        if lines and lines[-1].widths[1] + width(*side) <= room:
+            lines[-1] = replace(lines[-1], rest=MathRow((lines[-1].rest, *side)))
         else:
-            found += _filled(side, room, WITHIN * EM)
-    return found
+            lines += _filled(side, room, WITHIN * EM)
+    return lines
 
 
 def _filled(pieces: Sequence[Part], room: float, indent: float) -> list[FormulaLine]:
@@ -251,11 +251,11 @@ def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range
     """Terms of these widths in as few grids as the room asks for, each beside the names of the rows."""
     storeys: list[range] = []
     start, used = 0, names
-    for index, one in enumerate(widths):
-        if used + one > room and index > start:
+    for index, term in enumerate(widths):
+        if used + term > room and index > start:
             storeys.append(range(start, index))
             start, used = index, names
-        used += one
+        used += term
     return [*storeys, range(start, len(widths))]
 
 
@@ -344,11 +344,11 @@ class Equations:
         columns[0] += max(SLIVER, min(free, (free + beside) / 2))
         columns[1:-1] = [one + ABREAST / 2 for one in columns[1:-1]]
         columns[-1] += room - sum(columns)
-        found = [
+        grid_rows = [
             [place for line in lines[at : at + count] for place in self.sides(line)]
             for at in range(0, len(lines), count)
         ]
-        return grid(columns, found, number, indent, kept)
+        return grid(columns, grid_rows, number, indent, kept)
 
     def sides(self, line: FormulaLine) -> list[GridEntry]:
         left, rest = self.formulas.line(line.left), self.formulas.line(line.rest)
@@ -368,7 +368,7 @@ class Equations:
         spread = max(1.0, min(SPREAD, (room - SLIVER) / widest))
         names, widest = names * spread, widest * spread
         left = max(SLIVER, min(room - widest, (TEXT_WIDTH - indent - widest) / 2))
-        found = []
+        grids = []
         for storey in storeys:
             shown = [place for index in storey for place in self.term(terms[index])]
             rows = [[FREE, FREE, *shown]]
@@ -381,10 +381,10 @@ class Equations:
             ruled = range(2, len(rows[0])) if equation.rows else NO_COLUMNS
             sizes = [left, names, *(width * spread for index in storey for width in widths[index])]
             if storey is storeys[-1]:
-                found.append(grid(sizes, rows, number, indent, kept, ruled))
+                grids.append(grid(sizes, rows, number, indent, kept, ruled))
             else:
-                found.append(grid(sizes, rows, "", indent, KEPT, ruled))
-        return KEPT_GAP.join(found)
+                grids.append(grid(sizes, rows, "", indent, KEPT, ruled))
+        return KEPT_GAP.join(grids)
 
     def term(self, term: TermColumn) -> list[GridEntry]:
         signs = "".join(sign.of for sign in term.signs)

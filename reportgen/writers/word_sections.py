@@ -49,13 +49,13 @@ def broken(blocks: Sequence[tree.Block]) -> Sequence[tree.Block]:
 
     A section begins and ends with its page, so that breaks at its ends say nothing, nor does a second one.
     """
-    found: list[tree.Block] = [tree.PageBreak()]
+    separated: list[tree.Block] = [tree.PageBreak()]
     for block in blocks:
         alone = isinstance(block, tree.Contents) and block.alone
-        for one in (tree.PageBreak(), block, tree.PageBreak()) if alone else (block,):
-            if not (isinstance(one, tree.PageBreak) and isinstance(found[-1], tree.PageBreak)):
-                found.append(one)
-    return found[1:-1] if isinstance(found[-1], tree.PageBreak) else found[1:]
+        for part in (tree.PageBreak(), block, tree.PageBreak()) if alone else (block,):
+            if not (isinstance(part, tree.PageBreak) and isinstance(separated[-1], tree.PageBreak)):
+                separated.append(part)
+    return separated[1:-1] if isinstance(separated[-1], tree.PageBreak) else separated[1:]
 
 
 def places(blocks: Sequence[tree.Block]) -> Iterator[tuple[str, Bookmark]]:

@@ -110,8 +110,8 @@ def merged(ours: str, school: str, language: Language) -> str:
             own.remove(incomplete)
         own[:0] = usual.findall(f"{_W}docDefaults")
     else:
-        for other in letters.findall(f"{_W}lang"):
-            letters.remove(other)
+        for language_tag in letters.findall(f"{_W}lang"):
+            letters.remove(language_tag)
         ElementTree.SubElement(letters, f"{_W}lang", {f"{_W}val": CODES[language], f"{_W}eastAsia": CODES[language]})
     ElementTree.register_namespace("w", NAMESPACES["w"])
     return PROLOGUE + ElementTree.tostring(own, encoding="unicode")

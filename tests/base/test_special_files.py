@@ -6,6 +6,7 @@ import errno
 import json
 import os
 import stat
+import sys
 import threading
 from pathlib import Path
 
@@ -82,14 +83,40 @@ def test_what_is_open_already_is_written_into(tmp_path: Path, monkeypatch: pytes
     assert (target.read_text(), link.is_symlink()) == ("before\nafter\n", True)
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a system without a device that is always full")
-def test_a_full_device_is_named_alone() -> None:
+def test_a_file_in_memory_is_a_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """What lies in /dev/shm is replaced as anywhere else."""
+    target = tmp_path / "shm" / "x.json"
+    target.parent.mkdir()
+    monkeypatch.setattr(files, "_STREAMS", (str(tmp_path),))
+    for content in (b"long before", b"after"):
+        put_file(target, content)
+    assert (files.is_stream(target), target.read_bytes()) == (False, b"after")
+
+
+FULL = (1, 7)
+"""Linux' numbers of the device that is always full."""
+
+
+@pytest.fixture
+def device(tmp_path: Path) -> Path:
+    """A node of our own of the device that is always full, where one may be made and opened."""
+    path = tmp_path / "full"
+    try:
+        os.mknod(path, stat.S_IFCHR | 0o600, os.makedev(*FULL))
+        with path.open("wb", buffering=0):
+            return path
+    except OSError:
+        pytest.skip("nodes of devices are for administrators")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="another system has other devices")
+def test_a_full_device_is_named_alone(device: Path) -> None:
     """“None” is no second file."""
-    done = CliRunner().invoke(app, ["solve", str(ASSIGNMENT), "--json", "/dev/full", "--lang", "en"])
+    done = CliRunner().invoke(app, ["solve", str(ASSIGNMENT), "--json", str(device), "--lang", "en"])
     assert done.exit_code == 3
-    assert "/dev/full" in done.output
+    assert str(device) in done.output
     assert "None" not in done.output
-    assert stat.S_ISCHR(Path("/dev/full").stat().st_mode)
+    assert stat.S_ISCHR(device.stat().st_mode)
 
 
 def test_a_full_disk_names_one_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

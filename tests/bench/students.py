@@ -20,7 +20,7 @@ import numpy as np
 
 from reportgen import api
 from reportgen.cases import open_case, opened
-from reportgen.marking.key import Ask
+from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.sheet import answer_book
@@ -42,7 +42,7 @@ def one_student(path: Path = SAMPLE) -> dict[str, float]:
     handed = iter(sheets)
     tasks: dict[str, Callable[[], Any]] = {
         "solve": lambda: api.solve(api.load(path)),
-        "key": lambda: opened(api.load(path)).key(),
+        "key": lambda: key_of(opened(api.load(path))),
         "sheet": lambda: write_xlsx(answer_book(Ask().of(scheme.key))),
         "guide": lambda: marking_scheme(open_case(path), Policy()),
         "mark": lambda: mark(scheme, next(handed)),

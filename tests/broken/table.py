@@ -187,6 +187,12 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("flywheel without loads", {"PC: 1 kN": "flywheel: {delta: 1/50}"}, "2:102 flywheel-without-loads"),
         ("articulation beyond the rod", {"BD: 66 mm": "BD: 260 mm"}, "2:41 out-of-range"),
         ("rod too short", {"BC: 253 mm": "BC: 80 mm"}, "2:29 no-assembly"),
+        # A rod articulated far out on a short main rod follows the eight that its end goes through.
+        (
+            "four strokes in a turn",
+            {"BC: 253 mm, BD: 66 mm, DE: 196 mm": "BC: 187 mm, BD: 155 mm, DE: 223 mm", "beta: 70 deg": "beta: 1 deg"},
+            "2:53 not-to-and-fro",
+        ),
         ("bore without diagram", {"PC: 1 kN": "D: 80 mm"}, "1:1 missing-key"),
         ("force and bore", {"PC: 1 kN": "…, D: 80 mm"}, "1:1 missing-key, 2:102 both-given"),
     ],

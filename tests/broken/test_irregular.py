@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import socket
+import stat
 import subprocess
 import sys
 from collections.abc import Callable
@@ -31,7 +32,11 @@ def listening(path: Path) -> None:
 
 
 def device(path: Path) -> None:
-    path.symlink_to("/dev/zero")
+    """A node of our own: nothing is done to one of the machine's, whatever goes wrong."""
+    try:
+        os.mknod(path, stat.S_IFCHR | 0o600, os.makedev(1, 5))
+    except OSError:
+        pytest.skip("nodes of devices are for administrators")
 
 
 MADE: tuple[Callable[[Path], None], ...] = (os.mkfifo, listening, device)

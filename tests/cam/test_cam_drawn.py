@@ -21,6 +21,7 @@ from reportgen.cases import open_case
 from reportgen.drawing import Arc, Circle, Label
 from reportgen.drawing.style import arc_with_head
 from reportgen.formula import Chain, Number, Symbol
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
@@ -149,7 +150,7 @@ def test_the_least_cam_is_that_of_a_search() -> None:
 @pytest.mark.parametrize("name", ["roller-01", "shaper-feed", "flat-01"])
 def test_sheets_print_their_own_scales(name: str) -> None:
     """On the drawing sheet the base circle times the scale below it is r₀, in each plate that shows it."""
-    (sheet, profile) = open_case(FOLDER / f"{name}.yaml", "en").sheets()
+    (sheet, profile) = drawing_sheets(open_case(FOLDER / f"{name}.yaml", "en"))
     met = 0
     for part in sheet.parts:
         scales = [

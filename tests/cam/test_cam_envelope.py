@@ -93,7 +93,7 @@ def nearest(points: np.ndarray, others: np.ndarray, around: np.ndarray, reach: i
     return found
 
 
-SEEDS, BLOCKS = 2000, 40
+SEEDS, BLOCKS = 1000, 20
 
 
 @pytest.mark.parametrize("block", matrix(range(BLOCKS), [0]))

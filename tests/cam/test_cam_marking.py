@@ -15,6 +15,7 @@ from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
+from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Policy, marking_scheme
 from tests.marking import demo, students
@@ -58,7 +59,7 @@ def graded(drawn: Path) -> Graded:
 
 
 def test_variants_differ(drawn: Path) -> None:
-    answers = {open_case(path).key().row("cam.least.r0").values[0] for path in (drawn / "variants").glob("S*.yaml")}
+    answers = {key_of(open_case(path)).row("cam.least.r0").values[0] for path in (drawn / "variants").glob("S*.yaml")}
     assert len(answers) > STUDENTS / 2
 
 

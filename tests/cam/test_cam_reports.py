@@ -14,6 +14,7 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
+from reportgen.marking.key import key_of
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "cam").glob("*.yaml"))
@@ -99,5 +100,5 @@ def test_the_words_of_both_languages_name_the_same() -> None:
     """No row of a key is without words, in either language."""
     for file in FILES:
         for language in ("vi", "en"):
-            rows = open_case(file, language).key().rows  # type: ignore[arg-type]
+            rows = key_of(open_case(file, language)).rows  # type: ignore[arg-type]
             assert [row.id for row in rows if not row.what] == [], (file.stem, language)

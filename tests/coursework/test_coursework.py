@@ -22,14 +22,18 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case, opened, opener
 from reportgen.coursework.case import Coursework, PartCase
 from reportgen.coursework.symbol_renaming import nodes
+from reportgen.drawing import Scene
 from reportgen.formula import Symbol
-from reportgen.marking.key import Ask
+from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Marking, Policy, Submission, Verdict, marking_scheme
-from reportgen.marking.results import result_file
+from reportgen.marking.paper import task_of
 from reportgen.page import panels
 from reportgen.report import Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced
+from reportgen.results.files import result_file
+from reportgen.sheets import drawing_sheets
+from tests.drawing.overlaps import overlaps
 from tests.lanes import proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -83,7 +87,7 @@ def test_machine_train_pair_and_cam_are_one_booklet_from_motor_to_cam() -> None:
     whole = coursework(FOLDER / "shaper-whole.yaml")
     numbers = [number for number, _ in headings(whole.document(), 1) if number]
     assert numbers == ["1", "2", "3", "4", "5"]
-    asked = {row.id.partition(".")[0] for row in whole.key().rows}
+    asked = {row.id.partition(".")[0] for row in key_of(whole).rows}
     assert {"train", "gears", "cam"} <= asked
     # Outer wheels turn against each other.
     assert whole.printed.number("train.n.reached").value == -whole.printed.number("n").value == -80
@@ -149,7 +153,7 @@ def test_a_machine_knows_its_symbols_without_its_report(file: Path) -> None:
 def test_a_key_and_a_task_are_made_without_any_report(monkeypatch: pytest.MonkeyPatch) -> None:
     case = open_case(SHAPER)
     monkeypatch.setattr(PartCase, "document", property(lambda _: pytest.fail("a report was composed")))
-    assert case.task(case.key()).blocks
+    assert task_of(case, key_of(case)).blocks
 
 
 def test_points_that_are_named_anew_are_said(three: Coursework) -> None:
@@ -197,10 +201,10 @@ def test_the_cover_and_the_extent_are_those_of_the_machine() -> None:
 
 
 def test_ids_have_the_name_of_their_part_in_front(three: Coursework) -> None:
-    key = three.key()
+    key = key_of(three)
     names = Counter(key.owner(row.id) for row in key.rows)
     assert list(names) == ["machine", "cam", "cam2"]
-    assert names["machine"] == len(three.machine.key().rows)
+    assert names["machine"] == len(key_of(three.machine).rows)
     assert key.row("cam2.n").values[0] == pytest.approx(26)
     assert key.row("cam.n").values[0] == pytest.approx(52)
     assert len({row.id for row in key.rows}) == len(key.rows)
@@ -275,7 +279,7 @@ def test_each_part_moves_in_a_panel_of_its_own() -> None:
 
 def test_sheets_are_numbered_on() -> None:
     case = coursework()
-    sheets = case.sheets("A1")
+    sheets = drawing_sheets(case, "A1")
     framed = [sheet.fields for sheet in sheets if sheet.fields]
     assert [one["sheet"] for one in framed] == [str(number) for number in range(1, len(framed) + 1)]
     assert {one["sheets"] for one in framed} == {str(len(framed))}
@@ -303,6 +307,16 @@ def test_no_symbol_of_a_part_stays_in_its_drawings() -> None:
     first = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3")
     last = next(i for i, one in enumerate(document.blocks) if isinstance(one, Section) and one.number == "3.7")
     assert not set(nodes(document.blocks[first:last], Symbol)) & set(case.letters["cam"])
+
+
+def test_a_letter_with_an_index_has_room_in_its_drawings() -> None:
+    """φ_cam is three times as wide as φ: it stands neither on the arrow of its axis nor off the sheet."""
+    case = coursework(TWIN)
+    widened = {str(symbol) for symbol in case.letters["cam"].values()}
+    (name, plates) = list(case.plates().items())[-1]
+    scenes = list(nodes(tuple(plates), Scene))
+    assert widened & {str(symbol) for symbol in nodes(tuple(scenes), Symbol)}, name
+    assert [one for scene in scenes for one in overlaps(scene) if one.startswith(tuple(widened))] == []
 
 
 # --- faults -----------------------------------------------------------------------------------------
@@ -381,7 +395,7 @@ def test_the_csv_of_results_has_a_file_for_each_part() -> None:
 def test_notes_on_filling_in_are_said_once() -> None:
     """A part has only what is its own: that a ratio has a sign, that an involute function needs six digits."""
     case = coursework(FOLDER / "shaper-whole.yaml")
-    text = text_of(case.task(case.key()))
+    text = text_of(task_of(case, key_of(case)))
     assert text.count("theo đơn vị của dòng") == 1
     assert text.count("Cách điền phiếu trả lời") == 1
     assert text.count("Khi điền phần này") == 3

@@ -21,7 +21,7 @@ from reportgen.classes.roster import assignment_files, beside
 from reportgen.classes.run import Order, Result, run_batch
 from reportgen.classes.variants import Variants, make_variants
 from reportgen.marking.grades import grade_rows
-from reportgen.marking.key import Ask
+from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Policy, marking_scheme, read_policy
 from reportgen.marking.sheet import read_submission
@@ -120,7 +120,7 @@ def test_a_parts_file_is_never_a_students(tmp_path: Path) -> None:
 
 
 def key_only(path: Path, *_: object) -> dict[str, bytes]:
-    return {"n": str(open_case(path).key().row("cam.swing").values[0]).encode()}
+    return {"n": str(key_of(open_case(path)).row("cam.swing").values[0]).encode()}
 
 
 @proof
@@ -149,7 +149,7 @@ def test_a_missing_or_wrong_part_is_told_where_it_stands_and_harms_nobody_else(t
         STUDENTS[1]: [(files[1].name, line, "unreadable")],
         STUDENTS[2]: [(cam_of(files[2]).name, 7, "missing-unit")],
     }
-    key = Ask().of(open_case(files[0]).key())
+    key = Ask().of(key_of(open_case(files[0])))
     (tmp_path / "sheet.xlsx").write_bytes(filled(key, {}))
     graded = grade([tmp_path / "sheet.xlsx"], tmp_path / "out", Policy(guard=False))
     assert [marking.key.id for marking in graded.markings] == [STUDENTS[0]]
@@ -170,7 +170,7 @@ def test_a_job_takes_the_files_of_the_parts_along(tmp_path: Path) -> None:
     """Its product is another one as soon as a part is; a fault of the part is told in its file."""
 
     def maker(path: Path, *_: object) -> dict[str, bytes]:
-        return {"n": str(open_case(path).key().row("cam.n").values[0]).encode()}
+        return {"n": str(key_of(open_case(path)).row("cam.n").values[0]).encode()}
 
     for name in ("shaper.yaml", "feed-cam.yaml"):
         (tmp_path / name).write_bytes((FOLDER / name).read_bytes())
@@ -189,7 +189,7 @@ def test_a_job_takes_the_files_of_the_parts_along(tmp_path: Path) -> None:
 def test_a_sheet_goes_out_comes_back_and_is_marked_by_parts(tmp_path: Path) -> None:
     (one,) = drawn(tmp_path, 1).files
     assert set(task_files(one.path, "typst", None)) == {"task.pdf", "answers.xlsx"}
-    key = Ask().of(open_case(one.path).key())
+    key = Ask().of(key_of(open_case(one.path)))
     (tmp_path / "sheet.xlsx").write_bytes(filled(key, {"cam.psi": -1.0}))
     (tmp_path / "policy.yaml").write_text("parts: {machine: 7, cam: 3}\n", encoding="utf-8")
     graded = grade([tmp_path / "sheet.xlsx"], tmp_path / "out", read_policy(tmp_path / "policy.yaml"))
@@ -217,7 +217,7 @@ def test_a_class_of_twelve(tmp_path: Path) -> None:
     """Some went wrong in the machine or in one of three parts, one has copied a cam: each is told, nobody else."""
     files = drawn(tmp_path, sample="shaper-whole").files
     assert all(len(one.parts) == 3 and all(part.is_file() for part in one.parts) for one in files)
-    keys = [Ask().of(open_case(one.path).key()) for one in files]
+    keys = [Ask().of(key_of(open_case(one.path))) for one in files]
     handed = tmp_path / "handed"
     handed.mkdir()
     wrong = {
@@ -320,7 +320,7 @@ def test_a_part_may_have_more_and_fewer_positions_than_the_machine(tmp_path: Pat
 def test_rows_of_two_parts_on_one_page_keep_their_own_positions(tmp_path: Path) -> None:
     """All pages joined to one CSV, with the columns of the longest: a label means what it means in the row's part."""
     (file,) = of_unequal_counts(tmp_path, 1)
-    key = Ask().of(open_case(file).key())
+    key = Ask().of(key_of(open_case(file)))
     (tmp_path / "sheet.xlsx").write_bytes(filled(key, {}))
     wanted = read_submission(tmp_path / "sheet.xlsx", key)
     places = sorted({k for row in key.asked for k in row.positions})
@@ -345,7 +345,7 @@ def test_a_class_of_twelve_with_unequal_counts_loses_no_mark(tmp_path: Path) -> 
     handed = tmp_path / "handed"
     handed.mkdir()
     for number, file in enumerate(files):
-        key = Ask().of(open_case(file).key())
+        key = Ask().of(key_of(open_case(file)))
         (handed / f"{key.id}.xlsx").write_bytes(filled(key, {}, figures=3 + number % 2))
     graded = grade([handed], tmp_path / "class", Policy())
     assert (graded.problems, graded.missing) == ((), ())

@@ -174,7 +174,7 @@ def _alone(row: tuple[object, ...]) -> Table:
 
 
 def _has_words(case: object, id: str) -> bool:
-    from reportgen.marking.key import phrase
+    from reportgen.report.wording import phrase
 
     return bool(phrase(id, case.printed, case.words))  # type: ignore[attr-defined]
 

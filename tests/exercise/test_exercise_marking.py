@@ -14,6 +14,7 @@ from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
+from reportgen.marking.key import key_of
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
@@ -70,7 +71,7 @@ def graded(drawn: tuple[str, Path]) -> Graded:
 
 def test_variants_differ_and_can_be_worked_out(drawn: tuple[str, Path]) -> None:
     paths = sorted((drawn[1] / "variants").glob("S*.yaml"))
-    answers = {tuple(round(float(row.values[0]), 9) for row in open_case(path).key().asked) for path in paths}
+    answers = {tuple(round(float(row.values[0]), 9) for row in key_of(open_case(path)).asked) for path in paths}
     assert len(answers) > STUDENTS / 2
 
 
@@ -91,7 +92,7 @@ def test_comparing_names_the_slip_and_no_answer(drawn: tuple[str, Path], graded:
     file = folder / "variants" / "S01.yaml"
     lines, agrees = compare(open_case(file, "en"), folder / "sheets" / "S01.xlsx", hint=True)
     assert not agrees
-    right = open_case(file, "en").key().row(SLIP[drawn[0]])
+    right = key_of(open_case(file, "en")).row(SLIP[drawn[0]])
     assert f"{float(right.values[0]):.3g}" not in "\n".join(lines)
 
 
@@ -100,7 +101,7 @@ def test_the_task_holds_no_answer(drawn: tuple[str, Path]) -> None:
     file = drawn[1] / "variants" / "S02.yaml"
     task, key = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
     texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in (task, key)]
-    rows = open_case(file, "en").key().asked
+    rows = key_of(open_case(file, "en")).asked
     shown = [write(abs(float(row.printed[0])), row.decimals, "en") for row in rows if row.decimals is not None]
     telling = [text for text in shown if len(text.replace(".", "").strip("0")) >= 4]
     assert telling
@@ -111,7 +112,7 @@ def test_the_task_holds_no_answer(drawn: tuple[str, Path]) -> None:
 def test_an_open_sense_is_said_and_any_sign_is_right() -> None:
     """Accelerations tell ω² alone (exercise 19): text, answers, key and marks have the size of ω, and ε its sign."""
     case = open_case(FOLDER / "19.yaml", "en")
-    key = case.key()
+    key = key_of(case)
     assert key.find("turn.omega.1") is None
     row = key.row("omega.1")
     assert row.open_sense

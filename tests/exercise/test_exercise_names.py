@@ -11,7 +11,7 @@ from reportgen import api
 from reportgen.exercise.case import ExerciseCase
 from reportgen.formula import vocabulary
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.key import phrase
+from reportgen.report.wording import phrase
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"
 OF_MACHINES = ("centre of percussion", "tâm va đập", "khâu", "link ")

@@ -15,8 +15,8 @@ from reportgen.base.units import write
 from reportgen.exercise.case import ExerciseCase, solution
 from reportgen.exercise.views import lettered
 from reportgen.formula import Chain
-from reportgen.marking.results import print_tables
 from reportgen.report import Document, Equation, text_of
+from reportgen.results.tables import print_tables
 from tests.lanes import matrix
 from tests.report import built
 

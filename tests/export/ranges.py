@@ -71,7 +71,11 @@ def deviations(path: Path, seed: int) -> Iterator[Deviation]:
             assert (np.isnan(own) == np.isnan(of_study)).all()
             scale = np.nanmax(np.abs(own), initial=1e-300)
             together = study.is_told(id)
-            off = float(np.nanmax(np.abs(own - of_study), initial=0.0) / scale) if scale > _nothing(alone.case, id) else 0.0
+            off = (
+                float(np.nanmax(np.abs(own - of_study), initial=0.0) / scale)
+                if scale > _nothing(alone.case, id)
+                else 0.0
+            )
             yield Deviation(path.stem, name, id, together, off)
 
 

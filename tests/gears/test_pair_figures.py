@@ -11,8 +11,9 @@ import pytest
 
 from reportgen.base.errors import AssignmentError
 from reportgen.cases import open_case
-from reportgen.formula import Chain, Number, ids
+from reportgen.formula import Chain, Number
 from reportgen.formula.ledger import Ledger
+from reportgen.gears import gears_ids
 from tests.gears.test_pair_reports import recomputes
 from tests.lanes import matrix
 
@@ -118,10 +119,10 @@ def test_what_is_printed_is_right_to_a_unit_of_its_last_decimal(seed: int, tmp_p
         ]
         g, u = expected["gears.g"], expected["gears.u"]
         along = {
-            ids.gear("rho", 1): path,
-            ids.gear("rho", 2): [g - ρ for ρ in path],
-            ids.gear("lambda", 1): [1 - (g - ρ) / (u * ρ) for ρ in path],
-            ids.gear("lambda", 2): [1 - u * ρ / (g - ρ) for ρ in path],
+            gears_ids.of_wheel("rho", 1): path,
+            gears_ids.of_wheel("rho", 2): [g - ρ for ρ in path],
+            gears_ids.of_wheel("lambda", 1): [1 - (g - ρ) / (u * ρ) for ρ in path],
+            gears_ids.of_wheel("lambda", 2): [1 - u * ρ / (g - ρ) for ρ in path],
         }
         for id, family in printed.families.items():
             if family.definition is None:

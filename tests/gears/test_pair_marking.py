@@ -117,6 +117,19 @@ def test_a_mistake_is_named_by_its_own_result(
     assert marking.out_of - marking.points == 1
 
 
+def test_a_round_value_of_a_mistake_is_no_rounded_one(tmp_path: Path) -> None:
+    """a = 200 mm exactly, a_w about 204.7 mm: a_w = a is the mistake, and not a_w in too few figures."""
+    file = tmp_path / "pair.yaml"
+    file.write_text(
+        "kind: gear-pair\nparameters: {m: 5 mm, z1: 19, z2: 61, shifts: {x1: 0.51, x2: 0.51}}\n", encoding="utf-8"
+    )
+    scheme = marking_scheme(open_case(file, "en"))
+    right = students.worked_out(scheme)
+    assert float(f"{right['gears.a_w'][0] * 1e3:.2g}") == 200
+    (first,) = mark(scheme, students.written(scheme, {**right, "gears.a_w": right["gears.a"]})).first_errors
+    assert (first.id, first.mistake) == ("gears.a_w", "gear-standard-angle")
+
+
 def test_other_ways_to_a_value_are_as_right() -> None:
     """a_w = a, then y = (a_w − a)/m = 0 and d_w = 2 a_w z/(z₁ + z₂); a wrong ρ_a1, then g_α = ρ_a1 + ρ_a2 − g.
 

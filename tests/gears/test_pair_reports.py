@@ -15,10 +15,13 @@ from reportgen.api import load
 from reportgen.base.words import sample
 from reportgen.cases import open_case, opened
 from reportgen.drawing import Label, Line, Polyline
-from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, ids, walk
+from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, walk
 from reportgen.formula.evaluation import evaluate
+from reportgen.gears import gears_ids
 from reportgen.gears.pair_case import PairCase
 from reportgen.gears.pair_drawings import mesh
+from reportgen.marking.key import key_of
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "gears").glob("pair-*.yaml"))
@@ -73,7 +76,7 @@ def test_every_value_recomputes_and_is_the_pair_s(name: str) -> None:
     pair, ledger = case.gears, case.ledger
     both = ("d", "d_b", "d_w", "d_a", "d_f", "s", "s_a", "alpha_a", "rho_a", "rho_p", "rho_f", "x_min", "x")
     for one in both:
-        values = [float(ledger[ids.gear(one, wheel)].values[0]) for wheel in (1, 2)]
+        values = [float(ledger[gears_ids.of_wheel(one, wheel)].values[0]) for wheel in (1, 2)]
         assert values == pytest.approx(list(getattr(pair, one)), rel=1e-11, abs=1e-15), one
     for id, value in (("alpha_w", pair.alpha_w), ("a_w", pair.a_w), ("epsilon", pair.epsilon), ("g", pair.path)):
         assert float(ledger[f"gears.{id}"].values[0]) == pytest.approx(float(value), rel=1e-11), id
@@ -114,7 +117,7 @@ def test_a_short_report_has_less(language: str) -> None:
 
 def test_every_row_of_the_key_has_words() -> None:
     for language in ("vi", "en"):
-        rows = pair_case("pair-equal-sliding", language).key().rows
+        rows = key_of(pair_case("pair-equal-sliding", language)).rows
         assert [row.id for row in rows if not row.what] == []
 
 
@@ -131,7 +134,7 @@ def test_the_new_file_is_in_order(language: str, tmp_path: Path) -> None:
 def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
     """The first sheet's teeth are 30 to 50 mm high; the others have the wheels 1:1, as curves."""
     case = pair_case("pair-centre-distance")
-    sheet, *wheels = case.sheets()
+    sheet, *wheels = drawing_sheets(case)
     assert sheet.name == "A2"
     for wheel, made, tip in zip((0, 1), wheels, case.gears.d_a, strict=True):
         part = next(part for part in made.parts if part.layer == "profile")
@@ -168,7 +171,7 @@ def test_large_wheels_stay_on_the_page(parameters: str, tmp_path: Path) -> None:
         for scene in figure.scenes:
             assert scene.width <= 170
             assert scene.height <= 240
-    assert case.sheets()
+    assert drawing_sheets(case)
 
 
 def is_scale(content: object) -> bool:
@@ -188,7 +191,7 @@ def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
 def test_involutes_are_worked_out_in_radians(language: str) -> None:
     """tan 20° − 0.34906585, which is true on a calculator; tan 20° − 20° is not."""
     printed = pair_case("pair-equal-sliding", language).printed
-    for id in ("gears.inv", *(ids.gear("inv_a", wheel) for wheel in (1, 2))):
+    for id in ("gears.inv", *(gears_ids.of_wheel("inv_a", wheel) for wheel in (1, 2))):
         *_, numbers, result = printed.chain(id).parts
         assert isinstance(numbers, Sum)
         assert isinstance(result, Number)

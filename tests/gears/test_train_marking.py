@@ -10,7 +10,7 @@ from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
-from reportgen.formula import ids
+from reportgen.gears import train_ids
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
@@ -20,7 +20,7 @@ from tests.marking.designs import named, telling_and_texts
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
 STUDENTS = 12
 DRAWN = {"u: 14.5": "u: {from: 8, to: 14.5, step: 0.1}", "n_in: 1440 rpm": "n_in: [960 rpm, 1440 rpm, 2880 rpm]"}
-TEETH = tuple(ids.train_teeth(wheel) for wheel in ("1", "2", "2′", "3"))
+TEETH = tuple(train_ids.teeth(wheel) for wheel in ("1", "2", "2′", "3"))
 
 
 @pytest.fixture(scope="module")

@@ -12,10 +12,14 @@ from reportgen import api
 from reportgen import report as tree
 from reportgen.cases import open_case, opened
 from reportgen.drawing import Arrow, Label, Line
-from reportgen.formula import Chain, Number, Symbol, ids, walk
+from reportgen.formula import Chain, Number, Symbol, walk
 from reportgen.formula.evaluation import evaluate
+from reportgen.gears import train_ids
 from reportgen.gears.train import turned
 from reportgen.gears.train_drawings import velocity_triangles
+from reportgen.marking.key import key_of
+from reportgen.results import results as results_of
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 
 FILES = sorted((Path(__file__).parents[2] / "assignments" / "gears").glob("train-*.yaml"))
@@ -85,7 +89,7 @@ def test_every_cell_of_the_candidates_recomputes(name: str) -> None:
 def test_rates_hold_to_rolling(name: str) -> None:
     """Without slip: in both meshes the rims move equally fast, that of wheel 3 not at all; and all satellites fit."""
     case = case_of(name)
-    ω = {wheel: float(case.ledger[ids.train_omega(wheel)].at(1)) for wheel in ("1", "2", "H")}
+    ω = {wheel: float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H")}
     z, m, m2 = case.train.teeth, case.given.m.si, case.given.second_module.si
     s1, s3 = case.scheme.signs
     a = m * abs(z.one - s1 * z.two) / 2
@@ -123,17 +127,17 @@ def test_the_triangles_measure_as_they_say(name: str) -> None:
 
     for place in "AB":
         drawn = (arrows[f"{place}{place.lower()}"].end - arrows[f"{place}{place.lower()}"].start).real
-        assert drawn == pytest.approx(shown(ids.train_line(place)), abs=0.01)
+        assert drawn == pytest.approx(shown(train_ids.line(place)), abs=0.01)
     step = shown("train.mu.omega") * 0.01
     lines = [item for item in velocity_triangles(case).items if isinstance(item, Line)]
     for wheel in ("1", "2", "H"):
         ray = arrows[f"s{wheel}"].end - arrows[f"s{wheel}"].start
         assert ray.imag == pytest.approx(shown("train.pole"))
-        assert ray.real == pytest.approx(shown(ids.train_segment(wheel)), abs=0.01)
+        assert ray.real == pytest.approx(shown(train_ids.segment(wheel)), abs=0.01)
         # It has the figures that the drawing gives: half a unit of the last is its rounding.
-        read = printed.number(ids.train_read(wheel))
+        read = printed.number(train_ids.read(wheel))
         assert read.half_unit > step / 4
-        assert read.shown == pytest.approx(shown(ids.train_omega(wheel)), abs=step + read.half_unit)
+        assert read.shown == pytest.approx(shown(train_ids.omega(wheel)), abs=step + read.half_unit)
         # Each ray is parallel to a line of the triangles.
         along = [(line.end - line.start) / abs(line.end - line.start) for line in lines if line.end != line.start]
         assert min(abs((ray / abs(ray) / one).imag) for one in along) < 1e-9
@@ -150,21 +154,21 @@ def test_a_short_report_has_less(language: str) -> None:
 def test_words_page_sheet_and_results(name: str) -> None:
     """No row of a key is without words; the page, the sheet and the results come of it."""
     for language in ("vi", "en"):
-        rows = case_of(name, language).key().rows
+        rows = key_of(case_of(name, language)).rows
         assert [row.id for row in rows if not row.what] == []
     case = case_of(name)
     (animation,) = case.animations()
     assert math.isclose(animation.knots[-1], 360)
-    (sheet,) = case.sheets()
+    (sheet,) = drawing_sheets(case)
     # On the sheet, too, a length is what the scale below it says, whatever that is in the report.
     plan = next(part.scene for part in sheet.parts for item in part.scene.items if getattr(item, "name", "") == "Aa")
     (drawn,) = (item.end - item.start for item in plan.items if getattr(item, "name", "") == "Aa")
     notes = [item.content.parts for item in plan.items if isinstance(item, Label) and isinstance(item.content, Chain)]
     scale = {symbol.base + symbol.sub[:1]: number.value for symbol, number in notes}
-    assert drawn.real * scale["μv"] == pytest.approx(MM * case.ledger[ids.train_velocity("A")].at(1), rel=1e-3)
+    assert drawn.real * scale["μv"] == pytest.approx(MM * case.ledger[train_ids.velocity("A")].at(1), rel=1e-3)
     segments = {item.name: (item.end - item.start).real for item in plan.items if getattr(item, "name", "")[:1] == "s"}
     for wheel in ("1", "2", "H"):
-        ω = case.ledger[ids.train_omega(wheel)].at(1)
+        ω = case.ledger[train_ids.omega(wheel)].at(1)
         assert segments[f"s{wheel}"] * scale["μω"] == pytest.approx(ω, rel=5e-3, abs=1e-9)
     for part in sheet.parts:
         low, high = part.box
@@ -172,7 +176,7 @@ def test_words_page_sheet_and_results(name: str) -> None:
         assert high.real <= sheet.width
         assert low.imag >= 0
         assert high.imag <= sheet.height
-    results = case.results()
+    results = results_of(case)
     assert results["train"]["z"] == [*case.train.teeth]
     assert results["found"] == len(results["sets"]) == len(case.choice.sets)
 

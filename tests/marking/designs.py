@@ -11,6 +11,7 @@ from reportgen import api
 from reportgen.base.units import write
 from reportgen.cases import open_case
 from reportgen.formula.evaluation import evaluate
+from reportgen.marking.key import key_of
 from reportgen.marking.marks import MarkingScheme
 from reportgen.marking.mistakes import Mistake
 
@@ -33,7 +34,7 @@ def telling_and_texts(file: Path) -> tuple[list[str], list[str]]:
     """The numbers asked for that have four figures, and the texts of task and key."""
     pdfs = api.task_files(file, "typst", "en")["task.pdf"], api.key_files(file, "typst", "en", ("pdf",))["key.pdf"]
     texts = ["".join(page.get_text() for page in pymupdf.open(stream=pdf)) for pdf in pdfs]
-    rows = open_case(file, "en").key().asked
+    rows = key_of(open_case(file, "en")).asked
     shown = [
         write(abs(float(row.printed[row.at(k)])), row.decimals, "en")
         for row in rows

@@ -13,9 +13,9 @@ from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.key import EVERYTHING, Ask
+from reportgen.marking.key import EVERYTHING, Ask, key_of
 from reportgen.marking.marks import Policy, Scale, Verdict, marking_scheme, read_policy
-from reportgen.marking.paper import answer_tables
+from reportgen.marking.paper import answer_tables, task_of
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import PageBreak, text_of
 from reportgen.report.key import Key
@@ -67,9 +67,9 @@ def test_paper_and_file_ask_for_the_same(tmp_path: Path) -> None:
 
 def test_each_section_can_be_printed_by_itself(tmp_path: Path) -> None:
     case = open_case("assignments/slider-crank-01.yaml", "en")
-    asked = Ask().of(case.key())
+    asked = Ask().of(key_of(case))
     sections = len({row.part for row in asked.asked})
-    plain, parted = (case.task(asked, by_section) for by_section in (False, True))
+    plain, parted = (task_of(case, asked, by_section) for by_section in (False, True))
     breaks = [sum(isinstance(block, PageBreak) for block in tree.blocks) for tree in (plain, parted)]
     assert breaks[1] - breaks[0] == sections - 1
     path = tmp_path / "sheet.xlsx"
@@ -180,9 +180,9 @@ def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
 @pytest.mark.parametrize(("language", "enter"), [("en", "enter them"), ("vi", "hãy ghi vào phiếu")])
 def test_a_task_speaks_of_scales_only_where_they_are_asked_for(language: Language, enter: str) -> None:
     case = open_case("assignments/slider-crank-01.yaml", language)
-    full = case.key()
-    assert enter in text_of(case.task(full))
-    assert enter not in text_of(case.task(Ask().of(full)))
+    full = key_of(case)
+    assert enter in text_of(task_of(case, full))
+    assert enter not in text_of(task_of(case, Ask().of(full)))
 
 
 def test_a_pattern_that_fits_nothing_is_a_located_fault(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from reportgen.cases import open_case
 from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
-from reportgen.marking.key import EVERYTHING, Ask
+from reportgen.marking.key import EVERYTHING, Ask, key_of
 from reportgen.marking.marking import compare
 from reportgen.marking.marks import Policy, read_policy
 from reportgen.marking.mistakes import WRONG_DATUM
@@ -196,7 +196,7 @@ def test_comparing_an_empty_or_right_sheet(assignments: Path, tmp_path: Path) ->
     lines, agrees = compare(open_case(file, "en"), demo.SHEETS / "K225520103001.xlsx")
     assert (agrees, len(lines)) == (True, 1)
     empty = tmp_path / "empty.csv"
-    empty.write_bytes(write_csv(csv_rows(open_case(file).key())))
+    empty.write_bytes(write_csv(csv_rows(key_of(open_case(file)))))
     lines, agrees = compare(open_case(file, "en"), empty)
     assert agrees
     assert "still missing" in lines[0]

@@ -12,6 +12,7 @@ from openpyxl import load_workbook
 from reportgen import catalogue
 from reportgen.base.units import Language
 from reportgen.cases import MachineCase, open_case
+from reportgen.marking.key import key_of
 from reportgen.marking.key_files import band, key_book, key_data, key_document, key_rows
 from reportgen.marking.sheet import read_submission
 from reportgen.report import Table, Text, text_of
@@ -70,7 +71,7 @@ def test_a_band_that_is_nothing_beside_its_row_is_nothing() -> None:
 @pytest.mark.parametrize("name", ["slider-crank-01", "engine-twin-05", "linkage-slide"])
 def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it(name: str) -> None:
     case = built.case(built.ROOT / "assignments" / f"{name}.yaml", "en")
-    key = case.key()
+    key = key_of(case)
     tree = key_document(key, case.title)
     tables = [block for block in tree.blocks if isinstance(block, Table)]
     assert all(sum(column.width for column in table.columns) < 160.001 for table in tables)
@@ -88,7 +89,7 @@ def test_the_document_has_every_quantity_at_every_position_on_pages_that_hold_it
 
 def test_of_very_many_positions_the_document_has_some_with_all_that_are_asked_and_the_csv_every_one() -> None:
     case = MachineCase(catalogue.load(Path("assignments/slider-crank-01.yaml"), "en").with_positions(100))
-    key = case.key()
+    key = key_of(case)
     tree = key_document(key, case.title)
     by_position = [block for block in tree.blocks if isinstance(block, Table) and len(block.head) == 2]
     assert by_position
@@ -108,7 +109,7 @@ def test_an_endless_angle_has_hundredths_and_a_typed_number_all_its_figures(tmp_
     text = re.sub("  firing: .*", "", text)
     file = tmp_path / "a.yaml"
     file.write_text(text, encoding="utf-8")
-    _, *rows = key_rows(open_case(file, "en").key())
+    _, *rows = key_rows(key_of(open_case(file, "en")))
     shown = {(row[0], row[5]): row[6] for row in rows}
     assert [shown["phi.1", position] for position in "128"] == [77.7, 129.13, 437.7]
     assert shown["s", ""] == 0.3512345678

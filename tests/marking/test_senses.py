@@ -16,6 +16,7 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, MarkingScheme, Verdict, marking_scheme
 from reportgen.report.key import KeyRow
+from reportgen.results import results as results_of
 from tests.lanes import matrix
 from tests.marking import students
 
@@ -41,7 +42,7 @@ def opened(name: str) -> tuple[MarkingScheme, list[Position]]:
     assignment = students.assignment(name, WORKED).with_language("en")
     case = MachineCase(assignment)
     fixed = {name: {"p": [at.real, at.imag]} for name, at in case.analysis.machine.linkage.ground.items()}
-    positions = case.results()["positions"]
+    positions = results_of(case)["positions"]
     return marking_scheme(case), [{**one, "points": {**fixed, **one["points"]}} for one in positions]
 
 

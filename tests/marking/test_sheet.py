@@ -12,7 +12,8 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.units import Language, write
-from reportgen.marking.paper import answer_tables
+from reportgen.marking.key import key_of
+from reportgen.marking.paper import answer_tables, task_of
 from reportgen.marking.sheet import answer_book, number_format
 from reportgen.report import Document, Table, plain, text_of
 from reportgen.report.key import Key, Role
@@ -96,8 +97,8 @@ def test_paper_does_not_tell_where_a_direction_does_not_exist() -> None:
 
 def handout(name: str, language: Language) -> tuple[Key, Document]:
     case = built.case(built.ROOT / "assignments" / f"{name}.yaml", language)
-    key = case.key()
-    return key, case.task(key)
+    key = key_of(case)
+    return key, task_of(case, key)
 
 
 NAMES = ("engine-twin-05", "slider-crank-01", "shaper-01", "linkage-8", "linkage-slide", "four-bar-01")

@@ -13,6 +13,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words, search_path
 from reportgen.cases import open_case
 from reportgen.formula import vocabulary
+from reportgen.marking.key import key_of
 from reportgen.marking.paper import answer_tables
 from reportgen.marking.sheet import answer_book
 from reportgen.report import plain
@@ -34,7 +35,7 @@ ALL = matrix([*FILES, *DESIGNS], [*TELLING, *TELLING_DESIGNS])
 @cache
 def key(name: str, language: Language) -> Key:
     path = students.ASSIGNMENTS / f"{name}.yaml"
-    return built.case(path, language).key() if "/" not in name else open_case(path, language).key()
+    return key_of(built.case(path, language)) if "/" not in name else key_of(open_case(path, language))
 
 
 @pytest.mark.parametrize("name", ALL)

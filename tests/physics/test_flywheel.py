@@ -18,7 +18,7 @@ from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.flywheel import RegulatedCycle, accumulated, flywheel, reduced_inertia, regulate
-from reportgen.machine.loads import FULL_TURN
+from reportgen.machine.laws import FULL_TURN
 from reportgen.plans import write_ledger
 from reportgen.report.curves import wittenbauer
 from reportgen.report.report import Report
@@ -59,7 +59,7 @@ def acting(machine: Machine, angle: np.ndarray, constant: float) -> np.ndarray:
         fall = there.points[body.centre].v * np.conj(machine.linkage.gravity)
         total += body.mass * fall.real / machine.speed
     for force in machine.applied:
-        along = (np.conj(force.direction) * there.points[force.point].v).real
+        along = (np.conj(force.direction(there)) * there.points[force.point].v).real
         total += force.law.value(angle, there) * along / machine.speed
     for torque in machine.torques:
         total += torque.law.value(angle, there) * there.links[torque.link].omega / machine.speed

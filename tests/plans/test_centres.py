@@ -8,6 +8,7 @@ from books import MACHINES, keep
 
 from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
+from reportgen.marking.key import key_of
 from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
 from reportgen.report.equations import lines
@@ -68,7 +69,7 @@ def test_a_slot_on_a_fixed_pin_turns_about_the_corner_of_a_rectangle() -> None:
 def test_a_velocity_that_is_nothing_has_no_angle_with_the_link() -> None:
     """At its dead centres a slider stands still: the key has no angle there, and no line reckons with one."""
     case = built.case(built.ROOT / "assignments" / "slider-crank-01.yaml", "en")
-    rows = {row.id: row for row in case.key().rows}
+    rows = {row.id: row for row in key_of(case).rows}
     angle, still = rows["ic.angle.2.C"].values, case.printed["v.C"].values == 0
     assert still.any()
     np.testing.assert_array_equal(np.isnan(angle), still)

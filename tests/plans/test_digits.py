@@ -16,7 +16,7 @@ from tests.plans.printed import MEDIAN, SHARE, differences, largest
 from tests.plans.random_variants import cases
 from tests.report import built
 
-VARIANTS, FEW = 50, 2
+VARIANTS, FEW = 20, 2
 FIGURES = 5
 """Of a computed quantity's largest value."""
 GIVEN_WITH = {"segment": 2, "angle": 2, "direction": 1, "count": 0, "sign": 0}

@@ -14,10 +14,12 @@ from reportgen.base.words import templates
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.classes.variants import make_variants
 from reportgen.cli import app
+from reportgen.marking.key import key_of
+from reportgen.marking.paper import task_of
 from reportgen.report import Contents, Document, Figure, Plate, Section, Table, plain
 from reportgen.report.numbering import unreferenced
 from reportgen.report.report import LEFT_OUT, Report
-from reportgen.sheets import plates_by_set
+from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix
 from tests.report.built import FILES, MARKS, ROOT, SAMPLE, assignment
 
@@ -169,7 +171,7 @@ def test_the_task_says_which_extent_is_asked() -> None:
     for extent in ("full", "short"):
         one = case("shaper-01", extent)
         words = one.words["extents"][extent]
-        task = one.task(one.key())
+        task = task_of(one, key_of(one))
         sentences.append(words)
         assert any(words in plain(getattr(block, "inlines", ()), "vi") for block in task.blocks)
     assert sentences[0] != sentences[1]
@@ -219,4 +221,4 @@ def test_sheets_show_what_the_report_has() -> None:
     names = case("engine-twin-05", "short").words["plates"]
     assert titles[0] - titles[1] == {names[one] for one in ("velocity-plates", "acceleration-plates", "motion")}
     assert names["torque"] in titles[1]
-    assert case("engine-twin-05", "short").sheets("A1")
+    assert drawing_sheets(case("engine-twin-05", "short"), "A1")

@@ -13,6 +13,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import NotOfferedError
+from reportgen.report import Listing
 from tests.lanes import matrix
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -41,6 +42,24 @@ def tabulated(folder: Path, program: Path) -> dict[str, np.ndarray]:
             for name, cell in zip(names, cells, strict=True):
                 found[name].append(float(cell))
     return {name: np.array(values) for name, values in found.items()}
+
+
+def test_no_word_of_others_is_run(tmp_path: Path) -> None:
+    """What a school says in several lines is a comment in one."""
+    ours = tmp_path / "ours" / "en.md"
+    ours.parent.mkdir()
+    ours.write_text(
+        '%% words\nlisting: ["a {machine}\\nraise SystemExit(1)", b, c, d]\ngiven: {l.AB: "e\\nraise SystemExit(2)"}\n',
+        encoding="utf-8",
+    )
+    text = (ASSIGNMENTS / "slider-crank-01.yaml").read_text(encoding="utf-8")
+    file = tmp_path / "mine.yaml"
+    file.write_text(text.replace("  language: vi", "  language: en\n  templates: ours"), encoding="utf-8")
+    (listing,) = [one for one in api.document(api.load(file).with_listing()).blocks if isinstance(one, Listing)]
+    program = tmp_path / "report.py"
+    program.write_text("\n".join(listing.lines), encoding="utf-8")
+    assert listing.lines[0] == "# a Slider-crank mechanism raise SystemExit(1)"
+    assert tabulated(tmp_path, program)
 
 
 def of_link(number: int, rate: str) -> Callable[[Results], list[float]]:

@@ -14,6 +14,8 @@ from jinja2 import Environment, meta, nodes
 from reportgen import api
 from reportgen.base.words import SAMPLE, SECTION, load_words, search_path, sections, templates
 from reportgen.cases import opened
+from reportgen.marking.key import key_of
+from reportgen.marking.paper import task_of
 from reportgen.report import Block
 from reportgen.report import outline as namespace
 from reportgen.report.prose import GLOBALS, Prose, _environment
@@ -77,7 +79,7 @@ def handed(file: str) -> set[str]:
 
     with mock.patch.object(Prose, "render", noted):
         case.document()
-        case.task(case.key())
+        task_of(case, key_of(case))
     return found
 
 

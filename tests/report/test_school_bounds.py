@@ -15,7 +15,10 @@ from reportgen.base.errors import TemplateError
 from reportgen.base.limits import PATIENCE, TEMPLATES, Limits
 from reportgen.base.units import Language
 from reportgen.base.words import templates
+from reportgen.marking.key import key_of
+from reportgen.marking.paper import task_of
 from reportgen.report import text_of
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix, proof
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
@@ -165,10 +168,10 @@ def test_a_section_that_is_there_twice_is_told_with_its_file(school: School) -> 
 def test_a_task_and_an_exercise_are_bounded_too(school: School) -> None:
     case = api.open_case(school("%% task\n{{ ''.__class__ }}\n"))
     with pytest.raises(TemplateError, match=r"ours/en\.md:2: .*may not use"):
-        case.task(case.key())
+        task_of(case, key_of(case))
     case = api.open_case(school("%% exercise-task\n{{ ''.__class__ }}\n", sample=EXERCISE))
     with pytest.raises(TemplateError, match=r"ours/en\.md:2: .*may not use"):
-        case.task(case.key())
+        task_of(case, key_of(case))
 
 
 @pytest.mark.parametrize("path", sorted(ASSIGNMENTS.glob("*.yaml")), ids=lambda path: path.stem)
@@ -257,8 +260,8 @@ def _pages(file: Path) -> None:
     """All that is made with the words of a school."""
     case = api.open_case(file)
     case.document()
-    case.task(case.key())
-    case.sheets()
+    task_of(case, key_of(case))
+    drawing_sheets(case)
 
 
 FORMED = {"en": "another form", "vi": "không cùng dạng"}

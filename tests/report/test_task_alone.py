@@ -12,6 +12,8 @@ import yaml
 from reportgen import api
 from reportgen.base.units import Language
 from reportgen.cases import open_case
+from reportgen.marking.key import key_of
+from reportgen.marking.paper import task_of
 from tests.lanes import matrix
 from tests.report import built, exercise_reader
 from tests.report.task_reader import file_of
@@ -131,7 +133,7 @@ def test_the_printed_exercise_gives_the_same_results(path: Path, tmp_path: Path)
 def compare(path: Path, folder: Path, tolerance: float = SHORT) -> None:
     """The results of a file, and of the one that its English task states."""
     case = open_case(path, "en")
-    text = told(case.task(case.key()))
+    text = told(task_of(case, key_of(case)))
     kind = case.assignment.kind
     stated = exercise_reader.file_of(text) if kind == "plane-motion" else file_of(kind, text)
     written = folder / "stated.yaml"
@@ -150,6 +152,6 @@ def compare(path: Path, folder: Path, tolerance: float = SHORT) -> None:
 def test_task_data_and_section_tell_of_a_constant_force(language: Language, words: str) -> None:
     """50 N along the guide, away from the crank, on the way inward: against the motion."""
     case = open_case(built.ROOT / "assignments" / "slider-crank-02.yaml", language)
-    assert told(case.task(case.key())).count(words) == 1
+    assert told(task_of(case, key_of(case))).count(words) == 1
     # In the assignment and in section 2.1.
     assert told(case.document()).count(words) == 2

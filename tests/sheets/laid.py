@@ -9,6 +9,7 @@ from typing import Any
 
 from reportgen.cases import open_case
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene
+from reportgen.sheets import drawing_sheets
 from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, read_block
 
 ROOT = Path(__file__).parents[2]
@@ -35,7 +36,7 @@ def opened(name: str) -> Any:
 @cache
 def laid(name: str, size: str, every: bool = False) -> Laid:
     """The sheets of an assignment."""
-    return Laid(opened(name), opened(name).sheets(size, every=every))
+    return Laid(opened(name), drawing_sheets(opened(name), size, every=every))
 
 
 @cache

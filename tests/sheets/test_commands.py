@@ -20,6 +20,7 @@ from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.drawing import Label
 from reportgen.drawing.geometry import frame
+from reportgen.sheets import drawing_sheets
 from reportgen.sheets.dxf import MText
 from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, fields_of, frame_scene, read_block
 from tests.classes.classes import here, write_class
@@ -205,7 +206,7 @@ def test_a_sheet_is_designated_by_the_file_or_by_course_variant_and_number(
 
 def test_further_sheets_have_their_own_form() -> None:
     """ГОСТ 2.104: form 1 of 55 mm, form 2a of 15 mm, columns of 145 and 120 mm beside both."""
-    sheets = open_case(ROOT / "assignments" / "four-bar-01.yaml").sheets("A1", block=blocks()["gost"])
+    sheets = drawing_sheets(open_case(ROOT / "assignments" / "four-bar-01.yaml"), "A1", block=blocks()["gost"])
     heights = [next(part.scene.height for part in one.parts if part.name == "title block") for one in sheets]
     assert heights == [55, 15]
     for one in sheets:

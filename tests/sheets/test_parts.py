@@ -14,9 +14,12 @@ from reportgen.cam.solved import SolvedCam
 from reportgen.cases import open_case
 from reportgen.drawing import Label, Polyline, Scene
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.formula import Chain, Number, Symbol, ids
+from reportgen.formula import Chain, Number, Symbol
+from reportgen.gears import train_ids
 from reportgen.gears.train_solution import pole_distance
+from reportgen.marking.key import key_of
 from reportgen.report.case import Case
+from reportgen.sheets import drawing_sheets
 from tests.lanes import matrix
 from tests.sheets.laid import ROOT
 
@@ -38,7 +41,7 @@ def opened(name: str) -> Case:
 
 @cache
 def sheets(name: str, size: str = "") -> list[DrawingSheet]:
-    return opened(name).sheets(size)
+    return drawing_sheets(opened(name), size)
 
 
 def framed(name: str, size: str = "") -> list[DrawingSheet]:
@@ -48,7 +51,7 @@ def framed(name: str, size: str = "") -> list[DrawingSheet]:
 def of_parts(name: str, size: str = "") -> list[DrawingSheet]:
     """The sheets of a design, or of the parts of a coursework: those of its machine come first."""
     case = opened(name)
-    machine = len(case.parts["machine"].sheets(size)) if case.parts else 0
+    machine = len(drawing_sheets(case.parts["machine"], size)) if case.parts else 0
     return framed(name, size)[machine:]
 
 
@@ -75,6 +78,7 @@ def test_every_scale_is_a_standard_one(name: str) -> None:
                 number = chain.parts[1]
                 assert isinstance(number, Number)
                 assert is_standard(number.value), chain
+                assert not number.unit[0].isdigit(), "0,04 1/mm reads as 0,041"
                 met += 1
     assert met
 
@@ -169,6 +173,6 @@ def test_the_pole_of_angular_velocities_gives_a_standard_scale(rate: float, wide
 def test_no_mark_of_a_part_hangs_on_the_scale_of_a_drawing() -> None:
     """What a part's key asks for is computed, so no band has an error of measuring that a scale could change."""
     for name in ("cam/roller-01", "gears/train-double", "gears/pair-equal-sliding"):
-        assert all(np.nanmax(row.drawn, initial=0.0) == 0 for row in opened(name).key().rows)
+        assert all(np.nanmax(row.drawn, initial=0.0) == 0 for row in key_of(opened(name)).rows)
     # What is measured on the machine's sheets has the scales of the report, from which its bands come.
-    assert ids.train_scale("l") not in {row.id for row in opened("gears/train-double").key().rows}
+    assert train_ids.scale("l") not in {row.id for row in key_of(opened("gears/train-double")).rows}

@@ -1,18 +1,11 @@
-"""The results of an analysis as plain data (format reportgen-results/1), and as tables on a terminal.
-
-The data are in SI units and radians, unrounded, and beside them what the report prints, in its units; the tables have a
-row for each position by its label, and vectors by their size.
-"""
+"""Results as tables on a terminal: a row for each position by its label, vectors by their size."""
 
 from __future__ import annotations
 
-import json
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
-
-import numpy as np
 
 from reportgen.base.units import (
     LARGE,
@@ -26,126 +19,6 @@ from reportgen.base.units import (
 )
 from reportgen.base.words import word
 from reportgen.formula import ids
-from reportgen.formula.ledger import Ledger
-from reportgen.machine import Crank
-from reportgen.machine.analysis import Analysis
-from reportgen.machine.forces import Load
-from reportgen.report.case import LoadedAssignment, MachineAnalysis
-from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
-
-FORMAT = "reportgen-results/1"
-
-
-def results(case: LoadedAssignment, positions: list[Any], **more: Any) -> dict[str, Any]:
-    """The contract's JSON object of a case: one entry a position, null where it cannot be reached; `more` before it."""
-    about = {"format": FORMAT, "kind": case.assignment.kind, "variant": case.assignment.variant, "units": "SI"}
-    return {**about, **more, "positions": positions}
-
-
-def printed_values(written: Ledger) -> dict[str, Any]:
-    """By id the unit, the decimals (null: as typed) and the values that a report prints, one or one per position."""
-    return {
-        id: {
-            "unit": family.how.unit,
-            "decimals": written.decimals[id],
-            "values": [_finite(written.quantity(id, k + 1).number.shown) for k in range(len(family.values))],
-        }
-        for id, family in written.families.items()
-        if not (family.hidden or family.is_plane)
-    }
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
-def machine_results(case: MachineAnalysis) -> dict[str, Any]:
-    """The object of a machine, an entry a position."""
-    analysis = case.analysis
-    signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
-    return results(case, [_position(analysis, k) for k in range(len(analysis.cycle_angle))], dyad_signs=signs)
-
-
-def _position(analysis: Analysis, k: int) -> dict[str, Any] | None:
-    motion, linkage = analysis.motion, analysis.machine.linkage
-    crank = isinstance(linkage.driver, Crank)
-    if not motion.reachable[k]:
-        return None
-    entry: dict[str, Any] = {
-        "number": k + 1,
-        **({"label": analysis.machine.labels[k]} if analysis.machine.labels else {}),
-        "crank_angle": float(motion.driver[k]),
-        **({} if crank else {"driver_way": float(abs(motion.driver[k] - analysis.machine.start))}),
-        "cycle_angle": float(analysis.cycle_angle[k]),
-        "points": {
-            name: {"p": pair(point.p[k]), "v": pair(point.v[k]), "a": pair(point.a[k])}
-            for name, point in motion.points.items()
-            if name not in linkage.ground
-        },
-        "links": {
-            str(number): {
-                "angle": float(motion.links[number].angle[k]),
-                "omega": float(motion.links[number].omega[k]),
-                "epsilon": float(motion.links[number].epsilon[k]),
-            }
-            for number in linkage.links
-        },
-    }
-    if not analysis.loads:
-        return entry
-    entry["loads"] = _applied(analysis, k)
-    entry["weights"] = _loads(analysis.weights, k)
-    entry["inertia"] = _loads(analysis.inertia, k)
-    if analysis.gas:
-        entry["pressures"] = {f"p{gas.piston.link}": float(gas.pressure[k]) for gas in analysis.gas.values()}
-    reactions = analysis.forces.reactions.items()
-    entry["reactions"] = {name: pair(reaction.force[k]) for name, reaction in reactions}
-    entry["reactions_in_guides"] = {
-        name: {"moment": float(reaction.moment[k]), "point": pair(reaction.point[k])}
-        for name, reaction in reactions
-        if _slides(analysis, name)
-    }
-    entry["balancing_torque" if crank else "balancing_force"] = {
-        "equilibrium": float(analysis.torque[k]),
-        "virtual_work": float(analysis.torque_by_work[k]),
-    }
-    return entry
-
-
-def _applied(analysis: Analysis, k: int) -> dict[str, Any]:
-    """Forces as [x, y]; a torque, which has no force, as it is in `weights` and `inertia`."""
-    torques = {torque.name for torque in analysis.machine.torques}
-    forces = {load.name: pair(load.force[k]) for load in analysis.applied if load.name not in torques}
-    return {**forces, **_loads(tuple(load for load in analysis.applied if load.name in torques), k)}
-
-
-def _loads(loads: tuple[Load, ...], k: int) -> Mapping[str, Any]:
-    return {
-        load.name: {"force": pair(load.force[k]), "point": pair(load.point[k]), "couple": float(load.couple[k])}
-        for load in loads
-    }
-
-
-def _slides(analysis: Analysis, name: str) -> bool:
-    """Whether a reaction acts in a prismatic joint."""
-    pair = _links(name)
-    return pair in analysis.motion.slides or pair[::-1] in analysis.motion.slides
-
-
-def _links(name: str) -> tuple[int, int]:
-    """The two links of a reaction, the acting one first."""
-    found = ids.reaction_force.read(name)
-    assert found is not None, f"{name} is no reaction"
-    one, other = ids.linked(found["joint"])
-    return int(one), int(other)
-
-
-def pair(value: complex) -> list[float] | None:
-    """[x, y], or null for a point that does not exist."""
-    if not np.isfinite(value):
-        return None
-    return [float(np.real(value)), float(np.imag(value))]
-
 
 DIGITS = 5
 NOTHING = 1e-9
@@ -248,7 +121,7 @@ def _once(reactions: Row) -> Row:
     """Each pair R_ij, R_ji once: their sizes are the same."""
     shown: Row = {}
     for name, size in reactions.items():
-        if ids.reaction_force(ids.joint(*reversed(_links(name)))) not in shown:
+        if ids.reaction_force(ids.joint(*reversed(ids.links_of(name)))) not in shown:
             shown[name] = size
     return shown
 
@@ -325,52 +198,3 @@ def _scales(
     largest["ε"] = max(largest["ε"], largest["ω"] ** 2)
     largest["torque"] = max(largest["torque"], largest["force"] * max((_size(p) or 0.0 for p in places), default=0.0))
     return {column: largest[scale] if scale else 0.0 for column, scale in columns.items()}
-
-
-# --- results as files -----------------------------------------------------------------------------
-# A row a position, a column each number, under the names that the JSON has for them.
-# A number's column is the way to it in a position of `reportgen-results/1`: `points.B.v.x`, `links.2.omega`.
-
-Cell = str | float | None
-AXES = ("x", "y")
-WIDTH = 16.0
-"""Of a column, in characters."""
-
-
-def result_file(results: Mapping[str, Any], format: str) -> bytes:
-    """The bytes of results as csv, xlsx or json; csv, which has one table, without the parts of a coursework."""
-    if format == "json":
-        return (json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
-    if format == "csv":
-        return write_csv(result_rows(results))
-    name = f"{results['kind']} {results['variant']}".strip()
-    pages = [_result_page(called, one) for called, one in {name: results, **results.get("parts", {})}.items()]
-    return write_xlsx(Book(pages, name))
-
-
-def _result_page(name: str, results: Mapping[str, Any]) -> BookSheet:
-    rows = result_rows(results)
-    return BookSheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1))
-
-
-def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
-    """The heads, then each position; one that cannot be reached has its number alone."""
-    rows = [
-        {"number": float(index)} if position is None else dict(_leaves(position))
-        for index, position in enumerate(results["positions"], start=1)
-    ]
-    heads = list(dict.fromkeys(head for row in rows for head, value in row.items() if value is not None))
-    return [list(heads), *([row.get(head) for head in heads] for row in rows)]
-
-
-def _leaves(value: Any, way: str = "") -> Iterator[tuple[str, Cell]]:
-    """The numbers and texts of an entry with the ways to them; a pair is a vector of the plane."""
-    match value:
-        case Mapping():
-            for name, inner in value.items():
-                yield from _leaves(inner, f"{way}.{name}" if way else str(name))
-        case list():
-            for axis, part in zip(AXES, value, strict=True):
-                yield f"{way}.{axis}", part
-        case _:
-            yield way, value

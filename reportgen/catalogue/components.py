@@ -1,0 +1,66 @@
+"""Plane vectors in formulas, by their components along x and y.
+
+e is the unit vector at an angle, n = ie the one square to it, 90° anticlockwise.
+"""
+
+from __future__ import annotations
+
+import math
+
+from reportgen.formula import NOTHING, Expression, Number, cosine, minus, plus, sine, times
+
+Pair = tuple[Expression, Expression]
+"""A vector by its components."""
+STILL: Pair = (NOTHING, NOTHING)
+
+
+def add(*vectors: Pair) -> Pair:
+    return plus(*(x for x, _ in vectors)), plus(*(y for _, y in vectors))
+
+
+def less(p: Pair, q: Pair) -> Pair:
+    return add(p, (minus(q[0]), minus(q[1])))
+
+
+def scaled(factor: Expression, vector: Pair) -> Pair:
+    return times(factor, vector[0]), times(factor, vector[1])
+
+
+def turned(vector: Pair) -> Pair:
+    """The vector turned by 90° anticlockwise."""
+    return minus(vector[1]), vector[0]
+
+
+# --- directions -----------------------------------------------------------------------------------
+
+
+def degrees(angle: float) -> Number:
+    """A typed angle (rad) as it stands in a formula."""
+    return Number(as_typed(math.degrees(angle)), unit="°")
+
+
+def as_typed(value: float) -> float:
+    """A number without the dust of its conversion to SI."""
+    return float(f"{value:.13g}") + 0.0
+
+
+def along(angle: Expression) -> Pair:
+    """The unit vector e at an angle."""
+    return cosine(angle), sine(angle)
+
+
+def on(vector: Pair, angle: Expression) -> Expression:
+    """The projection on e at an angle."""
+    e = along(angle)
+    return plus(times(vector[0], e[0]), times(vector[1], e[1]))
+
+
+def across(vector: Pair, angle: Expression) -> Expression:
+    """The projection on n, square to e at an angle."""
+    e = along(angle)
+    return plus(times(vector[1], e[0]), minus(times(vector[0], e[1])))
+
+
+def typed(place: complex) -> Pair:
+    """A typed place (m) as it stands in formulas."""
+    return Number(as_typed(place.real)), Number(as_typed(place.imag))

@@ -1,0 +1,416 @@
+"""Laws of loads: how the size of a force or torque varies over the cycle, and all that is said of it.
+
+Angles are the driver's turn in the direction of rotation; a course counts them from its `top`, the dead centre
+where crank and rod are stretched in one line.  A table of one turn is laid out twice, as a cycle of two: so gas in
+four strokes and a working force of two share one reader (`machine.gas`), whose values are then newtons instead
+of pascals.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from reportgen.formula import Expression, Symbol, ids
+from reportgen.formula.sheet import Sheet
+from reportgen.machine.gas import AngleIndicator, Indicator, StrokeIndicator, Tabled, crossings
+from reportgen.machine.motion import Motion
+
+Floats = NDArray[np.float64]
+Flags = NDArray[np.bool_]
+FULL_TURN = 2 * np.pi
+STEPS = 720
+"""Places in a turn, half a degree apart: whether a machine gets there, whether a link turns back."""
+HALVINGS = 50
+AT_ONCE = 5
+"""Halvings made in one step."""
+BEFORE_A_TURN = 1e-9
+"""Angles (rad) this near below the end of the cycle, or below a turning point, belong to what begins there."""
+
+EDGE_OF_CUT = 1e-9
+"""A share of the stroke this near to the tool's way in or out is rounding of it."""
+
+MotionAt = Callable[[Floats], Motion]
+"""The machine's motion at cycle angles [N] that grow from one to the next."""
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """The way of slider `link`, whose pin `pin` is joined by `rod` to `crank_pin`.
+
+    `top` and `bottom` are the pin's places at the dead centres, `top_angle` and `bottom_angle` the
+    driver's turn there, `phase` the slider's own cycle angle at position 1.
+    """
+
+    link: int
+    rod: int
+    pin: str
+    crank_pin: str
+    top: complex
+    bottom: complex
+    top_angle: float
+    bottom_angle: float
+    phase: float
+
+    @property
+    def stroke(self) -> float:
+        """H, the distance of the dead centres (m)."""
+        return abs(self.top - self.bottom)
+
+    @property
+    def inward(self) -> complex:
+        """The unit vector from top to bottom."""
+        return (self.bottom - self.top) / self.stroke
+
+    @property
+    def dead_centres(self) -> Floats:
+        """Its own cycle angles over two turns at which it turns back [4]; the first is 0, the top."""
+        way = (self.bottom_angle - self.top_angle) % FULL_TURN or np.pi
+        return np.array([0.0, way, FULL_TURN, FULL_TURN + way])
+
+    def fraction(self, motion: Motion) -> Floats:
+        """s/H [N]: the pin's way from its top over the stroke."""
+        way = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
+        return np.asarray(np.clip(way, 0.0, 1.0))
+
+    def fraction_rate(self, motion: Motion) -> Floats:
+        """d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
+        speed = np.real(np.conj(self.inward) * motion.points[self.pin].v)
+        return np.asarray(speed / (self.stroke * abs(motion.rate)))
+
+    def share_at(self, motion_at: MotionAt) -> Callable[[Floats], Floats]:
+        """s/H [N] at the slider's own cycle angles [N], in any order."""
+
+        def share(angle: Floats) -> Floats:
+            order = np.argsort(angle)
+            result = np.empty_like(angle)
+            result[order] = self.fraction(motion_at(angle[order] - self.phase))
+            return result
+
+        return share
+
+
+# --- laws ------------------------------------------------------------------------------------------
+
+
+class Law(ABC):
+    """The size (N or N·m) of a load over the machine's cycle angles (0 at position 1), and what is said of it.
+
+    Who tells of a load asks its law here, never which class it has.
+    """
+
+    kind: Literal["constant", "opposing", "tabled", "cutting"]
+    """How the load behaves: the same always, always against the motion, as in its table, while a tool cuts."""
+
+    @abstractmethod
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        """The size [N] at cycle angles [N] with the motion there."""
+
+    @abstractmethod
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        """Cycle angles where the size bends or jumps, in any order and any turn."""
+
+    @property
+    @abstractmethod
+    def sizes(self) -> tuple[float, ...]:
+        """All sizes that it is given by."""
+
+    @property
+    def acts(self) -> bool:
+        """Whether it is anything at all at some place of the cycle."""
+        return any(self.sizes)
+
+    @property
+    def constant(self) -> bool:
+        """Whether it has one size over the whole cycle."""
+        return False
+
+    @property
+    def tabled(self) -> Tabled | None:
+        """The table that it is given by, if it is given by one."""
+        return None
+
+    @property
+    def symbol(self) -> Symbol | None:
+        """What stands in its table, where that is not the load itself."""
+        return None
+
+    @property
+    def read_along(self) -> Stroke | None:
+        """The course of the slider by whose way its table is read, if it has one."""
+        return None
+
+    def formula(self, q: Sheet, link: int) -> Expression | None:
+        """The size written out of what stands on a sheet of the load on `link`; None where it is read or given."""
+        return None
+
+
+@dataclass(frozen=True)
+class TableLaw(Law):
+    """A table read by a slider's own cycle angle and s/H.
+
+    `turns` is how many turns of it were given: a table of one turn stands twice in `table`.
+    """
+
+    course: Stroke
+    table: Indicator
+    turns: int = 2
+    kind = "tabled"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return self.reading(angle, motion)
+
+    def reading(self, angle: Floats, motion: Motion) -> Floats:
+        """What stands in the table [N]."""
+        course = self.course
+        return self.table.pressure(course.phase + angle, course.fraction(motion), course.dead_centres)
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        course = self.course
+        corners = (*self.table.breaks(course.share_at(motion_at), course.dead_centres), *course.dead_centres)
+        return (corner - course.phase for corner in corners)
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return tuple(size for row in self.table.rows for size in row)
+
+    @property
+    def constant(self) -> bool:
+        return len({*self.sizes}) == 1
+
+    @property
+    def tabled(self) -> Tabled:
+        return self.table.tabled(self.turns)
+
+    @property
+    def read_along(self) -> Stroke:
+        return self.course
+
+
+@dataclass(frozen=True)
+class GasLaw(TableLaw):
+    """The gas on a piston: the pressure p (Pa) in the table times the piston's area F (m²), P = p F."""
+
+    area: float = field(kw_only=True)
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return self.area * self.reading(angle, motion)
+
+    @property
+    def symbol(self) -> Symbol:
+        return Symbol("p")
+
+    def formula(self, q: Sheet, link: int) -> Expression | None:
+        p = q.find(ids.pressure(link))
+        return None if p is None else p * q["F"]
+
+
+@dataclass(frozen=True)
+class AngleLaw(Law):
+    """Values at cycle angles from 0 to the end of the cycle, linear between.
+
+    The last value closes the cycle, or jumps to the first.
+    """
+
+    angles: tuple[float, ...]
+    values: tuple[float, ...]
+    kind = "tabled"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        within = np.maximum(np.mod(angle + BEFORE_A_TURN, self.angles[-1]) - BEFORE_A_TURN, 0.0)
+        return np.asarray(np.interp(within, self.angles, self.values))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return self.angles
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return self.values
+
+    @property
+    def constant(self) -> bool:
+        return len({*self.values}) == 1
+
+    @property
+    def tabled(self) -> Tabled:
+        return Tabled(Symbol("φ"), "angle", self.angles, (self.values,))
+
+
+@dataclass(frozen=True)
+class WayLaw(Law):
+    """Values over the way (m) of a sliding driver from its start, linear between; `span` is the whole way."""
+
+    ways: tuple[float, ...]
+    values: tuple[float, ...]
+    span: float
+    kind = "tabled"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return np.asarray(np.interp(angle * self.span / FULL_TURN, self.ways, self.values))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return (way / self.span * FULL_TURN for way in self.ways)
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return self.values
+
+    @property
+    def constant(self) -> bool:
+        return len({*self.values}) == 1
+
+    @property
+    def tabled(self) -> Tabled:
+        return Tabled(Symbol("s"), "segment", self.ways, (self.values,))
+
+
+@dataclass(frozen=True)
+class CuttingLaw(Law):
+    """`force` (N) on the ram while the tool cuts, which it does on the way from the top of the ram's `course`.
+
+    It runs free over the share `free` of the stroke at each end of that way.
+    """
+
+    course: Stroke
+    force: float
+    free: float
+    kind = "cutting"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        """The force (N) [N]; at a dead centre that of the stroke which begins there."""
+        turned = np.mod(self.course.phase + angle + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN
+        working = turned < self.course.bottom_angle - BEFORE_A_TURN
+        share = self.course.fraction(motion)
+        cuts = (share >= self.free - EDGE_OF_CUT) & (share <= 1 - self.free + EDGE_OF_CUT)
+        return np.where(working & cuts, self.force, 0.0)
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        course, corners = self.course, np.array([0.0, self.course.bottom_angle])
+        if self.free:
+            wanted, share_at = np.array([self.free, 1 - self.free]), course.share_at(motion_at)
+            corners = crossings(lambda angle: share_at(angle) - wanted, np.zeros(2), np.full(2, course.bottom_angle))
+        return (corner - course.phase for corner in corners)
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return (self.force,)
+
+
+@dataclass(frozen=True)
+class ConstantLaw(Law):
+    """The same size at every position."""
+
+    size: float
+    kind = "constant"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return np.full(angle.shape, self.size)
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return ()
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return (self.size,)
+
+    @property
+    def constant(self) -> bool:
+        return True
+
+
+@dataclass(frozen=True)
+class Opposing(Law):
+    """−`size`·sgn(rate), the sign of the rate changing at the cycle angles `reversals` of one turn.
+
+    `before` is the rate's sign before the first of them.
+    """
+
+    size: float
+    reversals: tuple[float, ...]
+    before: float
+    kind = "opposing"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        passed = np.searchsorted(self.reversals, np.mod(angle + BEFORE_A_TURN, FULL_TURN), side="right")
+        return np.where(passed % 2, 1.0, -1.0) * self.before * self.size
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return self.reversals
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return (self.size,)
+
+
+@dataclass(frozen=True)
+class Resistance(Law):
+    """−`size`·sgn(rate) over the way of a sliding driver, which does not come back to its start."""
+
+    size: float
+    rate: Callable[[Motion], Floats]
+    reversals: tuple[float, ...]
+    kind = "opposing"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return -self.size * np.sign(self.rate(motion))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return self.reversals
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return (self.size,)
+
+
+def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:
+    """Forces over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
+    return StrokeIndicator(fractions, inward, outward, inward, outward)
+
+
+def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> Indicator:
+    """Forces over one turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
+    second = tuple(angle + FULL_TURN for angle in angles)
+    if values[0] == values[-1]:
+        return AngleIndicator((*angles, *second[1:]), (*values, *values[1:]))
+    just_after = np.nextafter(second[0], np.inf)
+    return AngleIndicator((*angles, float(just_after), *second[1:]), (*values, *values))
+
+
+def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
+    """What resists a `rate` over the cycle angle (0…2π) with a constant size."""
+    edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
+    signs = np.sign(rate(edges))
+    changes = np.flatnonzero(signs[1:] != signs[:-1])
+    first = signs[changes]
+    halvings = HALVINGS if changes.size else 0
+
+    def unchanged(angle: Floats) -> Flags:
+        return np.asarray(np.sign(rate(angle.ravel()).reshape(angle.shape)) == first[:, None])
+
+    _, high = halved(edges[changes], edges[changes + 1], unchanged, halvings)
+    found = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
+    # The first of them in the turn is where the sign before it ends.
+    after = rate(np.array([(found[0] + found[1]) / 2])) if found.size > 1 else -rate(np.array([0.0]))
+    return Opposing(size, tuple(map(float, found)), -float(np.sign(after[0])))
+
+
+def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:
+    """The intervals [N] from `low` to `high` halved so often, each towards where `before` ends to be true.
+
+    `before` is asked of many places [N, K] at once, since the motion at one takes as long as at fifty.
+    """
+    shares = np.linspace(0.0, 1.0, 2**AT_ONCE + 1)
+    each = np.arange(low.size)
+    for _ in range(math.ceil(times / AT_ONCE)):
+        places = low[:, None] + (high - low)[:, None] * shares
+        places[:, -1] = high
+        same = before(places[:, 1:-1])
+        last = np.where(same.all(axis=1), same.shape[1], same.argmin(axis=1))
+        low, high = places[each, last], places[each, last + 1]
+    return low, high

@@ -1,0 +1,92 @@
+"""What a case comes to besides its ledger: what holds at each position, and what holds for all of them, by name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from reportgen.formula import ids
+from reportgen.machine import Crank
+from reportgen.machine.analysis import Analysis
+from reportgen.machine.forces import Load
+
+Entries = Mapping[str, Any]
+"""Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""
+
+
+@dataclass(frozen=True)
+class ResultEntries:
+    """The entries of each position, None where it cannot be reached, and those `besides`, which have no position."""
+
+    positions: Sequence[Entries | None]
+    besides: Entries = field(default_factory=dict)
+
+
+def entries_of(analysis: Analysis) -> ResultEntries:
+    """The entries of a machine."""
+    signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
+    return ResultEntries([_position(analysis, k) for k in range(len(analysis.cycle_angle))], {"dyad_signs": signs})
+
+
+def _position(analysis: Analysis, k: int) -> Entries | None:
+    motion, linkage = analysis.motion, analysis.machine.linkage
+    crank = isinstance(linkage.driver, Crank)
+    if not motion.reachable[k]:
+        return None
+    entry: dict[str, Any] = {
+        "number": k + 1,
+        **({"label": analysis.machine.labels[k]} if analysis.machine.labels else {}),
+        "crank_angle": motion.driver[k],
+        **({} if crank else {"driver_way": abs(motion.driver[k] - analysis.machine.start)}),
+        "cycle_angle": analysis.cycle_angle[k],
+        "points": {
+            name: {"p": point.p[k], "v": point.v[k], "a": point.a[k]}
+            for name, point in motion.points.items()
+            if name not in linkage.ground
+        },
+        "links": {
+            number: {
+                "angle": motion.links[number].angle[k],
+                "omega": motion.links[number].omega[k],
+                "epsilon": motion.links[number].epsilon[k],
+            }
+            for number in linkage.links
+        },
+    }
+    if not analysis.loads:
+        return entry
+    entry["loads"] = _applied(analysis, k)
+    entry["weights"] = _loads(analysis.weights, k)
+    entry["inertia"] = _loads(analysis.inertia, k)
+    if analysis.gas:
+        entry["pressures"] = {f"p{gas.piston.link}": gas.pressure[k] for gas in analysis.gas.values()}
+    reactions = analysis.forces.reactions.items()
+    entry["reactions"] = {name: reaction.force[k] for name, reaction in reactions}
+    entry["reactions_in_guides"] = {
+        name: {"moment": reaction.moment[k], "point": reaction.point[k]}
+        for name, reaction in reactions
+        if _slides(analysis, name)
+    }
+    entry["balancing_torque" if crank else "balancing_force"] = {
+        "equilibrium": analysis.torque[k],
+        "virtual_work": analysis.torque_by_work[k],
+    }
+    return entry
+
+
+def _applied(analysis: Analysis, k: int) -> Entries:
+    """Forces as vectors; a torque, which has no force, as it is in `weights` and `inertia`."""
+    torques = {torque.name for torque in analysis.machine.torques}
+    forces = {load.name: load.force[k] for load in analysis.applied if load.name not in torques}
+    return {**forces, **_loads(tuple(load for load in analysis.applied if load.name in torques), k)}
+
+
+def _loads(loads: tuple[Load, ...], k: int) -> Entries:
+    return {load.name: {"force": load.force[k], "point": load.point[k], "couple": load.couple[k]} for load in loads}
+
+
+def _slides(analysis: Analysis, name: str) -> bool:
+    """Whether a reaction acts in a prismatic joint."""
+    acting, on = ids.links_of(name)
+    return (acting, on) in analysis.motion.slides or (on, acting) in analysis.motion.slides

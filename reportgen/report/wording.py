@@ -1,0 +1,118 @@
+"""What each quantity is in words, and which sense of it counts as positive, for the rows of task, sheet and key.
+
+The phrases ("normal acceleration of B about A") stand in `words.yaml` under `quantities`, by the families of the
+vocabulary; a quantity that a machine has for itself, or calls by another name, stands there by its own id, or among
+the names of the given data.  Those of the senses stand under `positive`, by ids, families and kinds, of which the
+nearest decides; those of a machine come before the common ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from string import Formatter
+from typing import Any
+
+from reportgen.base.gaps import gaps
+from reportgen.formula import Expression, Symbol, ids, refs, vocabulary
+from reportgen.formula.ledger import Ledger
+from reportgen.report import Inline, Inlines, Text
+
+MAGNITUDE = "magnitude"
+"""Stands in place of a phrase where the sign of a quantity says nothing."""
+FORMULA, EITHER_SIGN = "formula", "formula, either sign"
+"""Stand there where the formula tells what the quantity is; the other where it may be set up with the opposite sign."""
+BY_FORMULA, OPEN = frozenset({FORMULA, EITHER_SIGN}), frozenset({MAGNITUDE, EITHER_SIGN})
+
+
+def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
+    """What a quantity is, without a capital; "" where the words have no phrase for it."""
+    if given := words.get("given", {}).get(id):
+        return _uncapitalised(str(given))
+    phrases: Mapping[str, str] = words["quantities"]
+    shown, kind = (ledger[id].symbol, ledger[id].kind) if id in ledger else (_symbol(id), "")
+    vector = vocabulary.vector_of(id)
+    _, parts = vocabulary.wording(id, shown)
+    of = phrase(vector, ledger, words) if vector else ""
+    bodies = {name: _body(parts[link], phrases) for name, link in (("body", "link"), ("onto", "other"))}
+    found = next(vocabulary.words_of(phrases, id, kind, shown), "")
+    return found.format(**parts, **bodies, of=of)
+
+
+def _body(link: str, phrases: Mapping[str, str]) -> str:
+    """A link, or the frame, as what acts or is acted on."""
+    return str(phrases["frame"]) if link == "0" else str(phrases["link"]).format(link=link)
+
+
+def _uncapitalised(text: str) -> str:
+    """A name of the given data as it stands in a sentence; what begins with an abbreviation stays."""
+    return text if text[1:2].isupper() else text[:1].lower() + text[1:]
+
+
+def _symbol(id: str) -> Symbol:
+    """The symbol of a vector that has no row of its own."""
+    try:
+        return vocabulary.symbol(id)
+    except KeyError:
+        return Symbol("")
+
+
+# --- senses ----------------------------------------------------------------------------------------
+
+
+def positive_sense(id: str, ledger: Ledger, words: Mapping[str, Any], ways: Mapping[str, str] | None = None) -> str:
+    """The phrase of a quantity or what stands in its place, as `MAGNITUDE`; "" where no words say anything.
+
+    `ways` say of sliders, by their points, where their motion counts as positive.
+    """
+    family = ledger[id]
+    known = _points(id, ledger) | _way(id, ways or {})
+    for phrase in vocabulary.words_of(words["positive"], id, family.kind, family.symbol):
+        # Another may speak of something that this quantity has not.
+        if gaps(phrase) <= known.keys():
+            return phrase.format(**known)
+    return ""
+
+
+def _points(id: str, ledger: Ledger) -> dict[str, str]:
+    """Both ends, and the letters, of the rod or slot that a projection or an assumed sense goes by."""
+    along, component = ids.projection.read(id), ids.reaction.read(id)
+    if component and (assumed := ids.assumed(ids.reaction_force.of(component))) in ledger:
+        (direction, *_) = refs(definition_of(ledger, assumed))
+        along = ids.rod.read(direction) or ids.slot.read(direction)
+    if along is None or (rod := ids.rod(along["link"])) not in ledger:
+        return {}
+    end, start = (vocabulary.lowered(_point(place)) for place in refs(definition_of(ledger, rod)))
+    return {"start": start, "end": end, "line": f"{start}{end}"}
+
+
+def _point(id: str) -> str:
+    """The name of the point whose place it is."""
+    found = ids.place.read(id)
+    assert found is not None, f"{id} is no place"
+    return found["point"]
+
+
+def definition_of(ledger: Ledger, id: str) -> Expression:
+    definition = ledger[id].definition
+    assert definition is not None, f"{id} is constructed from nothing"
+    return definition
+
+
+def _way(id: str, ways: Mapping[str, str]) -> dict[str, str]:
+    """Where a slider's motion counts as positive, in words."""
+    found = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
+    return {"way": ways[found["point"]]} if found and found["point"] in ways else {}
+
+
+# --- sentences ---------------------------------------------------------------------------------------
+
+
+def sentence(words: str, /, **parts: Inline | str) -> Inlines:
+    """Words with texts and inlines put in where they are named."""
+    result: list[Inline] = []
+    for text, name, _, _ in Formatter().parse(words):
+        result += [Text(text)] if text else []
+        if name:
+            part = parts[name]
+            result.append(Text(part) if isinstance(part, str) else part)
+    return tuple(result)

@@ -1,0 +1,62 @@
+"""What `solve` gives: the results of a case as plain data, in the format reportgen-results/1.
+
+They are in SI units and radians, unrounded, and beside them what the report prints, in its units.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from reportgen.formula.ledger import Ledger
+from reportgen.report.case import Case
+
+FORMAT = "reportgen-results/1"
+
+
+def results(case: Case) -> dict[str, Any]:
+    """The contract's JSON object of a case: an entry a position, null where it cannot be reached.
+
+    A coursework has those of its machine, and those of each further part by its name.
+    """
+    assignment, entries = case.assignment, case.entries
+    about = {"format": FORMAT, "kind": assignment.kind, "variant": assignment.variant, "units": "SI"}
+    found = {**about, **plain(entries.besides), "positions": plain(entries.positions)}
+    further = {name: results(part) for name, part in islice(case.parts.items(), 1, None)}
+    return {**found, "parts": further} if further else found
+
+
+def plain(value: Any) -> Any:
+    """A value as JSON has it: a vector of the plane [x, y], null for one that does not exist; numbers as floats."""
+    match value:
+        case Mapping():
+            return {str(name): plain(one) for name, one in value.items()}
+        case list() | tuple():
+            return [plain(one) for one in value]
+        case complex() | np.complexfloating():
+            return [float(value.real), float(value.imag)] if np.isfinite(value) else None
+        case np.generic():
+            return value.item()
+        case _:
+            return value
+
+
+def printed_values(written: Ledger) -> dict[str, Any]:
+    """By id the unit, the decimals (null: as typed) and the values that a report prints, one or one per position."""
+    return {
+        id: {
+            "unit": family.how.unit,
+            "decimals": written.decimals[id],
+            "values": [_finite(written.quantity(id, k + 1).number.shown) for k in range(len(family.values))],
+        }
+        for id, family in written.families.items()
+        if not (family.hidden or family.is_plane)
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None

@@ -1,0 +1,56 @@
+"""Results as files: a row a position, a column each number, under the names that the JSON has for them.
+
+A number's column is the way to it in a position of `reportgen-results/1`: `points.B.v.x`, `links.2.omega`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from reportgen.workbook import Book, BookSheet, write_csv, write_xlsx
+
+Cell = str | float | None
+AXES = ("x", "y")
+WIDTH = 16.0
+"""Of a column, in characters."""
+
+
+def result_file(results: Mapping[str, Any], format: str) -> bytes:
+    """The bytes of results as csv, xlsx or json; csv, which has one table, without the parts of a coursework."""
+    if format == "json":
+        return (json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
+    if format == "csv":
+        return write_csv(result_rows(results))
+    name = f"{results['kind']} {results['variant']}".strip()
+    pages = [_result_page(called, one) for called, one in {name: results, **results.get("parts", {})}.items()]
+    return write_xlsx(Book(pages, name))
+
+
+def _result_page(name: str, results: Mapping[str, Any]) -> BookSheet:
+    rows = result_rows(results)
+    return BookSheet(name, rows, (WIDTH,) * len(rows[0]), (1, 1))
+
+
+def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
+    """The heads, then each position; one that cannot be reached has its number alone."""
+    rows = [
+        {"number": float(index)} if position is None else dict(_leaves(position))
+        for index, position in enumerate(results["positions"], start=1)
+    ]
+    heads = list(dict.fromkeys(head for row in rows for head, value in row.items() if value is not None))
+    return [list(heads), *([row.get(head) for head in heads] for row in rows)]
+
+
+def _leaves(value: Any, way: str = "") -> Iterator[tuple[str, Cell]]:
+    """The numbers and texts of an entry with the ways to them; a pair is a vector of the plane."""
+    match value:
+        case Mapping():
+            for name, inner in value.items():
+                yield from _leaves(inner, f"{way}.{name}" if way else str(name))
+        case list():
+            for axis, part in zip(AXES, value, strict=True):
+                yield f"{way}.{axis}", part
+        case _:
+            yield way, value
