@@ -31,6 +31,7 @@ from reportgen.export.quantities import QuantityArray, quantity, shown
 from reportgen.export.study import Study
 from reportgen.report import TEXT_WIDTH
 from reportgen.report.case import Case
+from reportgen.report.named_figures import NamedFigure, named_figures
 
 PARAMETERS = "parameters"
 UNNAMED = Path("assignment.yaml")
@@ -169,8 +170,7 @@ class Model:
     @property
     def figures(self) -> list[str]:
         """The names of its figures, then of what moves."""
-        still, moving = figures.listed(self.case)
-        return list(dict.fromkeys((*(one.name for one in still), *(one.name for one in moving))))
+        return list(dict.fromkeys(one.name for one in (*self._still, *self._moving)))
 
     def figure(self, name: str, at: str | int = "") -> ShownFigure:
         """A figure by its name, v.4, or with a position `at` only what it shows, v; it shows itself in a notebook.
@@ -178,10 +178,19 @@ class Model:
         Raises `UnknownNameError`, `NotOfferedError`.
         """
         case, labels = api.worked_at(self.assignment, str(at)) if at != "" else (self.case, ())
+        still = self._still if case is self.case else named_figures(case.document())
+        moving = next((one for one in self._moving if one.name == name), None)
         query = figures.FigureQuery((name,), labels)
-        moving = next((one for one in figures.moving(case) if one.name == name), None)
-        scenes = tuple(scene for _, scene in figures.drawings(case, query, () if moving is None else (moving,)))
-        return ShownFigure(name, scenes, self.assignment.language, moving)
+        scenes = (scene for _, scene in figures.drawings(still, query, self._moving, self.assignment.language))
+        return ShownFigure(name, tuple(scenes), self.assignment.language, moving)
+
+    @cached_property
+    def _still(self) -> tuple[NamedFigure, ...]:
+        return named_figures(self.case.document())
+
+    @cached_property
+    def _moving(self) -> tuple[MovingFigure, ...]:
+        return figures.moving(self.case)
 
     def _repr_html_(self) -> str:
         """Its given data, as a notebook shows it."""
