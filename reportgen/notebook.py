@@ -170,7 +170,7 @@ class Model:
     @property
     def figures(self) -> list[str]:
         """The names of its figures, then of what moves."""
-        return list(dict.fromkeys(one.name for one in (*self._still, *self._moving)))
+        return list(dict.fromkeys([*(one.name for one in self._still), *(one.name for one in self._moving)]))
 
     def figure(self, name: str, at: str | int = "") -> ShownFigure:
         """A figure by its name, v.4, or with a position `at` only what it shows, v; it shows itself in a notebook.
