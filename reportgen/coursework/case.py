@@ -25,7 +25,7 @@ from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, CaseOfParts, Misconceptions
+from reportgen.report.case import Case, CaseOfParts, DriverMotion, Misconceptions
 from reportgen.report.key import Key, PartOfKey, Span, capitalised
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
@@ -172,6 +172,10 @@ class Coursework(CaseOfParts):
     @property
     def speed(self) -> float | None:
         return self.machine.speed
+
+    @property
+    def driver_motion(self) -> DriverMotion | None:
+        return self.machine.driver_motion
 
     @property
     def balance(self) -> np.ndarray | None:

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from reportgen.drawing import Content, Item, Label, Scene
-from reportgen.drawing.geometry import Complexes, box, corners_of, frame, moved, overlap, segments
+from reportgen.drawing.geometry import Complexes, corners_of, frame, moved, overlap, segments
+from reportgen.drawing.label_size import box
 from reportgen.drawing.spots import CLEAR
 
 Frame = tuple[complex, complex]

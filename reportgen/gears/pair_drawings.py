@@ -8,9 +8,23 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import (
+    Arc,
+    Arrow,
+    Circle,
+    Content,
+    Diagram,
+    Item,
+    Label,
+    Line,
+    Pen,
+    PlottedCurve,
+    Polyline,
+    Scene,
+    style,
+)
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
+from reportgen.drawing.charts import Area, Plotted, plotted
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
@@ -371,4 +385,4 @@ def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
         curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, shown, marks))
     across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), "mm")
-    return plotted(curves, across, Chain((Symbol("λ"),), ""), turn=False, area=area)
+    return plotted(Diagram(tuple(curves), across, Chain((Symbol("λ"),), ""), turn=False), area=area)
