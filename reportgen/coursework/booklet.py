@@ -109,7 +109,7 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
     return number(replace(machine, blocks=tuple(listed)))
 
 
-def task_of(machine: Document, parts: Sequence[PartReport]) -> Document:
+def handout(machine: Document, parts: Sequence[PartReport]) -> Document:
     """One handout: that of the machine, then those of the parts, each from a page of its own and without its head."""
     blocks = list(machine.blocks)
     for part in parts:

@@ -269,11 +269,19 @@ def expression(of: Algebraic, at: Mapping[str, float]) -> Expression:
     return Negative(whole) if sign < 0 else whole
 
 
+NUMBER, ROOT_OF_NUMBER, SINGLE_SYMBOL, LONGER = range(4)
+"""The factors of a product in the order in which they are written."""
+
+
 def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
     """Numbers first, their roots, single symbols in the order of the file, then whatever is longer."""
     names = sorted(order.index(one.name) if one.name in order else len(order) for one in factor.free_symbols)
+    if factor.is_Number:
+        return NUMBER, 0
+    if not names:
+        return ROOT_OF_NUMBER, 0
     plain = factor.is_Symbol or (factor.is_Pow and factor.base.is_Symbol)
-    return (0 if factor.is_Number else 1 if not names else 2 if plain else 3), names[0] if names else 0
+    return SINGLE_SYMBOL if plain else LONGER, names[0]
 
 
 def _factors(factors: Sequence[Algebraic], at: Mapping[str, float]) -> Iterator[Expression]:

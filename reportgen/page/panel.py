@@ -10,6 +10,7 @@ import base64
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,7 @@ from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
-from reportgen.page.html import Panel, data, template
+from reportgen.page.html import Panel, data, save_buttons, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
@@ -122,6 +123,7 @@ class _Writer:
             words=self.words,
             animation=animation,
             own=self.own,
+            save=partial(save_buttons, told=self.words["save_figure"]),
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
             machine=self.pane(machine),

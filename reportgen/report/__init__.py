@@ -242,6 +242,8 @@ class Words:
     page: str
     continued: str
     """Stands behind the number of a table or figure that goes on from the page before."""
+    save: str
+    """What the buttons below a figure do on a page."""
 
     @classmethod
     def among(cls, words: Mapping[str, str]) -> Self:

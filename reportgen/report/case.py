@@ -78,6 +78,22 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
                 yield id, taken
 
 
+@dataclass(frozen=True, slots=True)
+class DriverMotion:
+    """How a driver goes through the positions of a cycle, at constant speed.
+
+    `gone` is how far it has gone since the first of them [N], `whole` its way through the cycle (rad, or m of one that
+    `slides`, which does not begin anew), `speed` that of its motion (rad/s or m/s), if it has one.  `signed` are by
+    their ids the values [N] of the sizes of vectors along a line, counted in the direction of a unit vector.
+    """
+
+    gone: np.ndarray
+    whole: float
+    speed: float | None
+    slides: bool = False
+    signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)
+
+
 @dataclass(frozen=True)
 class AskedFor:
     """What a task asks for, as its words name it."""
@@ -151,6 +167,11 @@ class Case(ABC):
     @property
     def speed(self) -> float | None:
         """Of its driver (rad/s or m/s); None where nothing drives it."""
+        return None
+
+    @property
+    def driver_motion(self) -> DriverMotion | None:
+        """How its driver goes through its positions; None where these are none of a driver's."""
         return None
 
     @property

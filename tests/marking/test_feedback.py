@@ -41,7 +41,7 @@ def at(row: int, column: int) -> CellMark:
 
 def cell(id: str, position: int, verdict: Verdict, given: float | None, expected: float, **more: Any) -> Marked:
     points = float(verdict in (Verdict.right, Verdict.follows))
-    return Marked(id, position, verdict, given, expected, expected, 0.05, points, 1.0, **more)
+    return Marked(id, position, verdict, given, expected, expected, 0.05, points, 1.0, written=given, **more)
 
 
 def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Marking:
