@@ -16,8 +16,8 @@ from typing import Any
 from reportgen.assignment.common import Check, Draft, Labels, labels_of, number_of
 from reportgen.base.errors import Finding, Where
 from reportgen.base.files import school_strays
+from reportgen.base.template_folders import is_school
 from reportgen.base.units import QuantityFault, read_number, read_quantity
-from reportgen.base.words import is_school
 
 
 def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:

@@ -223,10 +223,10 @@ class Assignment:
 
     def position(self, named: str) -> int:
         """The number of the position of a label or a number; raises `UnknownNameError` where there is none."""
-        found = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
-        if not found:
+        position = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
+        if not position:
             raise UnknownNameError(unknown("no_position", named, self.labels, self.language))
-        return found
+        return position
 
     def with_positions(self, count: int) -> Assignment:
         """The same with `count` positions a turn; worked positions beyond the new cycle are dropped.

@@ -50,11 +50,11 @@ def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWo
     models: dict[Kind, tuple[type[BaseModel], JsonSchemaMode]] = {
         kind: (file_model(kind), "validation") for kind in kinds
     }
-    found, definitions = models_json_schema([*models.values()], by_alias=True, schema_generator=_Generator)
-    modern = {"title": "reportgen assignment", "oneOf": [found[model] for model in models.values()], **definitions}
+    references, definitions = models_json_schema([*models.values()], by_alias=True, schema_generator=_Generator)
+    modern = {"title": "reportgen assignment", "oneOf": [references[model] for model in models.values()], **definitions}
     for kind, model in models.items():
-        _tell_checks(found[model], modern, kind)
-        _tell_words(found[model], modern, words(kind.name), ())
+        _tell_checks(references[model], modern, kind)
+        _tell_words(references[model], modern, words(kind.name), ())
     return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
 
 
@@ -101,19 +101,19 @@ def _is_form(table: Schema, key: str, value: str) -> bool:
     return bool(table["properties"].get(key, {}).get("const") == value)
 
 
-def _add(table: Schema, key: str, one: Any) -> None:
+def _add(table: Schema, key: str, rule: Any) -> None:
     """Put something into a list of the schema, once."""
     listed = table.setdefault(key, [])
-    if one not in listed:
-        listed.append(one)
+    if rule not in listed:
+        listed.append(rule)
 
 
 def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], path: tuple[str, ...]) -> None:
     """Name and describe the keys of a schema, and all that is in them."""
-    for one in alternatives(part, root):
-        for inner in _unnamed(one):
+    for schema in alternatives(part, root):
+        for inner in _unnamed(schema):
             _tell_words(inner, root, words, path)
-        for key, about in one.get("properties", {}).items():
+        for key, about in schema.get("properties", {}).items():
             said = words.get(".".join((*path, key)))
             # A definition that several kinds share is told in the words of the first.
             if said is not None and "description" not in about:
@@ -121,9 +121,13 @@ def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], pat
             _tell_words(about, root, words, (*path, key))
 
 
-def _unnamed(one: Schema) -> Iterator[Schema]:
+def _unnamed(schema: Schema) -> Iterator[Schema]:
     """What stands behind an item of a list, and behind any key of a table of names."""
-    for inner in (one.get("items"), one.get("additionalProperties"), *one.get("patternProperties", {}).values()):
+    for inner in (
+        schema.get("items"),
+        schema.get("additionalProperties"),
+        *schema.get("patternProperties", {}).values(),
+    ):
         if isinstance(inner, dict):
             yield inner
 
@@ -133,7 +137,7 @@ def _unnamed(one: Schema) -> Iterator[Schema]:
 
 def tables_at(part: Schema, root: Schema, where: Where) -> list[Schema]:
     """The tables that may stand at a place."""
-    return [one for one in places(part, root, where) if "properties" in one]
+    return [schema for schema in places(part, root, where) if "properties" in schema]
 
 
 def known_keys(kind: Kind, where: Where) -> list[str]:
@@ -144,16 +148,16 @@ def known_keys(kind: Kind, where: Where) -> list[str]:
 def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
     """What a file of a kind may hold at `where`: "table", "list", "scalar"; empty for an unknown place."""
     schema = file_schema(kind)
-    found = [one.get("type", "string") for one in places(schema, schema, where)]
-    types = [name for type_ in found for name in (type_ if isinstance(type_, list) else [type_])]
+    forms = [schema.get("type", "string") for schema in places(schema, schema, where)]
+    types = [name for type_ in forms for name in (type_ if isinstance(type_, list) else [type_])]
     return frozenset(_FORMS.get(str(name), "scalar") for name in types if name != "null")
 
 
-def choices_of(one: Schema) -> list[str]:
+def choices_of(schema: Schema) -> list[str]:
     """The values among which one alternative at a place lets a file choose."""
-    if one.get("type") == "boolean":
+    if schema.get("type") == "boolean":
         return ["true", "false"]
-    return [str(value) for value in (*one.get("enum", ()), *([one["const"]] if "const" in one else ()))]
+    return [str(value) for value in (*schema.get("enum", ()), *([schema["const"]] if "const" in schema else ()))]
 
 
 def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
@@ -164,37 +168,39 @@ def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
 
 def keys_at(schema: Schema, where: Where) -> list[str]:
     """Keys that a JSON Schema allows at a place; of alternatives, all their keys."""
-    return list(dict.fromkeys(name for one in places(schema, schema, where) for name in one.get("properties", {})))
+    return list(
+        dict.fromkeys(name for schema in places(schema, schema, where) for name in schema.get("properties", {}))
+    )
 
 
 def places(part: Schema, root: Schema, where: Where) -> list[Schema]:
     """The alternatives that a part of a JSON Schema allows at a place below it."""
     level = list(alternatives(part, root))
     for step in where:
-        inner = [inner for one in level for inner in _inside(one, step)]
-        level = [alternative for one in inner for alternative in alternatives(one, root)]
+        inner = [inner for schema in level for inner in _inside(schema, step)]
+        level = [alternative for schema in inner for alternative in alternatives(schema, root)]
     return level
 
 
-def _inside(one: Schema, step: str | int) -> Iterator[Schema]:
+def _inside(schema: Schema, step: str | int) -> Iterator[Schema]:
     """What a JSON Schema says of a key, of an item of a list, or of any key of a table of names."""
     if isinstance(step, int):
-        if isinstance(one.get("items"), dict):
-            yield one["items"]
-    elif step in one.get("properties", {}):
-        yield one["properties"][step]
-    elif isinstance(one.get("additionalProperties"), dict):
-        yield one["additionalProperties"]
+        if isinstance(schema.get("items"), dict):
+            yield schema["items"]
+    elif step in schema.get("properties", {}):
+        yield schema["properties"][step]
+    elif isinstance(schema.get("additionalProperties"), dict):
+        yield schema["additionalProperties"]
     else:
-        yield from one.get("patternProperties", {}).values()
+        yield from schema.get("patternProperties", {}).values()
 
 
-def alternatives(one: Schema, root: Schema) -> Iterator[Schema]:
+def alternatives(schema: Schema, root: Schema) -> Iterator[Schema]:
     """A part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
-    if "$ref" in one:
-        yield from alternatives(root["$defs"][one["$ref"].rsplit("/", 1)[-1]], root)
-    elif choices := [*one.get("oneOf", ()), *one.get("anyOf", ())]:
+    if "$ref" in schema:
+        yield from alternatives(root["$defs"][schema["$ref"].rsplit("/", 1)[-1]], root)
+    elif choices := [*schema.get("oneOf", ()), *schema.get("anyOf", ())]:
         for choice in choices:
             yield from alternatives(choice, root)
     else:
-        yield one
+        yield schema

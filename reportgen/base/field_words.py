@@ -16,8 +16,9 @@ from typing import Any
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.source import MappingNode, plain, read_own, read_words
+from reportgen.base.template_folders import kind_file, templates
 from reportgen.base.units import Language
-from reportgen.base.words import kind_file, sections, templates
+from reportgen.base.words import sections
 
 SECTION, FILE = "fields", "fields.yaml"
 PARAMETERS = "parameters"
@@ -55,8 +56,8 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
 def choice_words(language: Language) -> Mapping[str, str]:
     """What the values are called among which a key may choose."""
     common = templates() / language / FILE
-    found: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
-    return found
+    table: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
+    return table
 
 
 def group_titles(language: Language) -> list[str]:
@@ -89,8 +90,8 @@ def _own(file: Path) -> Mapping[str, Any]:
     top = read_own(section.text, str(file)).top
     if not isinstance(top, MappingNode):
         raise TemplateError(f"{file}:{section.line}: a table of words is wanted here")
-    found: Mapping[str, Any] = plain(top)
-    return found
+    table: Mapping[str, Any] = plain(top)
+    return table
 
 
 def _grouped(table: Mapping[str, Any], groups: Mapping[str, str]) -> Iterator[tuple[str, FieldWords]]:
@@ -109,8 +110,8 @@ def _common(path: Path, _: int) -> Mapping[str, Any]:
     source = read_words(path)
     if source.top is None or source.faults:
         raise TemplateError(f"{path}:1: a table of words is wanted here")
-    found: Mapping[str, Any] = plain(source.top)
-    return found
+    table: Mapping[str, Any] = plain(source.top)
+    return table
 
 
 # --- a file to begin with ---------------------------------------------------------------------------

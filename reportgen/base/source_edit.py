@@ -43,8 +43,8 @@ def with_value(text: str, where: Where, value: Node) -> str:
         raise EditError(f"there is no list for an item at {where}")
     if isinstance(above, MappingNode):
         key = str(rest[0])
-        if (found := _from_remark(text, top, above, rest, value)) is not None:
-            return found
+        if (uncommented := _from_remark(text, top, above, rest, value)) is not None:
+            return uncommented
         return _checked(_with_entry(text, above, key, inner), where, value, top)
     # What is empty, or is one value so far, becomes a table.
     return _checked(_replaced(text, above, _within(rest, value)), where, value, top)
@@ -228,8 +228,8 @@ def _remarks(text: str, top: MappingNode, table: MappingNode) -> Iterator[tuple[
         bare = line.lstrip()
         if index >= table.span[1] and bare and not bare.startswith("#"):
             return
-        if len(line) - len(bare) == depth and (found := _REMARK.match(bare)):
-            yield index + depth, found
+        if len(line) - len(bare) == depth and (match := _REMARK.match(bare)):
+            yield index + depth, match
         index = end
 
 
@@ -237,16 +237,16 @@ def _from_remark(text: str, top: MappingNode, table: MappingNode, rest: Where, v
     """The text with a value at a key that stands in its table as a remark; None if there is no such remark."""
     if _is_flow(text, table):
         return None
-    for start, found in _remarks(text, top, table):
-        if found["key"] != rest[0]:
+    for start, match in _remarks(text, top, table):
+        if match["key"] != rest[0]:
             continue
         try:
-            entry = with_value(found["entry"], rest, value)
+            entry = with_value(match["entry"], rest, value)
         except EditError:
             continue
         if [key.text for key, _ in _top(entry).entries] != [rest[0]]:
             continue
-        changed = text[:start] + entry + text[start + len(found[0]) :]
+        changed = text[:start] + entry + text[start + len(match[0]) :]
         source = _read(changed)
         if isinstance(source.top, MappingNode) and _only_more(plain(top), plain(source.top)):
             return changed

@@ -8,7 +8,8 @@ positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but
 
 A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
 `machine`, which makes a case of its own.  `PART` is the name that the ids of a kind begin with which can be a part of a
-coursework; its words have under `index` what symbols get that an earlier part has too.
+coursework; its words have under `index` what symbols get that an earlier part has too.  Ids of its own are in a module
+called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
 """
 
 from __future__ import annotations
@@ -27,21 +28,12 @@ from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, TemplateError
 from reportgen.base.field_words import also, choice_words, field_words, remarked
+from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
+from reportgen.base.template_folders import kind_file, samples
 from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
-from reportgen.base.words import (
-    SAMPLE,
-    as_error,
-    as_problem,
-    kind_file,
-    kinds,
-    language_of,
-    samples,
-    sections,
-    spoken,
-    word,
-)
+from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
 from reportgen.catalogue import assembly
 from reportgen.machine.analysis import Machine
 
@@ -195,8 +187,8 @@ def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> s
     said = [f"{choice} ({words[choice]})" if words.get(choice, choice) != choice else choice for choice in choices]
     listed = f": {' | '.join(said)}" if len(said) > 1 else ""
     others = alternatives_to(known, path)
-    told = "".join(f", {also(language)}  {_instead(schema, [*path[:-1], other], value)}" for other in others)
-    return listed + told
+    instead = "".join(f", {also(language)}  {_instead(schema, [*path[:-1], other], value)}" for other in others)
+    return listed + instead
 
 
 def _instead(schema: dict[str, Any], path: Sequence[str], value: str) -> str:

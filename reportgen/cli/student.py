@@ -156,7 +156,8 @@ def edit(
 ) -> None:
     """Edit FILE in a browser by a form, the machine moving beside it. A KIND begins a file. Ctrl-C ends it."""
     from reportgen import catalogue
-    from reportgen.base.words import kinds, spoken
+    from reportgen.base.kinds import kinds
+    from reportgen.base.words import spoken
     from reportgen.cases import opener
     from reportgen.page.watch import edit as serve
 
@@ -258,7 +259,8 @@ def new(
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
     from reportgen import catalogue
-    from reportgen.base.words import kinds, spoken, unknown
+    from reportgen.base.kinds import kinds
+    from reportgen.base.words import spoken, unknown
 
     if kind not in kinds():
         raise typer.BadParameter(unknown("no_kind", kind, list(kinds()), lang))
@@ -275,7 +277,7 @@ def new(
 
 
 def _kinds() -> list[str]:
-    from reportgen.base.words import kinds
+    from reportgen.base.kinds import kinds
 
     return list(kinds())
 
@@ -286,7 +288,7 @@ def samples(
     lang: LangOption = None,
 ) -> None:
     """Copy the examples, and a class to try, to DIR. Every kind of machine has examples."""
-    from reportgen.base.words import samples as packed
+    from reportgen.base.template_folders import samples as packed
 
     with ending(lang):
         files = {folder / path.relative_to(packed()): path for path in sorted(packed().rglob("*")) if path.is_file()}
@@ -301,7 +303,8 @@ def samples(
 
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
-    from reportgen.base.words import spoken, titles
+    from reportgen.base.kinds import titles
+    from reportgen.base.words import spoken
 
     known = titles(lang or spoken())
     width = max(map(len, known))

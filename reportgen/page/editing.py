@@ -19,6 +19,7 @@ from reportgen.assignment import parts
 from reportgen.assignment.common import PARTS
 from reportgen.base.errors import Fault, Mark, Problem, ReportgenError, Where
 from reportgen.base.files import contents, renew_file
+from reportgen.base.kinds import kinds, titles
 from reportgen.base.source import (
     LARGEST,
     MappingNode,
@@ -34,7 +35,6 @@ from reportgen.base.source import (
 from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
 from reportgen.base.source_text import at, put
 from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
-from reportgen.base.words import kinds, titles
 from reportgen.page import html
 from reportgen.page.dragging import Resident
 from reportgen.page.fields import Form, written_at

@@ -15,10 +15,10 @@ from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY, UNIT_NAME_KEY
 from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
+from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode
 from reportgen.base.source_text import flow, path_text
 from reportgen.base.units import Language
-from reportgen.base.words import kinds
 
 SCALARS = {"string", "number", "integer", "boolean", "null"}
 NEVER = ("kind",)

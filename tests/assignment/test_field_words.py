@@ -11,8 +11,8 @@ import pytest
 from reportgen import catalogue
 from reportgen.assignment.schema import Schema, alternatives, choices_of, file_schema
 from reportgen.base.field_words import choice_words, field_words
+from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
-from reportgen.base.words import kinds
 
 LANGUAGES: tuple[Language, ...] = get_args(Language)
 PLAIN = re.compile(r"[A-Z]+[0-9]?|[0-9]+ pt|[0-9]+")

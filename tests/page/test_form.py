@@ -17,9 +17,9 @@ import pytest
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
 from reportgen.base.errors import Where
+from reportgen.base.kinds import kinds
 from reportgen.base.source import LARGEST, MappingNode, read_text
 from reportgen.base.units import Language
-from reportgen.base.words import kinds
 from reportgen.cases import open_case
 from reportgen.page.editing import EditSession
 from reportgen.page.fields import FieldGroup, FieldLine, Form
