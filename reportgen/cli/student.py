@@ -32,6 +32,7 @@ from reportgen.cli.common import (
 )
 
 if TYPE_CHECKING:
+    from reportgen.base.units import Language
     from reportgen.report import Document
     from reportgen.report.case import Case
 
@@ -151,6 +152,7 @@ def edit(
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Begin this file.", show_default="KIND.yaml")
     ] = None,
     no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of what is made of it.")] = Path("out"),
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
@@ -170,7 +172,21 @@ def edit(
             if os.path.lexists(file):
                 refuse([Fault("already-there", Mark(str(file)))], file, lang)
             write(file, catalogue.sample(what, lang or spoken()))
-        serve(file, opener(), lang, browser=not no_open)
+        serve(file, opener(), lang, _products(file, out, lang), browser=not no_open)
+
+
+def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[str, ...]]:
+    """The commands by which the page of a file has something made of it."""
+    spoken = ("--lang", lang) if lang else ()
+    commands = {
+        "pdf": ("build", "--format", "pdf"),
+        "docx": ("build", "--format", "docx"),
+        "html": ("build", "--format", "html"),
+        "sheet": ("sheet",),
+        "key": ("key",),
+    }
+    begun = (sys.executable, "-m", "reportgen.cli")
+    return {name: (*begun, *command, str(file), "--out", str(out), *spoken) for name, command in commands.items()}
 
 
 def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:

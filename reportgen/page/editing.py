@@ -7,7 +7,7 @@ become another one meanwhile, nothing is written and both are told.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -40,6 +40,7 @@ from reportgen.page.dragging import Resident
 from reportgen.page.fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live import LiveSession, empty_document
+from reportgen.page.making import Maker
 from reportgen.report.case import Case
 
 MOST_STEPS = 500
@@ -71,13 +72,34 @@ class EditSession(LiveSession):
     """The live session of the file at `path`, with its form."""
 
     path: Path = Path()
+    products: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    """The commands that make something of the file, by the names of their products."""
     lock: threading.RLock = field(default_factory=threading.RLock)
     done: list[Change] = field(default_factory=list)
     undone: list[Change] = field(default_factory=list)
     dragging: threading.Lock = field(default_factory=threading.Lock)
     _resident: tuple[Case, Resident | None] | None = None
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.maker = Maker(self.products, lambda making: self._publish(making=making))
+
+    def close(self) -> None:
+        self.maker.close()
+        super().close()
+
     # --- what is served
+
+    def made(self, name: str) -> bytes | None:
+        file = self.maker.files.get(name)
+        return file.read_bytes() if file is not None and file.is_file() else None
+
+    def make(self, asked: Asked) -> Mapping[str, Any]:
+        """Begin to make a product by its name, or end what is being made."""
+        if asked.get("end"):
+            self.maker.end()
+            return {}
+        return {"begun": self.maker.make(str(asked["product"]))}
 
     def page(self) -> str:
         now = self.revision
@@ -90,7 +112,7 @@ class EditSession(LiveSession):
 
     @property
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
-        return {"edit.json": self.edit, "drag.json": self.drag}
+        return {"edit.json": self.edit, "drag.json": self.drag, "make.json": self.make}
 
     def form(self) -> str:
         """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
@@ -118,6 +140,7 @@ class EditSession(LiveSession):
             faults=_by_place(problems, source),
             can_undo=bool(self.done),
             can_redo=bool(self.undone),
+            products=list(self.products),
         )
 
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:

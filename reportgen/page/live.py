@@ -41,6 +41,8 @@ class Revision:
     reports: int = 0
     busy: bool = False
     """Whether a report of the file as it stands is still to come."""
+    making: Mapping[str, Any] = field(default_factory=dict)
+    """What is being made of the file, or was made last."""
 
     @property
     def news(self) -> Mapping[str, Any]:
@@ -52,6 +54,7 @@ class Revision:
             "busy": self.busy,
             "language": self.language,
             "moves": [panel.own for panel in self.panels],
+            **({"making": self.making} if self.making else {}),
         }
 
 
@@ -154,6 +157,10 @@ class LiveSession:
         return unexpected(error, self.language or self.revision.language)
 
     # --- what is served
+
+    def made(self, name: str) -> bytes | None:
+        """The content of a file that was made on the page, by its name; None for any other."""
+        return None
 
     @property
     def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import json
+import mimetypes
 import secrets
 import socket
 import time
@@ -25,6 +26,8 @@ BEAT = 10.0
 """A page that has had no news for so long (s) hears that the server is there."""
 REQUEST = 10.0
 """A connection has so long (s) to send a whole request, or to take a part of the answer."""
+MADE = "made/"
+"""Below it are the files that were made on a page."""
 RESPITE = 0.2
 """Where no connection can be accepted, the server looks again after so long (s)."""
 HEADERS = {
@@ -118,6 +121,8 @@ class _Request(BaseHTTPRequestHandler):
             self._send(self.server.session.page().encode(), "text/html; charset=utf-8")
         elif name == "news":
             self._tell()
+        elif name.startswith(MADE) and (made := self.server.session.made(name.removeprefix(MADE))) is not None:
+            self._send(made, mimetypes.guess_type(name)[0] or "application/octet-stream")
         elif name in (answers := self.server.session.answers):
             answer = answers[name]()
             self._send(json.dumps(answer, ensure_ascii=False).encode(), "application/json")

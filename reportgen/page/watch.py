@@ -8,7 +8,7 @@ from __future__ import annotations
 import sys
 import threading
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
 from pathlib import Path
@@ -31,6 +31,7 @@ QUIET, LONGEST = 20, 200
 
 LOOKING = 0.05
 """From one look at the file to the next (s)."""
+EMPTY: Mapping[str, Sequence[str]] = {}
 HEARING = 0.5
 """How long (s) an interruption may have to wait."""
 _ONE_AT_A_TIME = threading.Lock()
@@ -68,15 +69,23 @@ def edit(
     path: Path,
     opens: Opener,
     language: Language | None = None,
+    products: Mapping[str, Sequence[str]] = EMPTY,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
 ) -> None:
-    """As `watch`, with a form beside what moves, by which the file is changed."""
+    """As `watch`, with a form beside what moves, by which the file is changed and its `products` are made."""
     if not path.is_file():
         opens(path, language)
     path = path.absolute()
-    serve(EditSession(partial(opens, path, language), language, path=path), path, opens, browser, port, stream)
+    serve(
+        EditSession(partial(opens, path, language), language, path=path, products=products),
+        path,
+        opens,
+        browser,
+        port,
+        stream,
+    )
 
 
 def serve(

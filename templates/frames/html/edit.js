@@ -1,7 +1,7 @@
 "use strict";
 // The form of the file: what is typed goes to the file, what comes back is the form of the file as it then is.
 (() => {
-  const form = document.getElementById("form"), words = JSON.parse(document.getElementById("live").textContent).words;
+  const form = document.getElementById("fields"), pane = document.getElementById("form"), words = JSON.parse(document.getElementById("live").textContent).words;
   const post = (name, body) => fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
   const place = (element) => JSON.parse(element.closest("[data-w]").dataset.w);
   const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => one.dataset.w === JSON.stringify(where));
@@ -91,11 +91,11 @@
     const inBar = focused?.type === "range", typed = focused?.value, was = focused?.dataset?.was;
     const range = focused && focused.selectionStart;
     const open = new Set([...form.querySelectorAll("details[open]")].map((one) => one.dataset.open));
-    const top = form.scrollTop;
+    const top = pane.scrollTop;
     form.innerHTML = body;
     for (const one of form.querySelectorAll("details")) one.open = open.has(one.dataset.open);
     mount();
-    form.scrollTop = top;
+    pane.scrollTop = top;
     let again = id && document.getElementById(id);
     if (again) {
       // What is being typed is not taken away.
@@ -144,6 +144,7 @@
     if (button.id === "undo" || button.id === "redo") change({ op: button.id });
     else if ("remedy" in data) { field.value = data.remedy; commit(field); }
     else if ("remove" in data) change({ op: "remove", where: place(field || button) });
+    else if ("make" in data) post("make.json", { product: data.make });
     else if ("add" in data) change({ op: "add", where: place(button) });
     else if ("up" in data) {
       const where = place(button), index = where.pop();
@@ -165,7 +166,33 @@
   });
 
   // What another tab or an editor has written.
-  document.addEventListener("news", async () => {
+  const tell = (making) => {
+    const told = document.getElementById("making");
+    if (!making) return;
+    told.textContent = `${words.products[making.product]}: ${words.states[making.state]} `;
+    for (const [name, path] of making.files || []) {
+      const link = document.createElement("a");
+      link.href = `made/${encodeURIComponent(name)}`;
+      link.target = "_blank";
+      link.textContent = path;
+      told.append(link, " ");
+    }
+    if (making.complaint) {
+      const text = document.createElement("pre");
+      text.textContent = making.complaint;
+      told.append(text);
+    }
+    if (making.state === "running") {
+      const end = document.createElement("button");
+      end.type = "button";
+      end.textContent = words.end;
+      end.addEventListener("click", () => post("make.json", { end: true }));
+      told.append(end);
+    }
+  };
+  document.addEventListener("news", async ({ detail }) => {
+    tell(detail.making);
+    if (!detail.changed) return;
     await queue;
     show(await (await fetch("form.json", { cache: "no-store" })).json());
   });
