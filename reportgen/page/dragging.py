@@ -6,13 +6,14 @@ was.  Only samples go to the page, as numbers of four bytes.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from reportgen.assignment import Assignment
-from reportgen.drawing.animation import MomentValue, MovingBody, MovingName, MovingVector, Pane, Track
+from reportgen.drawing.animation import MomentValue, MovingBody, MovingName, MovingVector, Pane, Still, Track
 from reportgen.page.panel import PanelWriter
 from reportgen.page.sampling import Samples
 from reportgen.report.case import Case, MachineAnalysis
@@ -36,6 +37,8 @@ class Resident:
         writer.panel()
         lengths = writer.tracks.lengths
         self.values = writer.tracks.values
+        self.painter = writer.painter
+        self.drawn = self.bodies(animation.panes[0])
         self.starts = np.concatenate(([0], np.cumsum(lengths))).astype(int)
         self.numbers = [writer.tracks.number(track) for track in tracks(animation.panes, animation.values)]
 
@@ -45,10 +48,16 @@ class Resident:
         machine = getattr(case, "machine", case)
         return cls(machine) if isinstance(machine, MachineAnalysis) and machine.animations() else None
 
-    def sampled(self, assignment: Assignment) -> bytes:
-        """All samples of the animation with another assignment; b"" where it would have other parts.
+    def bodies(self, pane: Pane) -> list[str]:
+        """What is drawn of each item of a pane about its own origin; "" of arrows and names."""
+        solid = (item.items if isinstance(item, MovingBody | Still) else () for item in pane.items)
+        return list(map(self.painter.items, solid))
 
-        Raises what solving raises for a machine that cannot be.
+    def sampled(self, assignment: Assignment) -> bytes:
+        """What another assignment changes: bodies of other shape by their places, as JSON, and all samples.
+
+        The length of the JSON stands in front of it, in four bytes, blanks behind it up to the next four.  Nothing
+        comes where the animation would have other parts.  Raises what solving raises for a machine that cannot be.
         """
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
@@ -56,13 +65,32 @@ class Resident:
         if not samples.analysis.motion.reachable.all():
             return b""
         values, written = self.values.copy(), np.zeros(self.values.size, dtype=bool)
-        moved = list(tracks(tuple(samples.panes()), tuple(samples.values())))
+        panes = tuple(samples.panes())
+        moved = list(tracks(panes, tuple(samples.values())))
         if len(moved) != len(self.numbers):
             return b""
         for number, track in zip(self.numbers, moved, strict=True):
             if not self._put(values, written, number, track.values):
                 return b""
-        return values.tobytes()
+        bodies = self.bodies(panes[0])
+        if list(map(bool, bodies)) != list(map(bool, self.drawn)):
+            return b""
+        before = dict(self._by_place(panes[0], self.drawn))
+        changed = {place: body for place, body in self._by_place(panes[0], bodies) if body != before[place]}
+        head = json.dumps(changed, ensure_ascii=False, separators=(",", ":")).encode()
+        head += b" " * (-len(head) % 4)
+        return len(head).to_bytes(4, "little") + head + values.tobytes()
+
+    def _by_place(self, pane: Pane, bodies: list[str]) -> Iterator[tuple[int, str]]:
+        """The bodies by the places of their elements: an item without anything to draw has none."""
+        place = 0
+        for item, body in zip(pane.items, bodies, strict=True):
+            if isinstance(item, MovingBody | Still):
+                if body:
+                    yield place, body
+                    place += 1
+            else:
+                place += 1
 
     def _put(self, values: np.ndarray, written: np.ndarray, number: int, track: np.ndarray) -> bool:
         """Put the samples of a track in place; not where they have another length, or share their place and differ."""

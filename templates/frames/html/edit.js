@@ -75,9 +75,12 @@
       wanted = null;
       try {
         const answer = await post("drag.json", body);
-        const samples = answer.ok ? await answer.arrayBuffer() : null;
-        document.body.classList.toggle("stale", !samples || !samples.byteLength);
-        if (samples && samples.byteLength) panels[0]?.feed(new Float32Array(samples));
+        const samples = answer.ok ? await answer.arrayBuffer() : null, known = samples && samples.byteLength > 0;
+        document.body.classList.toggle("stale", !known);
+        if (!known) continue;
+        const length = new DataView(samples).getUint32(0, true);
+        const bodies = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
+        panels[0]?.feed(new Float32Array(samples, 4 + length), bodies);
       } catch { /* the server tells of itself */ }
     }
     asking = false;

@@ -447,6 +447,7 @@ const panelOf = (root, panels) => {
     const layers = { ...drawing.layers }, chosen = told()?.name, rate = byId("speed").value;
     const focused = root.contains(document.activeElement) ? document.activeElement.id : "";
     root.innerHTML = body;
+    reshaped.clear();
     for (const one of root.querySelectorAll("[data-panel]")) {
       if (one.dataset.panel in open) one.open = open[one.dataset.panel];
     }
@@ -461,10 +462,17 @@ const panelOf = (root, panels) => {
   };
 
   // Other samples of the same film, while a value is drawn.
-  const feed = (samples) => {
+  const reshaped = new Map();
+  const feed = (samples, bodies) => {
     if (samples.length !== values.length) return;
     values = samples;
     shown = {};
+    const items = drawing.parts[0].element.querySelector("svg").children;
+    for (const [place, body] of reshaped) if (!(place in bodies)) { items[place].innerHTML = body; reshaped.delete(place); }
+    for (const [place, body] of Object.entries(bodies)) {
+      if (!reshaped.has(place)) reshaped.set(place, items[place].innerHTML);
+      items[place].innerHTML = body;
+    }
     if (!state.playing) draw();
   };
 
