@@ -41,6 +41,7 @@ from reportgen.page.fields import Form, written_at
 from reportgen.page.html import Live
 from reportgen.page.live import LiveSession, empty_document
 from reportgen.page.making import Maker
+from reportgen.page.ownership import owners
 from reportgen.report.case import Case
 
 MOST_STEPS = 500
@@ -108,7 +109,7 @@ class EditSession(LiveSession):
 
     @property
     def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
-        return {**super().answers, "form.json": lambda: {"form": self.form()}}
+        return {**super().answers, "form.json": lambda: {"form": self.form()}, "owners.json": self.owners}
 
     @property
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
@@ -142,6 +143,30 @@ class EditSession(LiveSession):
             can_redo=bool(self.undone),
             products=list(self.products),
         )
+
+    def owners(self) -> Mapping[str, Any]:
+        """Which bars and points are each value's own, by the place of its field; where fixed points are drawn (mm)."""
+        with self.dragging:
+            resident = self._resident_machine()
+        with self.lock:
+            text = self._text(self.path)
+        top = None if isinstance(text, Fault) else read_own(text).top
+        if resident is None or not isinstance(top, MappingNode):
+            return {"fields": [], "ground": {}}
+        machine, scale = resident.samples.machine, resident.samples.scale
+        fields = owners(machine, top, Source(str(self.path), top=top))
+        ground = {name: [at.real * scale, -at.imag * scale] for name, at in machine.linkage.ground.items()}
+        return {
+            "fields": [{"where": list(where), "bars": own.bars, "points": own.points} for where, own in fields],
+            "ground": ground,
+        }
+
+    def _resident_machine(self) -> Resident | None:
+        """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
+        case = self.case
+        if case is not None and (self._resident is None or self._resident[0] is not case):
+            self._resident = case, Resident.of(case)
+        return self._resident[1] if self._resident else None
 
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
         return self.revision.language, self.revision.words
@@ -217,10 +242,7 @@ class EditSession(LiveSession):
         """
         where = _place(asked["where"])
         with self.dragging:
-            case = self.case
-            if case is not None and (self._resident is None or self._resident[0] is not case):
-                self._resident = case, Resident.of(case)
-            resident = self._resident[1] if self._resident else None
+            resident = self._resident_machine()
             with self.lock:
                 text = self._text(self.path)
             top = None if isinstance(text, Fault) else read_own(text).top

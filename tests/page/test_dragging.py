@@ -10,10 +10,11 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.source import Scalar, Source, read_source
+from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import at, put
 from reportgen.cases import open_case, opened
 from reportgen.page.dragging import Resident, tracks
+from reportgen.page.ownership import Owned, moved, owners
 from reportgen.page.panel import PanelWriter
 from reportgen.page.sampling import Samples
 from reportgen.report.case import MachineAnalysis
@@ -75,3 +76,18 @@ def test_samples_are_those_of_a_whole_animation(name: str, where: tuple[str | in
             np.testing.assert_allclose(here, expected, rtol=0, atol=1e-6 * max(greatest, 1e-30))
     if where[-1] == "r":
         assert bodies, "a longer crank is drawn longer"
+
+
+def test_each_value_leads_to_what_it_moves() -> None:
+    """The shaper's lengths and loads, by its drawing: A over C, rocker CD, link DE, ram E; the crank is a H/(2 l3)."""
+    file = FOLDER / "shaper-01.yaml"
+    source = read_source(file)
+    case = open_case(file)
+    assert isinstance(case, MachineAnalysis)
+    assert isinstance(source.top, MappingNode)
+    owned = {where[-1]: own for where, own in owners(case.analysis.machine, source.top, source)}
+    assert owned["l4"] == Owned(bars=(("D", "E"),))
+    assert owned["H"] == Owned(bars=(("A", "B"),))
+    assert "D" in owned["l3"].points
+    assert owned["b"] == owned["F"] == Owned(points=("E",))
+    assert [moved(text) for text in ("1/3.6", "0 mm", "50 mm", "left")] == ["1.01/3.6", "0.5 mm", "50.5 mm", None]

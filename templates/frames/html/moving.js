@@ -222,6 +222,13 @@ const panelOf = (root, panels) => {
   }, { rootMargin: "100px" });
   const visible = (element) => !state.playing || seen.has(element);
 
+  // Others that follow what is drawn, and where a point is on the drawing of the machine.
+  const followers = [];
+  const spotAt = (name) => {
+    const spot = animation.spots.find((one) => one.name === name);
+    return spot && [value(spot.at), -value(spot.at + 1)];
+  };
+
   const draw = () => {
     now = place(state.angle);
     const time = performance.now(), readable = !state.playing || time - state.told > READABLE;
@@ -246,6 +253,7 @@ const panelOf = (root, panels) => {
       });
     }
     for (const { element, update } of drawing.charts) if (visible(element)) update(readable);
+    for (const follow of followers) follow();
     if (readable) {
       state.told = time;
       tell();
@@ -482,7 +490,7 @@ const panelOf = (root, panels) => {
     seek(animation.positions[animation.shown][1]);
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
   };
-  return { root, own, start, hold, seek, play, pause, renew, feed, angle: () => state.angle, playing: () => state.playing };
+  return { root, own, start, hold, seek, play, pause, renew, feed, followers, spotAt, angle: () => state.angle, playing: () => state.playing };
 };
 const panels = [];
 for (const root of document.querySelectorAll(".moving")) panels.push(panelOf(root, panels));
