@@ -80,7 +80,7 @@
         if (!known) continue;
         const length = new DataView(samples).getUint32(0, true);
         const bodies = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
-        panels[0]?.feed(new Float32Array(samples, 4 + length), bodies);
+        extended.get(panels[0]?.root)?.feed(new Float32Array(samples, 4 + length), bodies);
       } catch { /* the server tells of itself */ }
     }
     asking = false;
@@ -171,9 +171,9 @@
   // --- a field and its link: one leads to the other
 
   const NEAR = 4;
-  let owners = { fields: [], ground: {} }, marked = [];
+  let owners = { fields: [], ground: {} }, marked = [], following = false;
   const svg = () => panels[0]?.root.querySelector('[data-stage="machine"] svg');
-  const at = (name) => panels[0].spotAt(name) || owners.ground[name];
+  const at = (name) => extended.get(panels[0].root).spotAt(name) || owners.ground[name];
   const overlay = () => {
     const drawing = svg();
     let path = drawing.querySelector(".own");
@@ -185,6 +185,11 @@
     return path;
   };
   const follow = () => {
+    // As long as anything is marked it goes with what moves.
+    if (marked.length && !following) {
+      following = true;
+      requestAnimationFrame(() => { following = false; follow(); });
+    }
     if (!marked.length && !svg()?.querySelector(".own")) return;
     const bars = marked.flatMap(({ bars }) => bars).map((names) => names.map(at)).filter((ends) => ends.every(Boolean));
     const points = marked.flatMap(({ points }) => points).map(at).filter(Boolean);
@@ -225,7 +230,6 @@
     while (place.length && !byPlace(place)) place.pop();
     return byPlace(place);
   });
-  panels[0]?.followers.push(follow);
   panels[0]?.root.addEventListener("pointermove", (event) => {
     const list = svg()?.contains(event.target) ? under(event) : [];
     const own = new Set(fieldsOf(list).map((one) => one?.closest(".field")));

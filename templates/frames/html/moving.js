@@ -222,13 +222,6 @@ const panelOf = (root, panels) => {
   }, { rootMargin: "100px" });
   const visible = (element) => !state.playing || seen.has(element);
 
-  // Others that follow what is drawn, and where a point is on the drawing of the machine.
-  const followers = [];
-  const spotAt = (name) => {
-    const spot = animation.spots.find((one) => one.name === name);
-    return spot && [value(spot.at), -value(spot.at + 1)];
-  };
-
   const draw = () => {
     now = place(state.angle);
     const time = performance.now(), readable = !state.playing || time - state.told > READABLE;
@@ -253,7 +246,6 @@ const panelOf = (root, panels) => {
       });
     }
     for (const { element, update } of drawing.charts) if (visible(element)) update(readable);
-    for (const follow of followers) follow();
     if (readable) {
       state.told = time;
       tell();
@@ -455,7 +447,6 @@ const panelOf = (root, panels) => {
     const layers = { ...drawing.layers }, chosen = told()?.name, rate = byId("speed").value;
     const focused = root.contains(document.activeElement) ? document.activeElement.id : "";
     root.innerHTML = body;
-    reshaped.clear();
     for (const one of root.querySelectorAll("[data-panel]")) {
       if (one.dataset.panel in open) one.open = open[one.dataset.panel];
     }
@@ -469,28 +460,13 @@ const panelOf = (root, panels) => {
     seek(state.angle);
   };
 
-  // Other samples of the same film, while a value is drawn.
-  const reshaped = new Map();
-  const feed = (samples, bodies) => {
-    if (samples.length !== values.length) return;
-    values = samples;
-    shown = {};
-    const items = drawing.parts[0].element.querySelector("svg").children;
-    for (const [place, body] of reshaped) if (!(place in bodies)) { items[place].innerHTML = body; reshaped.delete(place); }
-    for (const [place, body] of Object.entries(bodies)) {
-      if (!reshaped.has(place)) reshaped.set(place, items[place].innerHTML);
-      items[place].innerHTML = body;
-    }
-    if (!state.playing) draw();
-  };
-
   let shown = { samples: document.getElementById(`${own}samples`).textContent };
   mount(JSON.parse(shown.samples));
   const start = () => {
     seek(animation.positions[animation.shown][1]);
     if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play();
   };
-  return { root, own, start, hold, seek, play, pause, renew, feed, followers, spotAt, angle: () => state.angle, playing: () => state.playing };
+  return { root, own, start, hold, seek, play, pause, renew, angle: () => state.angle, playing: () => state.playing };
 };
 const panels = [];
 for (const root of document.querySelectorAll(".moving")) panels.push(panelOf(root, panels));
