@@ -31,6 +31,17 @@ const bar = document.getElementById(arguments[0]).closest(".field").querySelecto
 bar.value = arguments[1];
 bar.dispatchEvent(new Event("input", { bubbles: true }));
 """
+PRESS = """
+const field = document.getElementById(arguments[0]);
+field.focus();
+for (const key of arguments[1]) field.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+"""
+PASTE = """
+const clipboardData = new DataTransfer();
+clipboardData.setData("text", arguments[1]);
+const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-column="1"]`);
+cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+"""
 PLACE = "return document.querySelector('[data-stage=machine] svg').innerHTML"
 
 
@@ -92,19 +103,25 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
 
 
 @proof
-@pytest.mark.parametrize(("language", "width", "dark"), [("vi", 360, True), ("en", 1440, False)])
-def test_the_form_can_be_used_by_all(browser: Browser, tmp_path: Path, language: str, width: int, dark: bool) -> None:
-    """axe finds nothing, nothing is scrolled sideways, and a key alone changes a value."""
+@pytest.mark.parametrize(
+    ("kind", "key", "language", "width", "dark"),
+    [("engine-twin", "H", "vi", 360, True), ("shaper", "a", "en", 1440, False)],
+)
+def test_the_form_can_be_used_by_all(
+    browser: Browser, tmp_path: Path, kind: str, key: str, language: str, width: int, dark: bool
+) -> None:
+    """axe finds nothing, nothing is scrolled sideways, a key alone changes a value, cells of a workbook are taken."""
     file = tmp_path / "mine.yaml"
-    with editing("shaper", "-o", file, "--lang", language) as address:
+    with editing(kind, "-o", file, "--lang", language) as address:
+        before = written(file, key)
         browser.show(address, width=width, height=800, dark=dark, still=True)
         assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
-        browser.run(
-            """const field = document.getElementById("f:parameters.a");
-            field.focus();
-            for (const key of ["ArrowUp", "Enter"]) {
-              field.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
-            }"""
-        )
-        until(lambda: re.fullmatch(r"27\d mm", written(file, "a")) and written(file, "a") != "270 mm")
+        browser.run(PRESS, f"f:parameters.{key}", ["ArrowUp", "Enter"])
+        until(lambda: re.fullmatch(r"\d+ mm", written(file, key)) and written(file, key) != before)
+        if kind == "engine-twin":
+            text = file.read_text(encoding="utf-8")
+            browser.run(PASTE, 1, "-2,4\t24\n")
+            until(lambda: "[1.0, -2.4, -2.5" in file.read_text(encoding="utf-8"))
+            changed = file.read_text(encoding="utf-8").replace("1.0, -2.4, -2.5", "1.0, -2.5, -2.5")
+            assert changed.replace("[28,  24, ", "[28,  23.2, ") == text, "all else is as it was"
         assert browser.violations(axe()) == []

@@ -96,8 +96,8 @@
     const open = new Set([...form.querySelectorAll("details[open]")].map((one) => one.dataset.open));
     const top = pane.scrollTop;
     form.innerHTML = body;
-    for (const one of form.querySelectorAll("details")) one.open = open.has(one.dataset.open);
     mount();
+    for (const one of form.querySelectorAll("details")) one.open = open.has(one.dataset.open);
     pane.scrollTop = top;
     let again = id && document.getElementById(id);
     if (again) {
@@ -119,7 +119,7 @@
     document.getElementById("saved").textContent = refused ? words.unsaved : words.saved;
     document.body.classList.toggle("stale", Boolean(form.querySelector("#problems ul")));
   };
-  const mount = () => form.querySelectorAll("input[data-unit], input[data-number]").forEach(slider);
+  const mount = () => { form.querySelectorAll("input[data-unit], input[data-number]").forEach(slider); grids(); };
 
   // --- what is done
 
@@ -167,6 +167,96 @@
     event.preventDefault();
     change({ op: event.key.toLowerCase() === "y" || event.shiftKey ? "redo" : "undo" });
   });
+
+  // --- tables: rows of one length side by side as a grid, with a curve of each over the first
+
+  const MOST_ROWS = 400;
+  const values = (input) => (/[\[{"']/.test(input.value) ? [] : input.value.split(",").map((one) => one.trim()).filter(Boolean));
+  const node = (name, properties = {}, ...children) => {
+    const element = Object.assign(document.createElement(name), properties);
+    element.append(...children);
+    return element;
+  };
+  // A single value is changed in its place; a row of another length is written anew.
+  const put = (inputs, rows) => inputs.forEach((input, column) => {
+    const old = values(input), next = rows.map((row) => row[column]), other = next.flatMap((one, index) => (one === old[index] ? [] : [index]));
+    input.value = next.join(", ");
+    if (old.length !== next.length || other.length !== 1) { commit(input); return; }
+    input.dataset.was = input.value;
+    change({ op: "set", where: [...place(input), other[0]], value: next[other[0]], was: old[other[0]] });
+  });
+  const curve = (columns) => {
+    const numbers = columns.map((column) => column.map((one) => parseFloat(one)));
+    const [x, ...ys] = numbers, all = ys.flat(), low = Math.min(...all, 0), high = Math.max(...all, low + 1e-9);
+    const across = (at) => 4 + 192 * (at - x[0]) / (x[x.length - 1] - x[0] || 1), up = (at) => 76 - 72 * (at - low) / (high - low);
+    const lines = ys.map((y) => `M${y.map((at, index) => `${across(x[index])} ${up(at)}`).join("L")}`);
+    if (numbers.flat().some((one) => !isFinite(one))) return "";
+    const dashes = ["", "5 2", "1.5 1.5", "6 2 1 2"];
+    return `<svg viewBox="0 0 200 80" aria-hidden="true"><path d="M4 ${up(0)}H196"/>${lines.map((d, index) => `<path class="curve" stroke-dasharray="${dashes[index % 4]}" d="${d}"/>`).join("")}</svg>`;
+  };
+  // What is pasted from a workbook: cells by tabs and lines, decimal commas turned, a unit where the column has one.
+  const paste = (text, unit) => {
+    let turned = false;
+    const cells = text.replace(/\r/g, "").replace(/\n+$/, "").split("\n").map((line) => line.split("\t").map((one, column) => {
+      let cell = one.trim();
+      if (/^[+-]?\d+,\d+(?!\d)/.test(cell)) { cell = cell.replace(",", "."); turned = true; }
+      return NUMBER.test(cell) && !NUMBER.exec(cell)[2].trim() && unit(column) ? `${cell} ${unit(column)}` : cell;
+    }));
+    return { cells, turned };
+  };
+  const grid = (inputs) => {
+    const columns = inputs.map(values), count = columns[0].length;
+    const body = columns[0].map((_, row) => node("tr", {}, ...columns.map((column, index) => {
+      const cell = node("input", { value: column[row] });
+      cell.setAttribute("aria-label", `${inputs[index].labels[0].textContent} ${row + 1}`);
+      cell.dataset.row = row;
+      cell.dataset.column = index;
+      return node("td", {}, cell);
+    })));
+    const head = node("tr", {}, ...inputs.map((input) => node("th", { scope: "col", textContent: JSON.parse(input.dataset.w).at(-1) })));
+    const table = node("table", {}, node("thead", {}, head), node("tbody", {}, ...body));
+    const note = node("p", { className: "remark" }), box = node("div", { className: "grid", tabIndex: 0 }, table);
+    box.setAttribute("role", "group");
+    box.setAttribute("aria-label", words.table);
+    const outer = node("details", { className: "tabled" }, node("summary", { textContent: words.table }), box, note);
+    outer.dataset.open = `table ${inputs[0].id}`;
+    note.insertAdjacentHTML("beforebegin", curve(columns));
+    const rows = () => [...table.tBodies[0].rows].map((row) => [...row.querySelectorAll("input")].map((one) => one.value.trim()));
+    const go = (row, column) => table.tBodies[0].rows[row]?.querySelectorAll("input")[column]?.focus();
+    table.addEventListener("change", () => put(inputs, rows()));
+    table.addEventListener("keydown", (event) => {
+      const { row, column } = event.target.dataset, move = { ArrowUp: [-1, 0], ArrowDown: [1, 0], Enter: [1, 0] }[event.key];
+      const side = event.key === "ArrowLeft" && event.target.selectionStart === 0 ? -1 : event.key === "ArrowRight" && event.target.selectionStart === event.target.value.length ? 1 : 0;
+      if (!move && !side) return;
+      event.preventDefault();
+      event.stopPropagation();
+      go(Number(row) + (move ? move[0] : 0), Number(column) + side);
+    });
+    table.addEventListener("paste", (event) => {
+      const text = event.clipboardData.getData("text");
+      if (!/[\t\n]/.test(text)) return;
+      event.preventDefault();
+      const from = Number(event.target.dataset.row), first = Number(event.target.dataset.column);
+      const unit = (column) => ((NUMBER.exec(columns[first + column]?.[0] || "") || [])[2] || "").trim();
+      const { cells, turned } = paste(text, unit), all = rows();
+      cells.forEach((line, index) => {
+        all[from + index] ??= columns.map(() => "0");
+        line.forEach((one, column) => { if (first + column < columns.length) all[from + index][first + column] = one; });
+      });
+      put(inputs, all);
+      if (turned) queue.then(() => { document.getElementById("refused").textContent = words.commas; });
+    });
+    inputs[inputs.length - 1].closest(".field").after(outer);
+    return count;
+  };
+  const grids = () => {
+    const tables = new Map();
+    for (const input of form.querySelectorAll("input[data-list]")) {
+      const key = JSON.stringify([JSON.parse(input.dataset.w).slice(0, -1), values(input).length]), length = values(input).length;
+      if (length > 2 && length <= MOST_ROWS) tables.set(key, [...(tables.get(key) || []), input]);
+    }
+    for (const inputs of tables.values()) if (inputs.length > 1) grid(inputs);
+  };
 
   // --- a field and its link: one leads to the other
 
