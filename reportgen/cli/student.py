@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import sys
@@ -146,8 +147,9 @@ def watch(
 
 def edit(
     what: Annotated[
-        str, typer.Argument(metavar="FILE|KIND", help="Assignment file, or a kind to begin with.", show_default=False)
-    ],
+        str | None,
+        typer.Argument(metavar="[FILE|KIND]", help="Assignment file, or a kind to begin with.", show_default="choose"),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", metavar="FILE", help="Begin this file.", show_default="KIND.yaml")
     ] = None,
@@ -157,22 +159,41 @@ def edit(
     templates: TemplatesOption = None,
 ) -> None:
     """Edit FILE in a browser by a form, the machine moving beside it. A KIND begins a file. Ctrl-C ends it."""
-    from reportgen import catalogue
     from reportgen.base.kinds import kinds
-    from reportgen.base.words import spoken
     from reportgen.cases import opener
-    from reportgen.page.watch import edit as serve
+    from reportgen.page import watch as served
+
+    def begin(kind: str) -> Path:
+        """The file of a kind, begun; one that was named, or the first that is not there yet."""
+        names = (Path(f"{kind}{f'-{number}' if number else ''}.yaml") for number in itertools.count())
+        file = output or next(name for name in names if not os.path.lexists(name))
+        _begin(kind, file, lang)
+        return file
 
     with ending(lang):
+        if what is None:
+            served.choose(begin, opener(), lang, lambda file: _products(file, out, lang), browser=not no_open)
+            return
         begins = what in kinds() and not Path(what).exists()
-        file = output or Path(f"{what}.yaml") if begins else Path(what)
         if output is not None and not begins:
-            raise typer.BadParameter(say("no_kind", lang, text=what), param_hint="KIND")
+            from reportgen.base.words import unknown
+
+            raise typer.BadParameter(unknown("no_kind", what, list(kinds()), lang), param_hint="KIND")
+        file = Path(what)
         if begins:
-            if os.path.lexists(file):
-                refuse([Fault("already-there", Mark(str(file)))], file, lang)
-            write(file, catalogue.sample(what, lang or spoken()))
-        serve(file, opener(), lang, _products(file, out, lang), browser=not no_open)
+            file = output or Path(f"{what}.yaml")
+            _begin(what, file, lang)
+        served.edit(file, opener(), lang, _products(file, out, lang), browser=not no_open)
+
+
+def _begin(kind: str, file: Path, lang: Language | None) -> None:
+    """Write the file to begin with of a kind, never over one that is there."""
+    from reportgen import catalogue
+    from reportgen.base.words import spoken
+
+    if os.path.lexists(file):
+        refuse([Fault("already-there", Mark(str(file)))], file, lang)
+    write(file, catalogue.sample(kind, lang or spoken()))
 
 
 def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[str, ...]]:

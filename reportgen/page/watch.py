@@ -8,8 +8,8 @@ from __future__ import annotations
 import sys
 import threading
 import webbrowser
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import TextIO
@@ -20,6 +20,7 @@ from reportgen.base.files import reported
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
+from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
 from reportgen.page.serving import Server
@@ -88,15 +89,58 @@ def edit(
     )
 
 
+def choose(
+    begins: Callable[[str], Path],
+    opens: Opener,
+    language: Language | None = None,
+    products: Callable[[Path], Mapping[str, Sequence[str]]] = lambda path: EMPTY,
+    browser: bool = True,
+    stream: TextIO = sys.stdout,
+) -> None:
+    """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes the file of a kind."""
+    chooser = Chooser(partial(opens, Path(), language), language, begins=begins, example=opens)
+    with _served(chooser, 0) as server:
+        _announce(server, browser, stream)
+        with suppress(KeyboardInterrupt):
+            while not chooser.chosen.wait(HEARING):
+                pass
+            path = chooser.path.absolute()
+            session = EditSession(partial(opens, path, language), language, path=path, products=products(path))
+            with _followed(session, path, opens):
+                server.session = session
+                chooser.ready.set()
+                _wait()
+
+
 def serve(
     session: LiveSession, path: Path, opens: Opener, browser: bool = True, port: int = 0, stream: TextIO = sys.stdout
 ) -> None:
     """Serve a live session, and renew it whenever its file changes, until the program is interrupted."""
+    with _served(session, port) as server, suppress(KeyboardInterrupt), _followed(session, path, opens):
+        _announce(server, browser, stream)
+        _wait()
+
+
+@contextmanager
+def _served(session: LiveSession, port: int) -> Iterator[Server]:
+    """A server that answers meanwhile."""
     with reported():
         server = Server(session, port)
+    thread = threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True)
+    try:
+        thread.start()
+        yield server
+    finally:
+        server.session.close()
+        server.shutdown()
+        server.server_close()
+
+
+@contextmanager
+def _followed(session: LiveSession, path: Path, opens: Opener) -> Iterator[None]:
+    """A session that is open and renewed meanwhile."""
     stop = threading.Event()
     threads = (
-        threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True),
         threading.Thread(target=_follow, args=(path, session, stop, _states(path)), daemon=True),
         threading.Thread(target=_follow_templates, args=(session, stop, _school(path, opens)), daemon=True),
     )
@@ -105,18 +149,23 @@ def serve(
             thread.start()
         with _ONE_AT_A_TIME:
             session.open()
-        print(server.address, file=stream, flush=True)
-        if browser:
-            webbrowser.open(server.address)
-        while not stop.wait(HEARING):
-            pass
-    except KeyboardInterrupt:
-        pass
+        yield
     finally:
         stop.set()
         session.close()
-        server.shutdown()
-        server.server_close()
+
+
+def _announce(server: Server, browser: bool, stream: TextIO) -> None:
+    print(server.address, file=stream, flush=True)
+    if browser:
+        webbrowser.open(server.address)
+
+
+def _wait() -> None:
+    """Wait for Ctrl-C, which would not be heard in a longer sleep."""
+    never = threading.Event()
+    while not never.wait(HEARING):
+        pass
 
 
 def _school(path: Path, opens: Opener) -> Path | None:
