@@ -20,7 +20,7 @@ import pymupdf
 from PIL import Image
 
 from reportgen import api
-from reportgen.base.words import kinds
+from reportgen.base.kinds import kinds
 from reportgen.report import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent

@@ -21,8 +21,9 @@ from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import reported, scratch, version
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, school_folder, templates_hash, word
+from reportgen.base.words import as_error, templates_hash, word
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.report.case import bounded
 

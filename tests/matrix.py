@@ -25,8 +25,9 @@ from reportgen import cases as cases_module
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import samples
 from reportgen.base.units import Language
-from reportgen.base.words import kinds, samples
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.marking.key import Ask, key_of

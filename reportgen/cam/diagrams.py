@@ -27,9 +27,10 @@ from reportgen.drawing import (
     Scene,
     style,
 )
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, plotted
-from reportgen.drawing.geometry import box
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.label_size import box
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.vocabulary import KINDS
@@ -62,6 +63,7 @@ class Graph:
     zero: float
 
     def at(self, y: Floats) -> Floats:
+        """The ordinate (mm) on paper of one of the diagram (mm)."""
         return self.zero + y
 
 
@@ -77,11 +79,12 @@ class LawScales:
     poles: tuple[float, float]
 
     def shrunk(self, times: float) -> LawScales:
-        """Those of diagrams so many times smaller."""
+        """Those of diagrams smaller by a factor."""
         (s, ds, dds), (one, two) = self.per_mm, self.poles
         return LawScales(self.turn / times, (s * times, ds * times, dds * times), (one / times, two / times))
 
     def across(self, φ: Floats) -> Floats:
+        """Abscissae (mm) [N] of angles of the cam (rad)."""
         return φ / (2 * math.pi) * self.turn
 
 

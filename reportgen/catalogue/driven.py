@@ -57,6 +57,10 @@ class Flywheel(Part):
     delta: Unevenness
 
 
+OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share}
+"""What a file may give of a link, by the letter before its number."""
+
+
 class Driven(Part):
     """The crank's speed in one of two ways, gravity, the flywheel that is asked for, and masses if declared.
 
@@ -82,12 +86,12 @@ class Driven(Part):
         loads: Iterable[str] = (),
         **rest: Any,
     ) -> None:
-        links, types = (tuple(masses), tuple(moments), tuple(shares)), (Weight, Mass, MomentOfInertia, Share)
-        cls.links = {"G": links[0], "m": links[0], "J": links[1], "s": links[2]}
+        cls.links = {"G": tuple(masses), "m": tuple(masses), "J": tuple(moments), "s": tuple(shares)}
         cls.required, cls.loads = tuple(required), tuple(loads)
-        for (letter, numbers), kind in zip(cls.links.items(), types, strict=True):
+        # A field of pydantic is an annotation with a default, which the body of the class would have had.
+        for letter, numbers in cls.links.items():
             for number in numbers:
-                cls.__annotations__[f"{letter}{number}"] = kind | None
+                cls.__annotations__[f"{letter}{number}"] = OF_LINK[letter] | None
                 setattr(cls, f"{letter}{number}", None)
         super().__init_subclass__(**rest)
 
@@ -100,7 +104,7 @@ class Driven(Part):
 
     @property
     def unevenness(self) -> float | None:
-        """δ of the flywheel, None if none is asked for."""
+        """δ of the flywheel, a ratio; None if none is asked for."""
         return None if self.flywheel is None else self.flywheel.delta.si
 
     @classmethod
@@ -172,7 +176,7 @@ class GivenSheet(Sheet):
         self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
 
     def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
-        """The crank's drawn length by a round scale of the drawing."""
+        """The crank's drawn length (mm) by a round scale (m per mm) of the drawing."""
         μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
         self.define(ids.drawn(start, end), crank / μ, drawn_length(start, end))
 
@@ -237,7 +241,7 @@ class GivenSheet(Sheet):
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
-        """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
+        """A fixed point or a guide's point `at` (m) that lies at a `length` from the origin, and so goes with it."""
         far = self.construct(ids.far(id), length)
         if self.si(far):
             self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
@@ -267,7 +271,7 @@ class GivenSheet(Sheet):
 
 
 def even_angles(positions: Positions, turns: int = 1) -> np.ndarray:
-    """Cycle angles of evenly spaced positions [count·turns]."""
+    """Cycle angles (rad) of evenly spaced positions [count·turns]."""
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
 
 
@@ -327,7 +331,7 @@ def driven(
     sections: Mapping[str, Any] | None = None,
     **own: Any,
 ) -> Machine:
-    """The machine of an assignment whose crank stands at the angle `start` in position 1.
+    """The machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
 
     `sections` go to `outline`, all further fields of its `Machine` are given by name; loads that are zero throughout
     are left out.

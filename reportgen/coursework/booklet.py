@@ -17,6 +17,7 @@ from reportgen.report import (
     Block,
     Cell,
     Column,
+    Contents,
     Cover,
     Document,
     Equation,
@@ -30,6 +31,7 @@ from reportgen.report import (
     Table,
     Text,
 )
+from reportgen.report.layout import contents
 from reportgen.report.numbering import number
 from reportgen.report.wording import sentence
 
@@ -103,10 +105,11 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
         if index == last:
             for part in parts:
                 blocks += (Section(1, (Text(part.title),)), *part.lettered, *part.group(""))
-    return number(replace(machine, blocks=tuple(blocks)))
+    listed = (contents(one.title, blocks, one.brief) if isinstance(one, Contents) else one for one in blocks)
+    return number(replace(machine, blocks=tuple(listed)))
 
 
-def task_of(machine: Document, parts: Sequence[PartReport]) -> Document:
+def handout(machine: Document, parts: Sequence[PartReport]) -> Document:
     """One handout: that of the machine, then those of the parts, each from a page of its own and without its head."""
     blocks = list(machine.blocks)
     for part in parts:

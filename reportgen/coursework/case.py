@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework import senses
-from reportgen.coursework.booklet import PartReport, booklet, task_of
+from reportgen.coursework.booklet import PartReport, booklet, handout
 from reportgen.coursework.senses import PartShafts
 from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.animation import Animation
@@ -321,7 +321,7 @@ class Coursework(CaseOfParts):
 
     def joined_task(self, papers: Sequence[Document]) -> Document:
         machine, *others = papers
-        return task_of(machine, list(map(self._handout, self.members, others)))
+        return handout(machine, list(map(self._handout, self.members, others)))
 
     def _handout(self, member: PartCase, paper: Document) -> PartReport:
         own = relettered(paper, self.letters[member.name])

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import NARROW, written
@@ -236,6 +236,7 @@ class Blocks:
         return "\n".join(filter(None, lines))
 
     def block(self, block: tree.Block, room: float) -> str:
+        """A block in a room (mm)."""
         match block:
             case tree.Section(level, title, _, _, number):
                 name = f"h{level + self.below}"
@@ -355,13 +356,14 @@ class Blocks:
     # --- formulas, lists and tables -----------------------------------------------------------------
 
     def items(self, block: tree.List, room: float) -> str:
+        """The items of a list in a room (mm)."""
         name = "ol" if block.ordered else "ul"
         start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
         lines = "".join(f"<li>{self.write(item, room)}</li>" for item in block.items)
         return f"<{name}{start}>{lines}</{name}>"
 
     def equation(self, equation: tree.Equation, room: float) -> str:
-        """Rows that are set alike in one block each; the number beside the last."""
+        """Rows that are set alike in one block each, in a room (mm); the number beside the last."""
         groups = "".join(map(self.group, layout.in_groups(equation.rows, room)))
         number = f'<span class="number">({escape(equation.number)})</span>' if equation.number else ""
         return f'<div class="equation"{_id(equation.key)}><div class="rows">{groups}</div>{number}</div>'

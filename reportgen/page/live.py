@@ -14,8 +14,9 @@ from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.errors import AssignmentError, ReportgenError
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path, spoken, unexpected
+from reportgen.base.words import load_words, spoken, unexpected
 from reportgen.page import html, panels
 from reportgen.page.html import Live, Panel, WrittenReport
 from reportgen.report.case import Case

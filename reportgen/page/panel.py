@@ -30,7 +30,8 @@ from reportgen.drawing.animation import (
     Track,
     scale_bars,
 )
-from reportgen.drawing.geometry import POINT, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
@@ -160,7 +161,7 @@ class _Writer:
                 for spot in animation.panes[0].spots
             ],
             "finer": {
-                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / one.per for one in pane.scales]}
+                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / scale.per for scale in pane.scales]}
                 for pane in animation.panes
                 if pane.finer
             },
@@ -265,6 +266,7 @@ class _Writer:
         return self.element(parts, item.layer, follows)
 
     def label(self, content: Content, size: float) -> str:
+        """A label of a size (points) about its own place."""
         return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
     def half_size(self, content: Content, size: float) -> list[float]:
@@ -296,7 +298,7 @@ class _Writer:
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:
-    """A bound as printed: so many figures, never less than the value."""
+    """A bound as printed, in its unit: so many figures, never less than the value."""
     if value <= 0:
         return write(0.0, None, language)
     step = 10.0 ** (math.floor(math.log10(value)) - figures + 1)

@@ -36,6 +36,7 @@ class Sizes:
     rotation: float
 
     def of(self, what: What) -> float:
+        """What counts as one (SI) of velocities or accelerations."""
         return self.velocity if what == "v" else self.acceleration
 
 
@@ -143,11 +144,11 @@ class Kinematics:
         return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
 
     def constant(self, id: str, value: complex) -> Ref:
-        """A constant point or direction as a quantity, entered once."""
+        """A constant point (m) or direction (of length 1) as a quantity, entered once."""
         return self.q[id] if id in self.q else self.q.give(id, complex(value), Symbol(id), "ratio")
 
     def length(self, start: str, end: str, value: float) -> Ref:
-        """A link's length, entered as given unless the machine has done so."""
+        """A link's length (m), entered as given unless the machine has done so."""
         id = ids.length(start, end)
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
@@ -229,7 +230,7 @@ LONGEST_DRAWN = 0.08
 
 
 def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
-    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` μ_v = ω₁ μ_l, μ_a = ω₁² μ_l, and pa, πa′ are the drawn crank."""
+    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` (SI per mm) μ_v = ω₁ μ_l, μ_a = ω₁² μ_l; pa, πa′ are O₁A."""
     centre, pin = driver.centre, driver.pin
     k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
     φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)
@@ -282,7 +283,7 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
 
 
 def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
-    """The pin moves along its guide at constant v_A, a_A = 0; `scales` are μ_v and μ_a, none for a trial.
+    """The pin moves along its guide at constant v_A, a_A = 0; `scales` (SI per mm) are μ_v and μ_a, none for a trial.
 
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
     """

@@ -248,7 +248,7 @@ class Words:
     @classmethod
     def among(cls, words: Mapping[str, str]) -> Self:
         """Those of a table of words, in which a school may have more."""
-        return cls(*(words[one.name] for one in fields(cls)))
+        return cls(*(words[field.name] for field in fields(cls)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
+from reportgen.base.kinds import title as kind_title
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path, word
-from reportgen.base.words import title as kind_title
+from reportgen.base.words import load_words, word
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family

@@ -182,9 +182,9 @@ MOST_PLACES = 12
 
 def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
-    found = list(_extremes(report))
-    height = -(-len(found) // BESIDE)
-    cells = [tuple(Cell(part) for part in _row(one)) for one in found]
+    peaks = list(_extremes(report))
+    height = -(-len(peaks) // BESIDE)
+    cells = [tuple(Cell(part) for part in _row(peak)) for peak in peaks]
     cells += [(Cell(),) * len(SET)] * (BESIDE * height - len(cells))
     body = (tuple(cell for line in cells[start::height] for cell in line) for start in range(height))
     titles = tuple(Cell((Text(title),)) for title in head) * BESIDE
@@ -199,24 +199,24 @@ def _extremes(report: Report) -> Iterator[Peak]:
     yield from each_peak(report, reaction_ids(report), report.all_positions)
 
 
-def _row(one: Peak) -> tuple[Inlines, Inlines, Inlines]:
-    places = one.at if len(one.at) <= MOST_PLACES else f"{one.at.split(',')[0]}, …"
-    return one.symbols, (one.value,), (Text(places),)
+def _row(top: Peak) -> tuple[Inlines, Inlines, Inlines]:
+    places = top.at if len(top.at) <= MOST_PLACES else f"{top.at.split(',')[0]}, …"
+    return top.symbols, (top.value,), (Text(places),)
 
 
 def main_figures(report: Report) -> Iterator[Sequence[object]]:
     """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
-    for one, name in report.words["main_figures"].items():
-        if id := of_kind(report, one):
+    for figure, name in report.words["main_figures"].items():
+        if id := of_kind(report, figure):
             yield *_figure(report, id, name), extreme_place(report, id)
 
 
 def _figure(report: Report, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
     """Words, symbol and value; an extreme of the balance is called by its sense, and its size is shown."""
-    symbol, way = report.ledger.symbol(id), sign(report, id)
+    symbol, sense = report.ledger.symbol(id), sign(report, id)
     if isinstance(name, str):
         return name, symbol, Value(report.ledger.number(id))
-    return name[way], size(symbol) if way == "negative" else symbol, Value(report.ledger.number(id, size=True))
+    return name[sense], size(symbol) if sense == "negative" else symbol, Value(report.ledger.number(id, size=True))
 
 
 def of_kind(report: Report, name: str) -> str:
@@ -345,10 +345,10 @@ def program(report: Report) -> Listing:
     """
     ledger, kind = report.case.ledger, report.assignment.kind
     changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
-    found = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
-    if not found:
+    changing_lines = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
+    if not changing_lines:
         raise NotOfferedError(word("no_listing", report.assignment.language, kind=kind))
-    needed = {other for id in found for other in (id, *ledger.ancestors(id))}
+    needed = {other for id in changing_lines for other in (id, *ledger.ancestors(id))}
     data: list[str] = []
     formulas: list[str] = []
     names: dict[str, str] = {}
@@ -362,7 +362,7 @@ def program(report: Report) -> Listing:
             formulas += _assigned(name, python(family.definition, names), note)
         except (AssertionError, KeyError):
             data += _assigned(name, _given(family.values, report.machine.count), note)
-    table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in found), LONGEST - 4)
+    table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in changing_lines), LONGEST - 4)
     title, given, worked, shown, drawn = report.words["listing"]
     return Listing(
         (
@@ -380,7 +380,7 @@ def program(report: Report) -> Listing:
             ")",
             *TABULATED.splitlines(),
             _comment(drawn),
-            *_curves(report, {id: names[id] for id in found}),
+            *_curves(report, {id: names[id] for id in changing_lines}),
             *DRAWN.splitlines(),
         )
     )

@@ -90,7 +90,7 @@ def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
 
 
 def headings(report: Report, ways: Iterable[complex]) -> list[str]:
-    """The ways in words, each once."""
+    """Directions [N] of any length in words, each once."""
     return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
 
 

@@ -183,7 +183,7 @@ def _pointing(report: Report, angle: Number) -> Inlines:
 
 
 def heading_words(report: Report, degrees: float) -> str:
-    """The axis or the quadrant that an angle from +x lies in, in words: to the right, to the right and up, …."""
+    """The axis or quadrant of an angle (degrees) from +x, in words: to the right, to the right and up, …."""
     return heading_of(report.words, degrees)
 
 

@@ -58,16 +58,16 @@ class NamedFigure:
 
 def named_figures(document: Document) -> tuple[NamedFigure, ...]:
     """All figures of a report in their order; one on several pages is one."""
-    found: list[NamedFigure] = []
+    figures: list[NamedFigure] = []
     for block in _figures(document.blocks):
         scenes = block.scenes if isinstance(block, Figure) else (block.scene,)
         if isinstance(block, Plate) and block.continues:
-            found[-1] = replace(found[-1], scenes=found[-1].scenes + scenes)
+            figures[-1] = replace(figures[-1], scenes=figures[-1].scenes + scenes)
         else:
-            name = figure_name(block) or str(len(found) + 1)
+            name = figure_name(block) or str(len(figures) + 1)
             caption = plain(block.caption, document.language)
-            found.append(NamedFigure(name, block.number, caption, scenes, block.at))
-    return tuple(found)
+            figures.append(NamedFigure(name, block.number, caption, scenes, block.at))
+    return tuple(figures)
 
 
 def figure_name(block: Figure | Plate) -> str:

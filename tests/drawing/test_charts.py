@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from reportgen.drawing import Circle, Diagram, Label, PlottedCurve, Polyline, Scene
-from reportgen.drawing.charts import CLOSE, HEIGHT, WIDTH, Area, _telling, _ticks, bars, chart, histogram, polar
+from reportgen.drawing.charts import CLOSE, HEIGHT, WIDTH, Area, _telling, _ticks, chart, polar
+from reportgen.drawing.counts import bars, histogram
 from reportgen.formula import Chain, Number, Symbol
 from tests.drawing.overlaps import overlaps
 

@@ -17,9 +17,11 @@ from reportgen.classes.variants import make_variants
 from reportgen.formula import refs
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import standing_on
-from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
+from reportgen.marking.marking import compare, mark
+from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.working import Change
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
@@ -128,6 +130,21 @@ def test_a_round_value_of_a_mistake_is_no_rounded_one(tmp_path: Path) -> None:
     assert float(f"{right['gears.a_w'][0] * 1e3:.2g}") == 200
     (first,) = mark(scheme, students.written(scheme, {**right, "gears.a_w": right["gears.a"]})).first_errors
     assert (first.id, first.mistake) == ("gears.a_w", "gear-standard-angle")
+    # So is d_w = d of 70 mm, which comes to 70.02 mm from d_b in three figures.
+    scheme = marking_scheme(open_case(FOLDER / "pair-least-shift.yaml", "en"))
+    right = students.worked_out(scheme)
+    (first,) = mark(scheme, students.written(scheme, {**right, "gears.d_w.1": right["gears.d.1"]})).first_errors
+    assert (first.id, first.mistake) == ("gears.d_w.1", "gear-standard-angle")
+
+
+def test_who_compares_is_told_of_doubts_and_of_columns_that_nobody_asks_for(tmp_path: Path) -> None:
+    """Notes of reading disagree with nothing, but a value that was not read has not been compared."""
+    sheet = tmp_path / "sheet.csv"
+    sheet.write_text("id;value;position 99\ngears.a;135.000;\ngears.d.1;70;3\n", encoding="utf-8")
+    lines, agrees = compare(open_case(FOLDER / "pair-least-shift.yaml", "en"), sheet)
+    assert agrees
+    assert [line.split(" ")[1] for line in lines[:2]] == ["note[cell-no-position]:", "note[cell-thousands]:"]
+    assert "135 or as 135000" in lines[1]
 
 
 def test_other_ways_to_a_value_are_as_right() -> None:

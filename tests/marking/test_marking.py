@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import warnings
 from collections import Counter
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from reportgen.cases import opened
+from reportgen.cases import open_case, opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
+from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.report.key import KeyRow
 from tests.lanes import matrix
 from tests.marking import students
@@ -212,3 +215,19 @@ def test_computed_band_holds_three_figures_through_the_chain() -> None:
     counted = Counter(found.values())
     assert set(counted) <= {Verdict.right, Verdict.follows}
     assert counted[Verdict.right] >= 0.98 * counted.total()
+
+
+@pytest.mark.parametrize("name", ["four-bar-01", "cam/rocker-flat-01", "gears/pair-equal-sliding"])
+def test_any_number_may_stand_on_a_sheet(name: str) -> None:
+    """All or a quarter of the values far too large, far too small, or 0: wrong, and neither a warning nor an end."""
+    scheme = marking_scheme(open_case(students.ASSIGNMENTS / f"{name}.yaml"))
+    right = students.sheet(scheme, students.right)
+    for share in (1, 4):
+        for number, value in enumerate((1e308, 1e-308, 0.0)):
+            values = {
+                place: replace(one, value=value) if (k + number) % share == 0 else one
+                for k, (place, one) in enumerate(right.values.items())
+            }
+            with warnings.catch_warnings(action="error"):
+                marking = mark(scheme, replace(right, values=values))
+            assert marking.points < marking.out_of
