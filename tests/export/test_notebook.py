@@ -114,7 +114,7 @@ def test_a_study_is_as_files_of_their_own(shaper: Model) -> None:
         "four-bar-02.yaml",
         *(
             pytest.param(name, marks=proof)
-            for name in ("engine-twin-05.yaml", "slider-crank-01.yaml", "linkage-slide.yaml", "cam/roller-01.yaml")
+            for name in ("engine-twin-05.yaml", "slider-crank-01.yaml", "linkage-8.yaml", "cam/roller-01.yaml")
         ),
     ],
 )
