@@ -138,6 +138,7 @@ class MachineCase(MachineAnalysis):
     @property
     def driver_motion(self) -> DriverMotion:
         """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
+
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {
             name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)

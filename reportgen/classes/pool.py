@@ -247,7 +247,7 @@ def _context(
     context.set_forkserver_preload([leavings.__name__, *loaded])
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.told(out)}
+    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.environment(out)}
     before = {name: os.environ.get(name) for name in surroundings}
     os.environ |= surroundings
     try:

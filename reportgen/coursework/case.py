@@ -238,7 +238,7 @@ class Coursework(CaseOfParts):
             for member in self.members
         ]
         for driver in self.machine.shafts[:1]:
-            yield from senses.told(driver, parts, self.words, unit)
+            yield from senses.senses_of_shafts(driver, parts, self.words, unit)
 
     @property
     def shafts(self) -> Sequence[Shaft]:
