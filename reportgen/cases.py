@@ -147,7 +147,8 @@ class MachineCase(MachineAnalysis):
         }
         slides = bool(machine.span)
         gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
-        return DriverMotion(gone, machine.way, abs(machine.speed), slides, signed)
+        called = self.words["figure"]["way" if slides else "cycle_angle"]
+        return DriverMotion(gone, machine.way, called, abs(machine.speed), slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:

@@ -64,6 +64,8 @@ def test_over_time_the_last_point_is_the_time_of_a_cycle() -> None:
     slide = built.case(built.SLIDE, "en")
     diagram = diagrams([slide], ["v.F"])["v.F"]
     x = np.asarray(diagram.curves[0].x)
+    with pytest.raises(NotOfferedError):
+        diagrams([open_case(ASSIGNMENTS / "cam" / "knife-01.yaml")], ["cam.s"], "time")
     # Millimetres from the first position.
     assert (x[0], x[-1]) == (0.0, pytest.approx(abs(slide.analysis.machine.span) * 1e3))
     assert not diagram.turn
