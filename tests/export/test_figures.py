@@ -17,7 +17,7 @@ from reportgen.cases import open_case
 from reportgen.drawing import Arrow, Label, Scene
 from reportgen.drawing.style import arrow_head
 from reportgen.export.figures import MovingFigure, drawn, moving
-from reportgen.formula import Expression
+from reportgen.formula import Expression, Number
 from reportgen.report.named_figures import NamedFigure, named_figures
 from tests.lanes import matrix
 from tests.report import built
@@ -116,6 +116,15 @@ def test_every_label_can_be_set_by_matplotlib(name: str, caplog: pytest.LogCaptu
     made = figure.figure(Scene(100.0, 6.0 * len(rows) + 6, rows), "vi")
     assert figure.saved(made, "png", 72).startswith(b"\x89PNG")
     assert [record.message for record in caplog.records if "glyph" in record.message] == []
+
+
+def test_exponents_of_units_are_set_in_any_font(caplog: pytest.LogCaptureFixture) -> None:
+    """A raised minus, 1/s² as s⁻², is not in every font."""
+    from reportgen.writers import figure
+
+    rows = (Label(30 + 10j, Number(2.5, 1, "mm·rad⁻²")), Label(30 + 30j, Number(2.5, 1, "m/s²")))
+    assert figure.eps(Scene(60.0, 40.0, rows), "en").startswith(b"%!PS")
+    assert caplog.records == []
 
 
 # --- which figures there are ------------------------------------------------------------------------
