@@ -149,6 +149,7 @@
     else if ("remove" in data) change({ op: "remove", where: place(field || button) });
     else if ("make" in data) post("make.json", { product: data.make });
     else if ("add" in data) change({ op: "add", where: place(button) });
+    else if ("part" in data) change({ op: "add", where: ["parts"], kind: document.getElementById("part").value });
     else if ("up" in data) {
       const where = place(button), index = where.pop();
       change({ op: "move", where, first: index - 1 });
