@@ -244,19 +244,22 @@ class EditSession(LiveSession):
         self._put(change.file, change.before)
         (self.undone if operation == "undo" else self.done).append(steps.pop())
 
-    def drag(self, asked: Asked) -> bytes:
+    def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
         """The samples of what moves with another value at a place, as numbers of four bytes; nothing is written.
 
-        No bytes at all for a value with which there is no such machine.
+        No bytes at all for a value with which there is no such machine; no answer of a kind that is none, which moves
+        when the value is let go.
         """
         where = _place(asked["where"])
         with self.dragging:
             resident = self._resident_machine()
+            if resident is None:
+                return {}
             with self.lock:
                 text = self._text(self.path)
             top = None if isinstance(text, Fault) else read_own(text).top
             old = at(top, where)
-            if resident is None or not isinstance(old, Scalar) or top is None:
+            if not isinstance(old, Scalar) or top is None:
                 return b""
             changed = put(top, where, replace(old, text=str(asked["value"]), null=False))
             assignment, faults = catalogue.understood(Source(str(self.path), top=changed), self.path)
