@@ -21,9 +21,9 @@ from reportgen.base.units import Language
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.laws import STEPS
+from reportgen.machine.laws import FULL_TURN, STEPS
 from reportgen.report import Block, Document, Paragraph, Strong, Text
-from reportgen.report.case import AskedFor, Case, MachineAnalysis, Misconceptions
+from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.report.key import Span
 from reportgen.report.shafts import Shaft
 from reportgen.report.wording import positive_sense
@@ -134,6 +134,21 @@ class MachineCase(MachineAnalysis):
     def speed(self) -> float:
         """The driver's speed (rad/s), or that of a slide (m/s)."""
         return self.analysis.machine.speed
+
+    @property
+    def driver_motion(self) -> DriverMotion:
+        """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
+
+        machine, points = self.analysis.machine, self.analysis.motion.points
+        signed = {
+            name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
+            for pin, way in self._report.slider_senses.items()
+            for rate, name in ids.POINT_RATE.items()
+        }
+        slides = bool(machine.span)
+        gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
+        called = self.words["figure"]["way" if slides else "cycle_angle"]
+        return DriverMotion(gone, machine.way, called, abs(machine.speed), slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:

@@ -27,7 +27,8 @@ import numpy as np
 from reportgen import api
 from reportgen.base.errors import ReportgenError
 from reportgen.base.files import folder as kept_in
-from reportgen.base.words import load_words, search_path, sections, templates
+from reportgen.base.template_folders import search_path, templates
+from reportgen.base.words import load_words, sections
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster

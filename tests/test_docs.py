@@ -17,7 +17,8 @@ import pytest
 import typer
 
 from reportgen import api, catalogue
-from reportgen.base.words import kinds, search_path
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import search_path
 from reportgen.cli import app
 from reportgen.report.prose import Prose
 from reportgen.writers import pdflatex

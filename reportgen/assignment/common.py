@@ -29,8 +29,9 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding, UnknownNameError
 from reportgen.base.files import school_strays
+from reportgen.base.template_folders import is_school
 from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
-from reportgen.base.words import is_school, named_school, unknown
+from reportgen.base.words import named_school, unknown
 
 POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""

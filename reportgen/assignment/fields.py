@@ -19,8 +19,8 @@ from pydantic_core import PydanticCustomError, core_schema
 from reportgen.base.files import school_strays
 from reportgen.base.moments import moment
 from reportgen.base.source import STRANGE, Quoted
+from reportgen.base.template_folders import school_folder, schools, templates
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
-from reportgen.base.words import school_folder, schools, templates
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720

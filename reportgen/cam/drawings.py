@@ -79,22 +79,21 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     box = (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     items: list[Item] = []
     requests: list[Request] = []
-    planes: list[HalfPlane] = []
+    lines: list[tuple[str, float, int, HalfPlane]] = []
     limits = (
         ("rise", design.limits.rise, 1, None if least is None else least.rise),
         ("return", design.limits.back, -1, None if least is None else least.back),
     )
-    for _, limit, side, touch in limits:
+    for phase, limit, side, touch in limits:
         if limit is None or touch is None:
             continue
         # Down the line s grows less and s′ goes with the other sign: the angle to the axis of s is the limit.
         down = complex(-side * math.sin(limit), -math.cos(limit))
-        planes.append(HalfPlane(complex(touch.ds, touch.s) * at, 1j * side * down))
-    allowed = region(planes, box)
-    if len(allowed) > 2 and planes:
+        lines.append((phase, limit, side, HalfPlane(complex(touch.ds, touch.s) * at, 1j * side * down)))
+    allowed = region([plane for *_, plane in lines], box)
+    if len(allowed) > 2 and lines:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
-    for (phase, limit, side, _), plane in zip([one for one in limits if one[1] and one[3]], planes, strict=True):
-        assert limit is not None
+    for phase, limit, side, plane in lines:
         # The plane's edge from the upper edge of the drawing to the lower one.
         along = plane.inward * -1j * side
         ends = [plane.at + along * (level - plane.at.imag) / along.imag for level in (low, high)]

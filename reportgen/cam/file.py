@@ -199,7 +199,7 @@ def law_of(given: str | AccelerationTable) -> FollowerLaw:
 
 @lru_cache(maxsize=64)
 def _motion(stroke: float, phases: tuple[float, ...], rise: Any, back: Any) -> FollowerMotion:
-    first, far, behind, near = (math.radians(one) for one in phases)
+    first, far, behind, near = (math.radians(phase) for phase in phases)
     return FollowerMotion(stroke, (first, far, behind, near), law_of(rise), law_of(back))
 
 

@@ -143,7 +143,7 @@ class Cam:
             if -least <= 0:
                 angles.append(φ)
         # Where a uniform law stops at once a convex corner is left.
-        angles += [one.angle for one in self.motion.impacts if one.kind == "rigid" and one.jump < 0]
+        angles += [impact.angle for impact in self.motion.impacts if impact.kind == "rigid" and impact.jump < 0]
         return tuple(sorted(set(angles)))
 
     def worst(self, number: int, of: Callable[[CamProfile], Floats]) -> tuple[float, float]:

@@ -24,10 +24,12 @@ from typing import Any
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem
+from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
+from reportgen.base.template_folders import samples
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, as_problem, kinds, language_of, samples, word
+from reportgen.base.words import as_error, as_problem, language_of, word
 from reportgen.catalogue import assembly
 from reportgen.machine.analysis import Machine
 

@@ -57,6 +57,10 @@ class Flywheel(Part):
     delta: Unevenness
 
 
+OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share}
+"""What a file may give of a link, by the letter before its number."""
+
+
 class Driven(Part):
     """The crank's speed in one of two ways, gravity, the flywheel that is asked for, and masses if declared.
 
@@ -82,12 +86,12 @@ class Driven(Part):
         loads: Iterable[str] = (),
         **rest: Any,
     ) -> None:
-        links, types = (tuple(masses), tuple(moments), tuple(shares)), (Weight, Mass, MomentOfInertia, Share)
-        cls.links = {"G": links[0], "m": links[0], "J": links[1], "s": links[2]}
+        cls.links = {"G": tuple(masses), "m": tuple(masses), "J": tuple(moments), "s": tuple(shares)}
         cls.required, cls.loads = tuple(required), tuple(loads)
-        for (letter, numbers), kind in zip(cls.links.items(), types, strict=True):
+        # A field of pydantic is an annotation with a default, which the body of the class would have had.
+        for letter, numbers in cls.links.items():
             for number in numbers:
-                cls.__annotations__[f"{letter}{number}"] = kind | None
+                cls.__annotations__[f"{letter}{number}"] = OF_LINK[letter] | None
                 setattr(cls, f"{letter}{number}", None)
         super().__init_subclass__(**rest)
 

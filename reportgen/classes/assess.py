@@ -119,32 +119,32 @@ def grade(
     check_shares(policy, room.keys, language)
     faults: list[Fault] = []
     handed = read_sheets(handed_in(submissions, faults), language)
-    found = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
-    sheets = {name: sheet for name, (sheet, _) in found.sheets.items()}
+    collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
+    sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
     markings = {name: mark(asked_of(room.scheme(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
     order = {name: index for index, name in enumerate(files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
     marked, misfits = applied(marked, room.keys, corrections, language)
-    owners = found.owners
+    owners = collected.owners
     known = {key.id: room.participant(key, owners.get(key.id)) for key in room.keys}
     late: Sequence[Problem] = ()
     if policy.late is not None:
-        days, late = days_late(policy.late, _handings(found, known, people), gradebook, language)
+        days, late = days_late(policy.late, _handings(collected, known, people), gradebook, language)
         marked = [replace(marking, days_late=days.get(marking.key.id, 0)) for marking in marked]
-    reasons = _reasons(found.refused, room, gradebook)
+    reasons = _reasons(collected.refused, room, gradebook)
     unmarked = [Unmarked(key, reasons.get(key.id, ())) for key in room.keys if key.id not in markings]
-    problems = (*found.problems, *(as_problem(fault, language) for fault in faults), *misfits, *late)
+    problems = (*collected.problems, *(as_problem(fault, language) for fault in faults), *misfits, *late)
     return Graded(tuple(marked), problems, tuple(unmarked), owners, known)
 
 
 def _handings(
-    found: Collected, known: Mapping[str, Participant], people: Mapping[str, RosterEntry]
+    collected: Collected, known: Mapping[str, Participant], people: Mapping[str, RosterEntry]
 ) -> dict[str, Handing]:
     """What is known of when each sheet was handed in."""
     handings: dict[str, Handing] = {}
-    for name, (_, handed) in found.sheets.items():
+    for name, (_, handed) in collected.sheets.items():
         entry = people.get(comparable(name))
         late = handed.owner is not None and handed.owner.late
         handings[name] = Handing(known[name], str(handed.path), entry.handed_in if entry else None, late)
@@ -154,9 +154,9 @@ def _handings(
 def _reasons(refused: Iterable[Refused], room: Classroom, gradebook: Gradebook | None) -> dict[str, tuple[str, ...]]:
     """Why files of a student are not marked, by assignment; a file that is nobody's for certain is left out."""
     reasons: dict[str, tuple[str, ...]] = {}
-    for one in refused:
-        if key := _student_of(one, room, gradebook):
-            reasons[key.id] = (*reasons.get(key.id, ()), *one.reasons)
+    for file in refused:
+        if key := _student_of(file, room, gradebook):
+            reasons[key.id] = (*reasons.get(key.id, ()), *file.reasons)
     return reasons
 
 

@@ -53,36 +53,36 @@ def collect(
     twice: Twice,
     language: Language | None,
 ) -> Collected:
-    """The sheets of a class, one for each student; `files` are the assignments by `comparable` stem."""
-    found: dict[str, list[tuple[Submission, Handed]]] = {}
+    """The sheets of a class, file for each student; `files` are the assignments by `comparable` stem."""
+    of_assignment: dict[str, list[tuple[Submission, Handed]]] = {}
     refused: list[Refused] = []
     problems: list[Problem] = []
-    for one, pages in handed:
+    for file, pages in handed:
         try:
             if isinstance(pages, list):
                 raise AssignmentError(pages)
-            submission = read_submission(one.path, key_of, language, pages)
+            submission = read_submission(file.path, key_of, language, pages)
             name = key_of(submission.assignment).student.get("name", "")
-            if one.owner and not one.owner.may_be(name):
-                fault = Fault("sheet-other-hands", Mark(str(one.path)), {"text": name, "owner": one.owner.name})
+            if file.owner and not file.owner.may_be(name):
+                fault = Fault("sheet-left-hands", Mark(str(file.path)), {"text": name, "owner": file.owner.name})
                 raise AssignmentError([as_problem(fault, language)])
         except AssignmentError as error:
-            refused.append(Refused(one, error.problems))
+            refused.append(Refused(file, error.problems))
             problems += error.problems
             continue
-        named = named_after(one.path, files)
+        named = named_after(file.path, files)
         if named not in (None, comparable(submission.assignment)):
             about = {"named": files[named].stem, "text": submission.assignment}
-            problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(one.path)), about), language))
-        found.setdefault(submission.assignment, []).append((submission, one))
+            problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(file.path)), about), language))
+        of_assignment.setdefault(submission.assignment, []).append((submission, file))
     sheets: dict[str, tuple[Submission, Handed]] = {}
-    for assignment, several in found.items():
+    for assignment, several in of_assignment.items():
         name = key_of(assignment).student.get("name", "")
-        chosen, *others = _in_order([one for _, one in several], assignment, name, files, twice)
+        chosen, *others = _in_order([file for _, file in several], assignment, name, files, twice)
         sheets[assignment] = next(pair for pair in several if pair[1] is chosen)
-        for other in others:
-            about = {"text": assignment, "first": _told_apart(chosen.path, other.path)}
-            problems.append(as_problem(Fault("sheet-twice", Mark(str(other.path)), about), language))
+        for left in others:
+            about = {"text": assignment, "first": _told_apart(chosen.path, left.path)}
+            problems.append(as_problem(Fault("sheet-twice", Mark(str(left.path)), about), language))
     return Collected(sheets, tuple(refused), tuple(problems))
 
 
@@ -94,19 +94,19 @@ def named_after(path: Path, known: Container[str]) -> str | None:
 def _in_order(
     several: Sequence[Handed], assignment: str, name: str, known: Container[str], twice: Twice
 ) -> list[Handed]:
-    """Sheets of one assignment, the one to be marked first.
+    """Sheets of one assignment, the file to be marked first.
 
     A sheet that its student handed in by the platform's word, or that is named like the assignment, goes before those
     that only claim to be of it; then the later one goes first, or the earlier one.  Of one moment the order of names is
     that of counting: answers-2 before answers-10.
     """
 
-    def is_own(one: Handed) -> bool:
-        by_platform = one.owner is not None and bool(one.owner.name and name)
-        return by_platform or named_after(one.path, known) == comparable(assignment)
+    def is_own(file: Handed) -> bool:
+        by_platform = file.owner is not None and bool(file.owner.name and name)
+        return by_platform or named_after(file.path, known) == comparable(assignment)
 
-    in_time = sorted(several, key=lambda one: (one.when, _counting(one.path.as_posix())), reverse=twice == "last")
-    return sorted(in_time, key=lambda one: not is_own(one))
+    in_time = sorted(several, key=lambda file: (file.when, _counting(file.path.as_posix())), reverse=twice == "last")
+    return sorted(in_time, key=lambda file: not is_own(file))
 
 
 def _counting(path: str) -> list[tuple[int, str]]:
@@ -114,6 +114,6 @@ def _counting(path: str) -> list[tuple[int, str]]:
     return [(int(part), "") if part.isdecimal() else (-1, part) for part in re.split(r"(\d+)", path)]
 
 
-def _told_apart(chosen: Path, other: Path) -> str:
+def _told_apart(chosen: Path, left: Path) -> str:
     """The name of a file, with its folder where another one has the same."""
-    return chosen.name if chosen.name != other.name else f"{chosen.parent.name}/{chosen.name}"
+    return chosen.name if chosen.name != left.name else f"{chosen.parent.name}/{chosen.name}"

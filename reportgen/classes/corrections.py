@@ -18,8 +18,9 @@ from pathlib import Path
 from typing import get_args
 
 from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import NUMBER, Language, write
-from reportgen.base.words import as_error, as_problem, close_or_known, load_words, messages, search_path
+from reportgen.base.words import as_error, as_problem, close_or_known, load_words, messages
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import symbol_text, words_of
@@ -108,22 +109,25 @@ def applied(
     by_id = {marking.key.id: marking for marking in markings}
     known = list(keys)
     problems: list[Problem] = []
-    for one in corrections:
-        named = [key for key in known if one.who and _is_of(one.who, key)]
-        if len(named) != 1:
-            problems.append(as_problem(Fault("correction-nobody", one.marks["who"], {"text": one.who}), language))
-        elif (marking := by_id.get(named[0].id)) is None:
-            problems.append(as_problem(Fault("correction-no-sheet", one.marks["who"], {"text": one.who}), language))
+    for correction in corrections:
+        ids = [key.id for key in known if _is_of(correction.who, key)]
+        about = correction.marks["who"], {"text": correction.who}
+        if len(ids) != 1:
+            problems.append(as_problem(Fault("correction-nobody", *about), language))
+        elif (marking := by_id.get(ids[0])) is None:
+            problems.append(as_problem(Fault("correction-no-sheet", *about), language))
+        elif isinstance(made := corrected(marking, correction), Fault):
+            problems.append(as_problem(made, language))
         else:
-            made = corrected(marking, one)
-            if isinstance(made, Fault):
-                problems.append(as_problem(made, language))
-                continue
-            if [(cell.verdict, cell.points) for cell in made.cells] == [(c.verdict, c.points) for c in marking.cells]:
-                idle = Fault("correction-idle", one.marks["judgement"])
+            if _verdicts_of(made) == _verdicts_of(marking):
+                idle = Fault("correction-idle", correction.marks["judgement"])
                 problems.append(as_problem(idle, language, "warning"))
-            by_id[named[0].id] = made
+            by_id[ids[0]] = made
     return [by_id[marking.key.id] for marking in markings], problems
+
+
+def _verdicts_of(marking: Marking) -> list[tuple[Verdict, float]]:
+    return [(cell.verdict, cell.points) for cell in marking.cells]
 
 
 def _is_of(who: str, key: Key) -> bool:
@@ -135,13 +139,13 @@ def _is_of(who: str, key: Key) -> bool:
 
 def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
     """The marking with one correction, or why it does not fit the sheet."""
-    found = _named(marking.key, correction.quantity)
-    if found is None:
+    named = _named(marking.key, correction.quantity)
+    if named is None:
         names = [symbol_text(row, marking.key) for row in marking.key.asked] + [row.id for row in marking.key.asked]
         close = close_or_known(correction.quantity, names).get("close", "")
         about = {"text": correction.quantity, **({"close": close} if close else {})}
         return Fault("correction-no-quantity", correction.marks["quantity"], about)
-    what, belongs = found
+    what, belongs = named
     wanted = correction.position.casefold()
     cells = [
         cell
@@ -153,8 +157,8 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
         text = correction.position or correction.quantity
         return Fault("correction-no-cell", correction.marks["position" if wanted else "quantity"], {"text": text})
     worth = points_of(cells)[1]
-    if correction.value and (other := _other_value(marking, cells, correction.value)) is not None:
-        about = {"text": correction.value, "found": other}
+    if correction.value and (present := _other_value(marking, cells, correction.value)) is not None:
+        about = {"text": correction.value, "found": present}
         return Fault("correction-value", correction.marks["value"], about)
     points = correction.judgement
     if isinstance(points, float) and not 0 <= points <= worth + 1e-9:

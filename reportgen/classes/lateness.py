@@ -37,22 +37,21 @@ def days_late(
     """The days of each assignment by a rule of lateness, and dates that cannot be read or are missing."""
     days: dict[str, int] = {}
     faults: list[Fault] = []
-    undated: list[str] = []
+    undated: list[Handing] = []
     for name, handing in handings.items():
-        found = _handed_in(handing, gradebook)
-        if isinstance(found, Fault):
-            faults.append(found)
-        elif found is None and handing.late:
+        handed_in = _handed_in(handing, gradebook)
+        if isinstance(handed_in, Fault):
+            faults.append(handed_in)
+        elif handed_in is None and handing.late:
             faults.append(Fault("late-undated", Mark(handing.file), {"text": handing.student.who}))
-        elif found is None:
-            undated.append(handing.student.who)
+        elif handed_in is None:
+            undated.append(handing)
         else:
-            days[name] = rule.days(found)
+            days[name] = rule.days(handed_in)
     problems = [as_problem(fault, language) for fault in faults]
     if undated:
-        first = next(iter(handings.values()))
-        about = {"count": str(len(undated)), "known": ", ".join(undated)}
-        problems.append(as_problem(Fault("late-unknown", Mark(first.file), about), language, "warning"))
+        about = {"count": str(len(undated)), "known": ", ".join(handing.student.who for handing in undated)}
+        problems.append(as_problem(Fault("late-unknown", Mark(undated[0].file), about), language, "warning"))
     return days, problems
 
 
@@ -62,6 +61,5 @@ def _handed_in(handing: Handing, gradebook: Gradebook | None) -> datetime.dateti
     said, mark = (handing.said.text, handing.said.mark) if handing.said else (text, None)
     if said.strip() in NONE:
         return None
-    if (found := moment(said)) is not None:
-        return found
-    return Fault("moment", mark or Mark(str(gradebook.path) if gradebook else handing.file), {"text": said})
+    place = mark or Mark(str(gradebook.path) if gradebook else handing.file)
+    return moment(said) or Fault("moment", place, {"text": said})

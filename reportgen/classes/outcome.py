@@ -11,8 +11,9 @@ from reportgen import api
 from reportgen.api import Engine
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import SETS, overwritten, put_files, reported, scratch
+from reportgen.base.kinds import title
 from reportgen.base.units import Language
-from reportgen.base.words import as_problem, counted, title, word
+from reportgen.base.words import as_problem, counted, word
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult
 from reportgen.classes.platforms import zipped
@@ -50,8 +51,8 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
         spoken = language or key.language
         yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.unmarked, policy))
         yield Path("questions.csv"), write_csv(question_rows(graded.markings, spoken))
-        if found := groups(graded.markings, policy, spoken):
-            yield Path("by-variant.csv"), write_csv(variant_rows(found, spoken))
+        if compared := groups(graded.markings, policy, spoken):
+            yield Path("by-variant.csv"), write_csv(variant_rows(compared, spoken))
         named = title(key.kind, spoken)
         overview = class_document(graded.markings, named, spoken, graded.unmarked, policy)
         yield Path("class.pdf"), api.typeset(overview, engine)[1]

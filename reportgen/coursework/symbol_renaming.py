@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.respelling import respelled
@@ -37,7 +37,7 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
         table = {key: _changed(value, kind, change) for key, value in node.items()}
         return table if any(table[key] is not node[key] for key in node) else node
     if is_dataclass(node) and not isinstance(node, type):
-        held = {one.name: getattr(node, one.name) for one in fields(node) if one.init}
+        held = {field.name: getattr(node, field.name) for field in fields(node) if field.init}
         new = {name: _changed(value, kind, change) for name, value in held.items()}
         changed_fields = {name: value for name, value in new.items() if value is not held[name]}
         return replace(node, **changed_fields) if changed_fields else node
@@ -63,13 +63,18 @@ def relettered(tree: Tree, letters: Letters) -> Tree:
     if not letters:
         return tree
 
+    def renamed(tree: Any) -> Any:
+        return changed(tree, Symbol, lambda symbol: letters.get(symbol, symbol))
+
     def spelled(content: Content) -> Content:
-        return changed(content, Symbol, lambda symbol: letters.get(symbol, symbol))
+        return cast(Content, renamed(content))
 
-    def other(node: Scene | Symbol) -> Scene | Symbol:
-        return respelled(node, spelled) if isinstance(node, Scene) else letters.get(node, node)
+    def respelled_or_renamed(node: Scene | Symbol) -> Scene | Symbol:
+        if isinstance(node, Symbol):
+            return letters.get(node, node)
+        return replace(respelled(node, spelled), diagram=renamed(node.diagram))
 
-    return changed(tree, (Scene, Symbol), other)
+    return changed(tree, (Scene, Symbol), respelled_or_renamed)
 
 
 def with_index(symbol: Symbol, index: str) -> Symbol:
@@ -79,7 +84,7 @@ def with_index(symbol: Symbol, index: str) -> Symbol:
 
 def letters_of(quantities: Collection[Symbol], taken: Collection[Symbol], index: str) -> Letters:
     """The symbols of a part's quantities that are taken already, with the part's index."""
-    clash = {one for one in quantities if one in taken and one.value is None}
+    clash = {quantity for quantity in quantities if quantity in taken and quantity.value is None}
     # With s goes s′, which is its derivative.
-    derived = {one for one in quantities if replace(one, base=one.base.rstrip("′")) in clash}
-    return {one: with_index(one, index) for one in quantities if one in clash | derived}
+    derived = {quantity for quantity in quantities if replace(quantity, base=quantity.base.rstrip("′")) in clash}
+    return {quantity: with_index(quantity, index) for quantity in quantities if quantity in clash | derived}

@@ -160,7 +160,7 @@ TICK = 0.8
 
 
 def scale_bars(pane: Pane) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
-    """The lower left corner of a pane with its bars, and a bar for each scale, its value above it.
+    """The lower left corner (mm) of a pane with its bars, and a bar for each scale, its value above it.
 
     Bars of scales that are in use in turns are all in one place.
     """

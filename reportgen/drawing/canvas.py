@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from functools import reduce
 
 from reportgen.drawing import Content, Item, Scene, style
-from reportgen.drawing.geometry import Box, bounds, box, corners_of, moved
+from reportgen.drawing.geometry import bounds, corners_of, moved
+from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.labels import Request, label_row, place
 
 MARGIN = 6.0

@@ -11,9 +11,24 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import (
+    Arc,
+    Circle,
+    Content,
+    Diagram,
+    Item,
+    Label,
+    Line,
+    Pen,
+    PlottedCurve,
+    Polyline,
+    Scene,
+    style,
+)
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.geometry import box, clusters
+from reportgen.drawing.diagram import Inclination
+from reportgen.drawing.geometry import clusters
+from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
@@ -46,8 +61,8 @@ EDGE = Pen(0.25)
 MEAN = Pen(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
 BEYOND = 4.0
 """What the horizontal of an angle is longer than its arc, mm."""
-MARK = 0.75
-"""Radius of the circle at a marked point, mm."""
+MARK, DOT = 0.75, 0.45
+"""Radius of the circle at a marked point, and of one that was measured, mm."""
 TICKS = 6
 BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
@@ -60,32 +75,6 @@ TINY = 1e-12
 """Square of a length (mm²) that counts as none."""
 
 Vertices = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class PlottedCurve:
-    """One curve: x [K] and y [K], its label, and indices of the points that get a mark."""
-
-    label: Content
-    x: ArrayLike
-    y: ArrayLike
-    marks: tuple[int, ...] = ()
-    names: tuple[Content, ...] = ()
-    """Labels of the marks, if they have any."""
-
-
-@dataclass(frozen=True, slots=True)
-class Inclination:
-    """The angle of a straight line of this `slope` (in the units of the axes) at the point x, y of a chart.
-
-    Its arc has the `radius` (mm); the line it is counted from is drawn a little beyond.
-    """
-
-    label: Content
-    x: float
-    y: float
-    slope: float
-    radius: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,37 +127,18 @@ class Plotted:
     y: tuple[float, float]
 
 
-def chart(
-    series: Sequence[PlottedCurve],
-    x_label: Content,
-    y_label: Content,
-    *,
-    turn: bool = True,
-    levels: Sequence[tuple[float, Content]] = (),
-    half: bool = False,
-    area: Area | None = None,
-) -> Scene:
-    """Curves in one frame (mm), see `plotted`."""
-    return plotted(series, x_label, y_label, turn=turn, levels=levels, half=half, area=area).scene
+def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> Scene:
+    """The scene (mm) of a diagram, see `plotted`."""
+    return plotted(diagram, half=half, area=area).scene
 
 
-def plotted(
-    series: Sequence[PlottedCurve],
-    x_label: Content,
-    y_label: Content,
-    *,
-    turn: bool = True,
-    levels: Sequence[tuple[float, Content]] = (),
-    half: bool = False,
-    height: float = HEIGHT,
-    area: Area | None = None,
-    inclinations: Sequence[Inclination] = (),
-) -> Plotted:
-    """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
+def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, area: Area | None = None) -> Plotted:
+    """A diagram on paper.  An angle has ticks at multiples of 45, 90 or 180 degrees.
 
-    `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side; with an `area`
-    both scales are round and printed.  Raises `ValueError` if no value is finite.
+    With `half` two charts stand side by side; with an `area` both scales are round and printed.  Raises `ValueError`
+    if no value is finite.
     """
+    series, turn, levels = diagram.curves, diagram.turn, diagram.levels
     window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area, height)
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
@@ -180,38 +150,34 @@ def plotted(
     for n, curve in enumerate(series):
         vertices = window.vertices(curve.x, curve.y)
         pen = PENS[n % len(PENS)]
-        items += [Polyline(points, pen) for points in _paths(vertices)]
+        if curve.dots:
+            items += [Circle(complex(*at), DOT, None, pen.colour) for at in vertices if np.isfinite(at).all()]
+        else:
+            items += [Polyline(points, pen) for points in _paths(vertices)]
         requests += _marked(curve, vertices, pen, items)
         if curve.label and len(series) > 1:
             requests.append(label(_places(vertices), curve.label))
-    for inclination in inclinations:
+    for inclination in diagram.inclinations:
         drawn, request = _inclined(window, inclination)
         items += drawn
         requests.append(request)
-    items += _titles(window, x_label, y_label, items, area is not None)
+    items += _titles(window, diagram.x, diagram.y, items, area is not None)
     notes: Sequence[Content] = ()
     if area is not None:
         across, up = window.width * area.enlarged, window.height * area.enlarged
-        notes = _scale(x_label, window.x, across, turn), _scale(y_label, window.y, up)
-    scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
+        notes = _scale(diagram.x, window.x, across, turn), _scale(diagram.y, window.y, up)
+    scene = replace(finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN), diagram=diagram)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
     return Plotted(scene, frame.points[0], frame.points[2], window.x, window.y)
 
 
-def polar(
-    series: PlottedCurve,
-    x_label: Content,
-    y_label: Content = "",
-    *,
-    title: str = "",
-    size: float = POLAR_SIZE,
-    area: Area | None = None,
-) -> Scene:
+def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = None) -> Scene:
     """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
 
     Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
     """
+    (series,) = diagram.curves
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
     x_ticks, y_ticks = (_around(min(0.0, float(np.nanmin(of))), max(0.0, float(np.nanmax(of))), step) for of in (x, y))
@@ -226,9 +192,10 @@ def polar(
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
-    items += _titles(window, x_label, y_label, items, area is not None)
-    notes = () if area is None else (_scale(x_label, window.x, window.width * area.enlarged),)
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
+    items += _titles(window, diagram.x, diagram.y, items, area is not None)
+    notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged),)
+    scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=diagram.title, margin=2.0)
+    return replace(scene, diagram=diagram)
 
 
 # --- curves ---------------------------------------------------------------------------------------
@@ -324,6 +291,7 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
 
 
 def framed(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
+    """A rectangle between two corners (mm)."""
     corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
     return Polyline(corners, pen, closed=True, fill=fill)
 

@@ -19,7 +19,8 @@ from functools import cached_property, lru_cache, reduce
 import numpy as np
 
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
-from reportgen.drawing.geometry import Box, Complexes, Flags, Floats, Ink, box, frame, overlap, segments
+from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, frame, overlap, segments
+from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.spots import (
     CLEAR,
     FINE,
@@ -102,7 +103,7 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
 
 
 def label_row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
-    """Labels side by side on one baseline, their common box centred on `at`; `over` lines they stand on paper."""
+    """Labels side by side on a baseline, their common box centred on `at` (mm); `over` lines they stand on paper."""
     boxes = [box(part, size) for part in parts]
     total = reduce(Box.beside, boxes)
     x = at.real - total.width / 2

@@ -15,7 +15,8 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.geometry import Complexes, box, clusters, coincident, polar, unit
+from reportgen.drawing.geometry import Complexes, clusters, coincident, polar, unit
+from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.drawing.spots import CLEAR

@@ -11,7 +11,8 @@ from functools import lru_cache
 from typing import TypeVar
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import POINT, SCRIPT, box, enlarged, moved
+from reportgen.drawing.geometry import enlarged, moved
+from reportgen.drawing.label_size import POINT, SCRIPT, box
 
 GAP = 5.0
 """White between plates, and between them and the frame, mm."""

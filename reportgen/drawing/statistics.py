@@ -8,7 +8,7 @@ from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Scene, st
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import EDGE, GRID
 from reportgen.drawing.counts import COUNT_WIDTH, LENGTH, ROW
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
 WIDTH, HEIGHT = 110.0, 60.0

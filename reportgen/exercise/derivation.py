@@ -155,7 +155,7 @@ class Derivation:
 
     def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
         """Those of the vectors that are in the derivation and are not nothing."""
-        return tuple(one for one in vectors if self.knows(one.id) and self.q.si(one.id))
+        return tuple(vector for vector in vectors if self.knows(vector.id) and self.q.si(vector.id))
 
     def velocity(self, point: str) -> Vector:
         """The velocity of a point that is in the derivation."""
@@ -217,7 +217,7 @@ def size_of(q: Sheet, sides: Sequence[Ref]) -> Expression:
     """The size of a vector from its components along axes at right angles; one alone is the size but for its sign."""
     if len(sides) == 1:
         return sides[0] if q.si(sides[0]) >= 0 else Negative(sides[0])
-    return sqrt(total([one**2 for one in sides]))
+    return sqrt(total([side**2 for side in sides]))
 
 
 def towards(axis: complex, direction: complex) -> complex:

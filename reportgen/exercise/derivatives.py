@@ -121,7 +121,7 @@ class RateFormulas:
     def product(self, rates: Sequence[CoordinateRate], by_symbol: bool = False) -> Expression:
         if len(rates) == 2 and rates[0] == rates[1]:
             return square(self.symbol(rates[0]) if by_symbol else self.expression(rates[0]))
-        return times(*(self.symbol(one) if by_symbol else self.expression(one) for one in rates)) if rates else ONE
+        return times(*(self.symbol(rate) if by_symbol else self.expression(rate) for rate in rates)) if rates else ONE
 
     def vector(self, vector: LoopVector) -> complex:
         """A vector (m) without its rates."""

@@ -194,13 +194,13 @@ def velocity_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene,
     }
     if not vectors:
         return None
-    centres = [one for one in layout.centres.values() if one.rule in ("normals", "rate")]
+    centres = [centre for centre in layout.centres.values() if centre.rule in ("normals", "rate")]
     bodies = {step.body for step in case.worked.steps}
-    centres = [one for one in centres if one.body in bodies]
+    centres = [centre for centre in centres if centre.body in bodies]
     contacts = {step.point for step in case.worked.steps} - set(motion.system.points)
     extra = {name: at for name, at in layout.points.items() if name in contacts}
-    extra |= {one.name: one.at for one in centres}
-    normals = [(layout.points[name], one.at) for one in centres for name in one.points]
+    extra |= {centre.name: centre.at for centre in centres}
+    normals = [(layout.points[name], centre.at) for centre in centres for name in centre.points]
     return _draw(case, enlarged, vectors, "v", extra, normals)
 
 

@@ -145,9 +145,9 @@ def solve_accelerations_together(parts: Parts) -> bool:
     """The angular accelerations of all bodies that are reached; whether there were any."""
     derivation = parts.derivation
     start = {
-        name: Reached({(one.id, 1): one.direction for one in vectors}, {})
+        name: Reached({(vector.id, 1): vector.direction for vector in vectors}, {})
         for name, vectors in parts.of.items()
-        if all(derivation.knows(one.id) for one in vectors)
+        if all(derivation.knows(vector.id) for vector in vectors)
     }
     loops = Loops(derivation, "eps", dict(start))
     loops.lead_on()

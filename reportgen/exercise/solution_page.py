@@ -176,7 +176,7 @@ class SolutionPage(Solution):
     @property
     def joints(self) -> tuple[JointItem, ...]:
         """What joins the bodies."""
-        return tuple(self._joint(one) for one in self.case.exercise.given.joints)
+        return tuple(self._joint(joint) for joint in self.case.exercise.given.joints)
 
     def _joint(self, joint: file.Joint) -> JointItem:
         named = joint.model_dump(include={"at", "point", "through"}, exclude_none=True)

@@ -133,7 +133,7 @@ def unknowns_of(system: System) -> Unknowns:
 def solve_velocities(system: System) -> Solved:
     """The angular velocities and velocities of all bodies, with what stays open and what contradicts itself."""
     unknowns = unknowns_of(system)
-    driven = [(one, one.velocity) for one in system.conditions if one.velocity is not None]
+    driven = [(condition, condition.velocity) for condition in system.conditions if condition.velocity is not None]
     return _solve(unknowns, driven)[0]
 
 

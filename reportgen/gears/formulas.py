@@ -30,12 +30,12 @@ class Rack:
 
     @property
     def rounding(self) -> float:
-        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α), which ends where the addendum does."""
+        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α) (modules), which ends where the addendum does."""
         return self.c / (1 - math.sin(self.alpha))
 
     @property
     def land(self) -> float:
-        """Half the flat of its tip; negative where the rounding has no room."""
+        """Half the flat of its tip (modules); negative where the rounding has no room."""
         return math.pi / 4 - self.ha * math.tan(self.alpha) - self.rounding * math.cos(self.alpha)
 
 
@@ -157,7 +157,7 @@ class PairFormulas:
 
 @lru_cache(maxsize=32)
 def pair_sheet(rack: Rack, m: float, teeth: tuple[int, int]) -> Sheet:
-    """The formulas of a pair whose shifts are given, to be evaluated with any shifts: `model(sheet, …)`."""
+    """The formulas of a pair of module m (m) with given shifts, to be evaluated with any: `model(sheet, …)`."""
     made = PairFormulas(Sheet(), m, follows=False)
     made.enter_data(rack, teeth)
     made.enter_shifts((0.0, 0.0))

@@ -60,14 +60,17 @@ class Wheel:
 
     @property
     def r(self) -> float:
+        """The reference radius (m)."""
         return self._blank[0]
 
     @property
     def r_b(self) -> float:
+        """The base radius (m)."""
         return self._blank[1]
 
     @property
     def r_f(self) -> float:
+        """The root radius (m)."""
         return self._blank[2]
 
     @property
@@ -105,7 +108,7 @@ class Wheel:
 
     @cached_property
     def join(self) -> tuple[float, float]:
-        """Where fillet and flank meet: the direction ψ and the radius; they touch unless the tooth is undercut."""
+        """Where fillet and flank meet: direction ψ (rad) and radius (m); they touch unless the tooth is undercut."""
         α, begun = self.rack.alpha, self._blank[3]
         if begun >= 0:
             return -α, math.hypot(self.r_b, begun)

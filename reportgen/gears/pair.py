@@ -103,7 +103,7 @@ class GearPair:
         return self.at(quantity)
 
     def at(self, quantity: str, **at: float) -> Floats:
-        """A quantity with others in place of the sheet's own."""
+        """A quantity (SI) [...] or [2, ...] with others in place of the sheet's own."""
         sheet, of_pair = self.sheet, f"gears.{quantity}"
         wanted = (
             (of_pair,) if of_pair in sheet.families else tuple(gears_ids.of_wheel(quantity, wheel) for wheel in WHEELS)
@@ -117,7 +117,7 @@ class GearPair:
 
     @cached_property
     def sliding(self) -> Floats:
-        """The specific sliding λ at the feet of both wheels, where it is worst: below 0.
+        """The specific sliding λ [2, ...] at the feet of both wheels, where it is worst: below 0.
 
         Wheel 1 touches with its foot where the active path begins, wheel 2 where it ends.
         """
@@ -164,7 +164,7 @@ def sum_for(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
 
 
 def least_shifts(pair: GearPair) -> Floats:
-    """x_min in hundredths upwards, and no shift where none is needed."""
+    """x_min [2] in hundredths upwards, and no shift where none is needed (modules)."""
     return np.maximum(np.ceil(np.round(pair["x_min"] / HUNDREDTH, 9)) * HUNDREDTH, 0.0).round(2)
 
 
@@ -222,7 +222,7 @@ class Chosen:
         return self.a_w is not None
 
     def broken(self) -> Iterator[tuple[str, int, float, float]]:
-        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, and its limit."""
+        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, its limit (ratios, or modules)."""
         pair, most = self.pair, self.limits.sliding
         for wheel in (*WHEELS, 0):
             for one in pair.conditions(self.limits):

@@ -8,9 +8,23 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import (
+    Arc,
+    Arrow,
+    Circle,
+    Content,
+    Diagram,
+    Item,
+    Label,
+    Line,
+    Pen,
+    PlottedCurve,
+    Polyline,
+    Scene,
+    style,
+)
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
+from reportgen.drawing.charts import Area, Plotted, plotted
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
@@ -44,6 +58,8 @@ CIRCLES = (
     ("d_b", Pen(0.18, style.GRAY, style.DASHED)),
     ("d_f", style.THIN),
 )
+CIRCLE_PITCHES = 1.375
+"""The circles are drawn so many pitches to either side of the line of centres: past the outer of the three teeth."""
 LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 
 
@@ -64,7 +80,7 @@ def turned(pair: GearPair, number: int, rolled: float) -> float:
 
 
 def centre(pair: GearPair, number: int) -> complex:
-    """The centre of a wheel, the pitch point at 0."""
+    """The centre of a wheel (m), the pitch point at 0."""
     return (-1j, 1j)[number] * float(pair["d_w"][number]) / 2
 
 
@@ -153,7 +169,9 @@ def _circles(
         if any(abs(radius - other) < 0.01 for other in taken):
             continue
         taken.append(radius)
-        reach = min(math.asin(min(half / radius, 1.0)), 2.2 * math.pi / pair.teeth[number] * 1.25)
+        to_edge = math.asin(min(half / radius, 1.0))
+        beyond_teeth = CIRCLE_PITCHES * 2 * math.pi / pair.teeth[number]
+        reach = min(to_edge, beyond_teeth)
         items.append(Arc(o, radius, middle - reach, middle + reach, pen))
         places = [
             o + radius * np.exp(1j * (middle + side * reach * share)) for share in (1.0, 0.97) for side in (-1, 1)
@@ -367,4 +385,4 @@ def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
         curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, shown, marks))
     across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), "mm")
-    return plotted(curves, across, Chain((Symbol("λ"),), ""), turn=False, area=area)
+    return plotted(Diagram(tuple(curves), across, Chain((Symbol("λ"),), ""), turn=False), area=area)

@@ -127,7 +127,7 @@ class Train:
 
 
 def ratios(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
-    """u₁H of each train."""
+    """u₁H = 1 ± z₂z₃/(z₁z₂′) of tooth numbers [4, N], Willis's equation with ω₃ = 0."""
     return over_teeth(formulas.ratio, scheme, z)
 
 

@@ -153,7 +153,7 @@ class Torque:
 
 def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
     """The gas on each piston."""
-    return tuple(Applied(one.name, one.link, one.pin, fixed(one.inward), one.law) for one in pistons)
+    return tuple(Applied(piston.name, piston.link, piston.pin, fixed(piston.inward), piston.law) for piston in pistons)
 
 
 @dataclass(frozen=True, slots=True)

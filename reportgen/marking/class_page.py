@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from statistics import fmean, median
 from typing import Any
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, nice_up, write
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Content
 from reportgen.drawing.counts import bars, histogram
 from reportgen.drawing.statistics import intervals, scatter
@@ -163,39 +164,39 @@ def _questions(markings: Sequence[Marking], words: Words, language: Language) ->
     yield paragraph(page["questions_lead"])
     statistics = (page["facility"], page["discrimination"])
     columns = (Column(SHARE), Column(SHARE))
-    sections = sorted(by_section(markings, language), key=lambda one: one.facility)
-    rows = [(section_name(one.key, one.row, language), *_statistics(one, language)) for one in sections]
+    sections = sorted(by_section(markings, language), key=lambda item: item.facility)
+    rows = [(section_name(item.key, item.row, language), *_statistics(item, language)) for item in sections]
     yield Table(
         (Column(PART + 3 * SHARE, "left"), *columns),
         (cells((words["feedback"]["part"], *statistics)),),
         tuple(map(cells, rows)),
         (Text(page["by_section"]),),
     )
-    questions = sorted(by_question(markings), key=lambda one: one.facility)
-    hard = [one for one in questions if one.facility < 1 - 1e-9]
+    questions = sorted(by_question(markings), key=lambda item: item.facility)
+    hard = [item for item in questions if item.facility < 1 - 1e-9]
     if hard:
         what = TEXT_WIDTH - SYMBOL - PART - 2 * SHARE
         heads = (words["table"]["symbol"], names["what"], words["feedback"]["part"], *statistics)
         lines = (
             cells(
                 (
-                    (InlineMath(one.row.symbol),),
-                    capitalised(one.row.what),
-                    section_name(one.key, one.row, language),
-                    *_statistics(one, language),
+                    (InlineMath(item.row.symbol),),
+                    capitalised(item.row.what),
+                    section_name(item.key, item.row, language),
+                    *_statistics(item, language),
                 )
             )
-            for one in hard
+            for item in hard
         )
         by_width = (Column(SYMBOL), Column(what, "left"), Column(PART, "left"), *columns)
         yield Table(by_width, (cells(heads),), tuple(lines), (Text(page["by_question"]),))
     if easy := len(questions) - len(hard):
         yield paragraph(page["all_right"].format(count=easy))
-    told = [one for one in hard if not math.isnan(one.discrimination)]
-    if told:
+    correlated = [item for item in hard if not math.isnan(item.discrimination)]
+    if correlated:
         scene = scatter(
-            [100 * one.facility for one in told],
-            [one.discrimination for one in told],
+            [100 * item.facility for item in correlated],
+            [item.discrimination for item in correlated],
             [20.0 * n for n in range(6)],
             [0.5 * n for n in range(-2, 3)],
             page["facility"],
@@ -204,32 +205,32 @@ def _questions(markings: Sequence[Marking], words: Words, language: Language) ->
         yield Figure((scene,), (Text(page["scatter"]),), here=True)
 
 
-def _statistics(one: Item, language: Language) -> tuple[str, str]:
+def _statistics(item: Item, language: Language) -> tuple[str, str]:
     """Facility in per cent and discrimination of an item."""
-    return write(100 * one.facility, 0, language), write(one.discrimination, 2, language)
+    return write(100 * item.facility, 0, language), write(item.discrimination, 2, language)
 
 
-def _variants(found: Sequence[VariantGroup], words: Words, language: Language, policy: Policy) -> Iterator[Block]:
+def _variants(compared: Sequence[VariantGroup], words: Words, language: Language, policy: Policy) -> Iterator[Block]:
     """The marks by variant and by the data that were drawn, and whether any differ by more than chance."""
-    if not found:
+    if not compared:
         return
     page = words["class_page"]
     yield heading(page["variants_title"], 2)
-    yield paragraph(page["some_differ" if any(one.differs for one in found) else "none_differs"])
+    yield paragraph(page["some_differ" if any(group.differs for group in compared) else "none_differs"])
 
-    def named(one: VariantGroup) -> str | Inlines:
-        return page["variant"] if one.symbol is None else (InlineMath(one.symbol),)
+    def named(group: VariantGroup) -> str | Inlines:
+        return page["variant"] if group.symbol is None else (InlineMath(group.symbol),)
 
     rows = [
         (
-            named(one),
-            one.value,
-            str(one.count),
-            write(one.mean, 2, language),
-            write(one.spread, 2, language),
-            page["differs"] if one.differs else "",
+            named(group),
+            group.value,
+            str(group.count),
+            write(group.mean, 2, language),
+            write(group.spread, 2, language),
+            page["differs"] if group.differs else "",
         )
-        for one in found
+        for group in compared
     ]
     heads = (page["datum"], page["value"], page["students"], page["mean"], page["spread"], "")
     rest = TEXT_WIDTH - SYMBOL - VALUE - 3 * SHARE
@@ -237,21 +238,21 @@ def _variants(found: Sequence[VariantGroup], words: Words, language: Language, p
     yield Table(widths, (cells(heads),), tuple(map(cells, rows)), (Text(page["by_variant"]),))
     step = nice_up(policy.scale.highest / TICKS, (1, 2, 2.5, 5))
     ticks = [step * n for n in range(math.ceil(policy.scale.highest / step) + 1)]
-    # A picture has room for so many lines, each the same quantity or the next one.
-    for start in range(0, len(found), MOST_BARS):
-        shown = found[start : start + MOST_BARS]
+    # A picture has room for so many lines, each the same quantity or the next group.
+    for start in range(0, len(compared), MOST_BARS):
+        shown = compared[start : start + MOST_BARS]
         scene = intervals(
-            [f"{_plain_name(one, words, language)} {one.value}" for one in shown],
-            [one.mean for one in shown],
-            [one.spread for one in shown],
+            [f"{_plain_name(group, words, language)} {group.value}" for group in shown],
+            [group.mean for group in shown],
+            [group.spread for group in shown],
             ticks,
             page["mean_axis"],
         )
         yield Figure((scene,), (Text(page["variants_figure"]),), here=True)
 
 
-def _plain_name(one: VariantGroup, words: Words, language: Language) -> str:
-    return str(words["class_page"]["variant"]) if one.symbol is None else f"{formula(one.symbol, language)} ="
+def _plain_name(group: VariantGroup, words: Words, language: Language) -> str:
+    return str(words["class_page"]["variant"]) if group.symbol is None else f"{formula(group.symbol, language)} ="
 
 
 # --- first errors -----------------------------------------------------------------------------------

@@ -91,7 +91,7 @@ def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answe
     """A judged cell: the student's value on the colour of its verdict."""
     problem = marking.submission.problems.get((cell.id, cell.position))
     comment = _comment(cell, marking.key, words, problem.message if problem else "", show_answers)
-    return Entry(cell.given, FIRST if cell.first else STYLES[cell.verdict], comment)
+    return Entry(cell.written, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
 def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
@@ -165,7 +165,7 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
 def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
     """One error: what, where, the value given, perhaps the one expected; then the mistake in words."""
     feedback, row = words["feedback"], key.row(cell.id)
-    assert cell.given is not None
+    assert cell.written is not None
     number = _expected(row, cell)
     expected = tree.Value(Number(number.value, number.decimals, row.unit))
     label = key.label(cell.position, cell.id)
@@ -173,7 +173,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
         InlineMath(row.symbol),
         *((Text(f" ({row.what})"),) if row.what else ()),
         *(sentence(feedback["at"], label=label) if label else ()),
-        *sentence(feedback["yours"], value=_given_value(row, cell.given)),
+        *sentence(feedback["yours"], value=_given_value(row, cell.written)),
         *(sentence(feedback["expected"], value=expected) if show_answers else ()),
         Text(". "),
         *mistake_inlines(cell, key, words),
@@ -182,11 +182,11 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
 
 def _expected(row: KeyRow, cell: Marked) -> Number:
     """The value expected, with the decimals of its tolerance, or those of the report where these are fewer."""
-    width = band(row, cell.band)
+    width = band(row, cell.on_sheet.band)
     if not width:
-        return shown_number(row, cell.expected)
+        return shown_number(row, cell.on_sheet.expected)
     fine = band_decimals(width)
-    return Number(cell.expected, fine if row.decimals is None else min(fine, row.decimals))
+    return Number(cell.on_sheet.expected, fine if row.decimals is None else min(fine, row.decimals))
 
 
 def _followed(marking: Marking) -> list[Marked]:
@@ -251,11 +251,11 @@ def _counted(
 # --- the instructor's word, and when it was handed in ---------------------------------------------
 
 
-def amended(marking: Marking, one: Amendment, words: Mapping[str, Any]) -> Inlines:
+def amended(marking: Marking, amendment: Amendment, words: Mapping[str, Any]) -> Inlines:
     """What the instructor judged otherwise, what it earns now, and the reason."""
-    points, out_of = (points_text(value, marking.key.language) for value in marking.points_at(one.places))
-    what = tree.Emph(one.what) if len(one.what) > 1 else one.what[0]
-    return sentence(words["feedback"]["amended_line"], what=what, points=points, out_of=out_of, reason=one.reason)
+    points, out_of = (points_text(value, marking.key.language) for value in marking.points_at(amendment.places))
+    what = tree.Emph(amendment.what) if len(amendment.what) > 1 else amendment.what[0]
+    return sentence(words["feedback"]["amended_line"], what=what, points=points, out_of=out_of, reason=amendment.reason)
 
 
 def lateness(marking: Marking, policy: Policy, words: Mapping[str, Any]) -> Iterator[str]:
@@ -309,7 +309,7 @@ def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, sho
         lines.append(plain(mistake_inlines(cell, key, words), key.language))
     if show_answers:
         row = key.row(cell.id)
-        number, width = _expected(row, cell), band(row, cell.band) or 0.0
+        number, width = _expected(row, cell), band(row, cell.on_sheet.band) or 0.0
         expected = str(words["feedback"]["expected_note"]).format(
             value=write(number.value, number.decimals, key.language),
             band=write(width, band_decimals(width), key.language),

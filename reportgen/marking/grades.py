@@ -7,8 +7,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import amended
 from reportgen.marking.key import symbol_text
@@ -70,16 +71,25 @@ def grade_rows(
         for marking in markings
     ]
     rows += [
-        (*who(one.key), *(None,) * 4, *(None for _ in (*parts, *owners)), *("",) * 4, state(one, words), None, None, "")
-        for one in unmarked
+        (
+            *who(student.key),
+            *(None,) * 4,
+            *(None for _ in (*parts, *owners)),
+            *("",) * 4,
+            state(student, words),
+            None,
+            None,
+            "",
+        )
+        for student in unmarked
     ]
     return tuple(rows)
 
 
-def state(one: Unmarked, words: Mapping[str, Any]) -> str:
+def state(student: Unmarked, words: Mapping[str, Any]) -> str:
     """Why a student has no marks: nothing was handed in, or what was could not be marked."""
     states = words["states"]
-    return str(states["refused"].format(reasons="; ".join(one.reasons)) if one.reasons else states["missing"])
+    return str(states["refused"].format(reasons="; ".join(student.reasons)) if student.reasons else states["missing"])
 
 
 def person(key: Key) -> str:

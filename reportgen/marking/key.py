@@ -16,8 +16,9 @@ import numpy as np
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, load_words, search_path
+from reportgen.base.words import as_error, close_or_known, load_words
 from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula

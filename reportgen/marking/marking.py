@@ -98,12 +98,14 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         row.id,
         position,
         verdict=verdict,
-        given=None if np.isnan(value) else submission.values[place].value,
-        expected=key / unit,
-        own=own / unit,
-        band=band / unit,
+        given=None if np.isnan(value) else value,
+        expected=key,
+        own=own,
+        band=band,
         points=points,
         worth=worth * scheme.policy.right,
+        unit=unit,
+        written=None if np.isnan(value) else submission.values[place].value,
     )
 
 
@@ -152,12 +154,11 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue
             index = scheme.rows[cell.id].at(cell.position)
-            unit = float(working.unit(cell.id)[index])
             own = _own(scheme.ledger, own_values, cell.id, index)
-            if _follows(scheme, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
+            if _follows(scheme, cell.id, float(working.values[cell.id][index]), own, cell.band):
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
-                    cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
+                    cell, verdict=Verdict.follows, own=own, points=points, first=False, mistake="", where=""
                 )
     return changed
 

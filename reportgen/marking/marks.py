@@ -51,10 +51,25 @@ class Verdict(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Marked:
-    """The verdict on one cell, in printed units.
+class OnSheet:
+    """What concerns one cell in the units of the sheet, lengths as they are drawn at the student's own scale."""
 
-    `expected` is the key's value, `own` what the student's earlier values give, `band` the tolerance.
+    given: float | None
+    expected: float
+    own: float
+    band: float
+
+    def equals(self, value: float, band: float) -> bool:
+        """Whether a value was given that lies within a band of another."""
+        return self.given is not None and abs(self.given - value) <= band
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """The verdict on one cell; values in SI, lengths on paper at the report's scale.
+
+    `given` is the student's value, `expected` the key's, `own` what the student's earlier values give, `band` the
+    tolerance.
     `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
     are earned.  `classmates` are ids of assignments whose sheet or key has this value in a run of such values.
@@ -77,10 +92,15 @@ class Marked:
     classmates: tuple[str, ...] = ()
     elsewhere: bool = False
     corrected: str = ""
+    unit: float = 1.0
+    """What one unit of the sheet stands for."""
+    written: float | None = None
+    """The number in the cell, in that unit."""
 
-    def equals(self, value: float, band: float) -> bool:
-        """Whether a value was given that lies within a band of another, all in the printed unit."""
-        return self.given is not None and abs(self.given - value) <= band
+    @property
+    def on_sheet(self) -> OnSheet:
+        """The values as a sheet has them: for those who read it, and for what is found on it without working out."""
+        return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
 
 
 Cells = Mapping[Place, Marked]

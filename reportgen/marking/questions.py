@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.marking.grades import DECIMALS, Value, section_name
 from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Place, Verdict
@@ -43,15 +44,15 @@ class Item:
 
 def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
     """An item for each name that the cells have, in the order of the sheets; what earns no points is left out."""
-    found: dict[object, list[tuple[Marking, list[Marked]]]] = {}
+    of_name: dict[object, list[tuple[Marking, list[Marked]]]] = {}
     for marking in markings:
         own: dict[object, list[Marked]] = {}
         for cell in marking.cells:
             if cell.worth:
                 own.setdefault(name(marking.key, cell), []).append(cell)
-        for one, cells in own.items():
-            found.setdefault(one, []).append((marking, cells))
-    return [_item(of_name) for of_name in found.values()]
+        for called, cells in own.items():
+            of_name.setdefault(called, []).append((marking, cells))
+    return [_item(students) for students in of_name.values()]
 
 
 def _item(students: Sequence[tuple[Marking, Sequence[Marked]]]) -> Item:
@@ -99,17 +100,17 @@ def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tupl
     rows: list[tuple[Value, ...]] = [tuple(names.values())]
     levels = (by_section(markings, language), by_question(markings), by_cell(markings))
     for level, items in zip(("section", "question", "cell"), levels, strict=True):
-        for one in items:
-            told = () if level == "section" else (one.row.id, symbol_text(one.row, one.key), one.row.what)
-            label = one.key.label(one.place[1], one.place[0]) if level == "cell" and one.place[1] else None
+        for item in items:
+            named = () if level == "section" else (item.row.id, symbol_text(item.row, item.key), item.row.what)
+            label = item.key.label(item.place[1], item.place[0]) if level == "cell" and item.place[1] else None
             rows.append(
                 (
                     level,
-                    section_name(one.key, one.row, language),
-                    *(told or (None, None, None)),
+                    section_name(item.key, item.row, language),
+                    *(named or (None, None, None)),
                     label,
-                    one.count,
-                    *(_number(value) for value in (one.facility, one.discrimination, one.blank)),
+                    item.count,
+                    *(_number(value) for value in (item.facility, item.discrimination, item.blank)),
                 )
             )
     return tuple(rows)

@@ -144,7 +144,7 @@ class MarkingScheme:
         sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
         for id, family in self.ledger.families.items():
             if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
-                used = [one.id for one in family.definition.factors if isinstance(one, Ref)]
+                used = [factor.id for factor in family.definition.factors if isinstance(factor, Ref)]
                 for length in used:
                     if vocabulary.plan(length) in used:
                         sizes[length].add(id)
@@ -178,7 +178,7 @@ class MarkingScheme:
 
 def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
     """The marking scheme of an assignment, computed as its report is."""
-    parts = tuple(marking_scheme(one, policy) for one in case.parts.values())
+    parts = tuple(marking_scheme(part, policy) for part in case.parts.values())
     return MarkingScheme(key_of(case), case.ledger, case.misconceptions, case.span.count, policy or Policy(), parts)
 
 

@@ -14,8 +14,9 @@ from statistics import fmean, stdev
 
 import numpy as np
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
 from reportgen.marking.grades import DECIMALS, Value
@@ -53,7 +54,7 @@ def groups(markings: Sequence[Marking], policy: Policy, language: Language) -> l
     """The groups of a class, by variant and by each datum that was drawn; late hand-ins do not count here."""
     marks = {marking.key.id: policy.mark(marking.share) for marking in markings}
     means = _means_by_lot(list(marks.values()))
-    found: list[VariantGroup] = []
+    compared: list[VariantGroup] = []
     partitions: set[frozenset[frozenset[str]]] = set()
     for symbol, members in _divisions(markings, language):
         large = {value: ids for value, ids in members.items() if len(ids) >= LEAST}
@@ -63,8 +64,8 @@ def groups(markings: Sequence[Marking], policy: Policy, language: Language) -> l
             partitions.add(partition)
             for value, ids in large.items():
                 own = [marks[id] for id in ids]
-                found.append(VariantGroup(symbol, value, len(own), fmean(own), stdev(own), _chance(own, means)))
-    return [replace(one, differs=one.chance * len(found) < ERRING) for one in found]
+                compared.append(VariantGroup(symbol, value, len(own), fmean(own), stdev(own), _chance(own, means)))
+    return [replace(group, differs=group.chance * len(compared) < ERRING) for group in compared]
 
 
 def _divisions(
@@ -106,19 +107,19 @@ def _chance(own: Sequence[float], means: np.ndarray) -> float:
     return float((1 + np.count_nonzero(as_far)) / (1 + LOTS))
 
 
-def variant_rows(found: Sequence[VariantGroup], language: Language) -> tuple[tuple[Value, ...], ...]:
+def variant_rows(compared: Sequence[VariantGroup], language: Language) -> tuple[tuple[Value, ...], ...]:
     """Head and rows of `by-variant.csv`."""
     words = load_words(search_path(language))
     names, page = words["variant_columns"], words["class_page"]
     rows: list[tuple[Value, ...]] = [tuple(names.values())]
     rows += [
         (
-            page["variant"] if one.symbol is None else formula(one.symbol, language),
-            one.value,
-            one.count,
-            *(round(value, DECIMALS) for value in (one.mean, one.spread, one.chance)),
-            page["differs"] if one.differs else "",
+            page["variant"] if group.symbol is None else formula(group.symbol, language),
+            group.value,
+            group.count,
+            *(round(value, DECIMALS) for value in (group.mean, group.spread, group.chance)),
+            page["differs"] if group.differs else "",
         )
-        for one in found
+        for group in compared
     ]
     return tuple(rows)

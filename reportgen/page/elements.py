@@ -13,7 +13,8 @@ from itertools import groupby
 
 from reportgen.base.units import Language
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import POINT, SCRIPT, box, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT, SCRIPT, box
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
 from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setter, setting
 from reportgen.formula.setter import TextSetter

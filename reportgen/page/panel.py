@@ -10,6 +10,7 @@ import base64
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -29,12 +30,13 @@ from reportgen.drawing.animation import (
     Track,
     scale_bars,
 )
-from reportgen.drawing.geometry import POINT, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
-from reportgen.page.html import Panel, data, template
+from reportgen.page.html import Panel, data, save_buttons, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
@@ -121,6 +123,7 @@ class _Writer:
             words=self.words,
             animation=animation,
             own=self.own,
+            save=partial(save_buttons, told=self.words["save_figure"]),
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
             machine=self.pane(machine),
@@ -158,7 +161,7 @@ class _Writer:
                 for spot in animation.panes[0].spots
             ],
             "finer": {
-                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / one.per for one in pane.scales]}
+                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / scale.per for scale in pane.scales]}
                 for pane in animation.panes
                 if pane.finer
             },

@@ -184,7 +184,7 @@ def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Tab
     """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
     peaks = list(_extremes(report))
     height = -(-len(peaks) // BESIDE)
-    cells = [tuple(Cell(part) for part in _row(one)) for one in peaks]
+    cells = [tuple(Cell(part) for part in _row(peak)) for peak in peaks]
     cells += [(Cell(),) * len(SET)] * (BESIDE * height - len(cells))
     body = (tuple(cell for line in cells[start::height] for cell in line) for start in range(height))
     titles = tuple(Cell((Text(title),)) for title in head) * BESIDE
@@ -316,12 +316,32 @@ for first in range(0, len(names), 4):
     for k in range(N):
         print(f"{k + 1:8d} " + " ".join(f"{table[name][k]:23.15e}" for name in shown))"""
 
+DRAWN = """import sys
+import matplotlib
+if "--show" not in sys.argv:
+    matplotlib.use("agg")
+from matplotlib import pyplot as plt
+figure, axes = plt.subplots(len(curves), sharex=True, figsize=(7, 2.4 * len(curves)), squeeze=False,
+    layout="constrained")
+for ax, (unit, names) in zip(axes.flat, curves.items()):
+    for name in names:
+        ax.plot(driver, table[name], ".-", label=name)
+    ax.set_ylabel(unit)
+    ax.grid()
+    ax.legend()
+axes[-1, 0].set_xlabel(DRIVER)
+figure.savefig("curves.png", dpi=150)
+if "--show" in sys.argv:
+    plt.show()"""
+CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
+"""Letters of what is drawn: the first of these sets that begins with a letter which the formulas give."""
+
 
 def program(report: Report) -> Listing:
     """The closed formulas as a program of its own: given data, the formulas in their order, a table of all they give.
 
-    Its quantities are in SI units and rad, none is rounded.  What no formula gives stands with its values.
-    Raises `NotOfferedError` for a machine without closed formulas.
+    It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, none is rounded.
+    What no formula gives stands with its values.  Raises `NotOfferedError` for a machine without closed formulas.
     """
     ledger, kind = report.case.ledger, report.assignment.kind
     changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
@@ -343,7 +363,7 @@ def program(report: Report) -> Listing:
         except (AssertionError, KeyError):
             data += _assigned(name, _given(family.values, report.machine.count), note)
     table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in changing_lines), LONGEST - 4)
-    title, given, worked, shown = report.words["listing"]
+    title, given, worked, shown, drawn = report.words["listing"]
     return Listing(
         (
             _comment(title.format(machine=report.case.title, id=report.assignment.id)),
@@ -359,8 +379,33 @@ def program(report: Report) -> Listing:
             *(f"    {line}" for line in table),
             ")",
             *TABULATED.splitlines(),
+            _comment(drawn),
+            *_curves(report, {id: names[id] for id in changing_lines}),
+            *DRAWN.splitlines(),
         )
     )
+
+
+def _curves(report: Report, names: Mapping[str, str]) -> Iterator[str]:
+    """What the curves of a program are drawn over, and which they are, by their units."""
+    ledger, machine = report.case.ledger, report.machine
+    bases = {id: ledger.symbol(id).base for id in names}
+    letters = next((one for one in CURVES if one[0] in bases.values()), CURVES[-1])
+    # What slides is told by its displacement; v and a of other points only lead to its own.
+    points = {ledger.symbol(id).sub for id in names if bases[id] == letters[0]}
+    own = {letter for letter in letters if any(bases[id] == letter and ledger.symbol(id).sub in points for id in names)}
+    by_unit: dict[str, list[str]] = {}
+    for letter in letters:
+        for id, name in names.items():
+            if bases[id] == letter and (letter not in own or ledger.symbol(id).sub in points):
+                by_unit.setdefault(KINDS_SI.get(ledger[id].kind, ""), []).append(name)
+    gone = machine.cycle_angles * (machine.span / FULL_TURN if machine.span else math.degrees(1.0))
+    step = float(f"{gone[1]:.12g}")
+    even = step * np.arange(len(gone))
+    law = f"{step!r} * np.arange(N)" if np.allclose(gone, even, rtol=1e-12) else _given(gone, len(gone))
+    yield from _assigned("driver", law, "")
+    yield f"DRIVER = {'s (m)' if machine.span else 'phi (deg)'!r}"
+    yield from _assigned("curves", repr(by_unit), "")
 
 
 def _comment(text: str) -> str:

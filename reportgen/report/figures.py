@@ -153,8 +153,7 @@ def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
         for piston in report.machine.pistons
     }
     jointed = {name for group in report.groups for name in (group.P, group.Q)}
-    names = report.analysis.motion.points.keys() - jointed
-    centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre in names)
+    centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre not in jointed)
     return Looks(blocks=blocks, centres=centres, scale=scale_note(report, "mu.l", factor))
 
 

@@ -42,7 +42,7 @@ class _Bodies:
         return drawing_scale(self.report) * self.share
 
     def at(self, name: str) -> complex:
-        """Where a point stands on paper."""
+        """Where a point stands on paper (mm)."""
         return self.report.place(name, self.k) * self.scale
 
     def scene(self, forces: Sequence[Force], **more: Any) -> Scene:

@@ -9,7 +9,7 @@ from itertools import groupby
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
-from reportgen.drawing.geometry import POINT, Boxes, box
+from reportgen.drawing.label_size import POINT, Boxes, box
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import MathRow, Part
 from reportgen.report import (

@@ -64,10 +64,15 @@ def named_figures(document: Document) -> tuple[NamedFigure, ...]:
         if isinstance(block, Plate) and block.continues:
             figures[-1] = replace(figures[-1], scenes=figures[-1].scenes + scenes)
         else:
-            name = _FIGURE.sub(r"\1", block.key, count=1) or block.number or str(len(figures) + 1)
+            name = figure_name(block) or str(len(figures) + 1)
             caption = plain(block.caption, document.language)
             figures.append(NamedFigure(name, block.number, caption, scenes, block.at))
     return tuple(figures)
+
+
+def figure_name(block: Figure | Plate) -> str:
+    """What a figure is called: its key without what says that it is one, or its number."""
+    return _FIGURE.sub(r"\1", block.key, count=1) or block.number
 
 
 def safe(name: str) -> str:

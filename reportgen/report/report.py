@@ -362,7 +362,7 @@ class Report:
     @property
     def has_forces(self) -> bool:
         """Whether anything loads the machine, weights and inertia included."""
-        return bool(self.analysis.loads)
+        return "M.eq" in self.ledger
 
     @property
     def has_turning_links(self) -> bool:
@@ -404,14 +404,14 @@ class Report:
     @property
     def sliding(self) -> tuple[GroupView, ...]:
         """Groups whose last link slides along a fixed guide."""
-        on_ground = {slider for carrier, slider in self.analysis.motion.slides if carrier == GROUND}
-        return tuple(group for group in self.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
+        slides = (group for group in self.groups if group.kind in ("RRP", "RPP"))
+        return tuple(group for group in slides if group.guide == ids.joint(GROUND, group.j))
 
     @property
     def slider_senses(self) -> Mapping[str, complex]:
         """The unit vectors along which the motion of sliders on the ground counts as positive, by their pins."""
-        angles = {group.Q: float(self.analysis.motion.links[group.j].angle[0]) for group in self.sliding}
-        return {pin: self.machine.positive.get(pin, complex(np.exp(1j * angle))) for pin, angle in angles.items()}
+        guides = {group.Q: complex(self.ledger[ids.guide(group.j)].values[0]) for group in self.sliding}
+        return {pin: self.machine.positive.get(pin, along) for pin, along in guides.items()}
 
     # --- forces
 

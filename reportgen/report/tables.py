@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine.laws import Law
@@ -122,7 +122,7 @@ def tables(
 def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
     """What a quantity's numbers and its symbol need across (mm), with the white beside them."""
     numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
-    shown = (head_symbol(report, id), *(one for one in numbers if math.isfinite(one.value)))
+    shown = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
     return max(box(one, TABLE_SIZE).width for one in shown) + PADDING
 
 

@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
+from reportgen.base.template_folders import kind_file
 from reportgen.base.units import (
     LARGE,
     MM,
@@ -17,7 +18,7 @@ from reportgen.base.units import (
     significant_decimals,
     write,
 )
-from reportgen.base.words import kind_file, load_words, word
+from reportgen.base.words import load_words, word
 from reportgen.formula import ids
 
 DIGITS = 5

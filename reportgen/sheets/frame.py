@@ -17,10 +17,11 @@ from reportgen.assignment.fields import Decimal, Flag, Interval, OneLine
 from reportgen.assignment.reading import placed, read_model
 from reportgen.base.errors import Finding, Where
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, templates
+from reportgen.base.words import as_error, close_or_known
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
 from reportgen.report.case import Case
 

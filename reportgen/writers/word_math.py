@@ -12,7 +12,7 @@ from itertools import chain
 from typing import ClassVar
 
 from reportgen.base.units import Language
-from reportgen.drawing.geometry import POINT, Boxes
+from reportgen.drawing.label_size import POINT, Boxes
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setter import TextSetter
 from reportgen.formula.setting import (

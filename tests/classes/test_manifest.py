@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import Mark, Problem
-from reportgen.base.words import templates, templates_hash
+from reportgen.base.template_folders import templates
+from reportgen.base.words import templates_hash
 from reportgen.classes import manifest
 from reportgen.classes.manifest import ManifestEntry, journal
 from reportgen.classes.pool import Job, Outcome, making

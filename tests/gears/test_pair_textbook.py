@@ -9,6 +9,7 @@ import pytest
 
 from reportgen.formula.evaluation import arcinv, inv
 from reportgen.gears.formulas import Rack
+from reportgen.gears.involute import Wheel
 from reportgen.gears.pair import GearPair, PairLimits, balanced, least_shifts, least_sliding, sum_for
 
 MM = 1e-3
@@ -121,3 +122,11 @@ def test_no_pair_of_hundredths_slides_less() -> None:
             other = pair(4, (13, 36), x[0] + dx, x[1] + dy)
             keeps = other.keeps(limits)
             assert not keeps or other.sliding.min() <= chosen.sliding.min() + 1e-12
+
+
+def test_a_pair_has_its_numbers_from_the_formulas_of_its_report() -> None:
+    """No quantity of the sheet is worked out a second time by the pair or by a wheel, but the shifts that they have."""
+    names = {id.split(".")[1] for id in pair(10, (12, 28), 0.5, 0.5).sheet.families}
+    assert {"alpha_w", "d_a", "rho_p", "lambda"} <= names
+    fields = {"x", "z", "m"}
+    assert not (names - fields) & ({*dir(GearPair)} | {*dir(Wheel)})

@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 from reportgen import api
 from reportgen.assignment.common import Extent
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.classes.variants import make_variants
 from reportgen.cli import app

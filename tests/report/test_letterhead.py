@@ -13,8 +13,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import TemplateError
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates
 from reportgen.workbook.letterhead import LARGEST, read_letterhead
 from tests.lanes import matrix, proof
 from tests.writers.word_file import W, WordFile
@@ -57,7 +57,7 @@ def school(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Put:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)
     (root / "ours").mkdir()
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
 
     def put(data: bytes) -> Path:
         (root / "ours" / "report.docx").write_bytes(data)

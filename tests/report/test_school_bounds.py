@@ -13,8 +13,9 @@ import pytest
 from reportgen import api
 from reportgen.base.errors import TemplateError
 from reportgen.base.limits import PATIENCE, TEMPLATES, Limits
+from reportgen.base.template_folders import search_path, templates
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path, templates
+from reportgen.base.words import load_words
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.report import text_of
@@ -36,7 +37,7 @@ def school(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> School:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)
     (root / "ours").mkdir()
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
 
     def made(text: str, language: str = "en", sample: Path = SAMPLE) -> Path:
         (root / "ours" / f"{language}.md").write_text(text, encoding="utf-8")
