@@ -64,7 +64,7 @@ def collect(
             submission = read_submission(file.path, key_of, language, pages)
             name = key_of(submission.assignment).student.get("name", "")
             if file.owner and not file.owner.may_be(name):
-                fault = Fault("sheet-left-hands", Mark(str(file.path)), {"text": name, "owner": file.owner.name})
+                fault = Fault("sheet-other-hands", Mark(str(file.path)), {"text": name, "owner": file.owner.name})
                 raise AssignmentError([as_problem(fault, language)])
         except AssignmentError as error:
             refused.append(Refused(file, error.problems))

@@ -102,7 +102,7 @@ def test_the_roster_goes_before_the_worksheet_and_who_has_no_date_is_told(tmp_pa
     assert [(one.code, one.level, one.mark.file) for one in problems] == [
         ("moment", "error", str(path)),
         ("late-undated", "error", "E.xlsx"),
-        ("late-unknown", "warning", "A.xlsx"),
+        ("late-unknown", "warning", "C.xlsx"),
     ]
     assert "C" in problems[2].message
 
