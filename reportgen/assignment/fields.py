@@ -17,6 +17,7 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import school_strays
+from reportgen.base.moments import moment
 from reportgen.base.source import STRANGE, Quoted
 from reportgen.base.template_folders import school_folder, schools, templates
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
@@ -241,6 +242,20 @@ class Day(Reader):
 
     def schema(self) -> dict[str, Any]:
         return {"type": ["string", "null"], "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}$", "format": "date"}
+
+
+@dataclass(frozen=True, slots=True)
+class Until(Reader):
+    """A moment until which something lasts, `2026-11-20 23:59`; a day alone lasts to its end."""
+
+    def read(self, value: object) -> datetime.datetime:
+        text = _text(value, "moment")
+        if (found := moment(text, end=True)) is None:
+            raise fault("moment", text=text)
+        return found
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,13 +27,13 @@ SETS = {
     "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
     "plots": r".+\.(svg|png|pdf|eps)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
-    "feedback": r"feedback\.(pdf|xlsx)",
-    "class": r"grades\.csv|class\.pdf|feedback\.zip",
+    "feedback": r"feedback\.(pdf|xlsx|txt)",
+    "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")
 """A link in these folders stands for what is open, even where it leads to a regular file."""
-_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
+_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|txt|zip|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
 

@@ -8,8 +8,9 @@ positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but
 
 A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
 `machine`, which makes a case of its own.  `PART` is the name that the ids of a kind begin with which can be a part of a
-coursework; its words have under `index` what symbols get that an earlier part has too.  Ids of its own are in a module
-called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
+coursework; its words have under `index` what symbols get that an earlier part has too.  `table_rows` gives what `solve`
+prints of a position where that is not its entries as they are; `results` in its words has the titles.  Ids of its own
+are in a module called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -35,6 +35,12 @@ def case(assignment: Assignment) -> PairCase:
     from reportgen.gears.pair_case import PairCase
 
     return PairCase(assignment)
+
+
+def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """The row that `solve` prints of a position of the results: radii of curvature in mm."""
+    scales = {"rho.1": MM, "rho.2": MM}
+    return {"contact": {name: value * scales.get(name, 1.0) for name, value in position["contact"].items()}}
 
 
 # --- the file -------------------------------------------------------------------------------------
