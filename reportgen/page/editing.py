@@ -206,6 +206,8 @@ class EditSession(LiveSession):
         return {"form": self.form(), **said}
 
     def _change(self, operation: str, where: Where, asked: Asked) -> None:
+        if not where:
+            raise ValueError("the whole file is no value")
         file, place = self._file_of(where)
         before = self._bytes(file)
         text = self._decoded(before, file)

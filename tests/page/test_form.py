@@ -324,7 +324,9 @@ def test_only_its_own_page_may_change_the_file(tmp_path: Path) -> None:
             "[]",
             "{",
             '{"op": "set"}',
-            '{"op": "write", "where": []}',
+            '{"op": "set", "where": [], "value": ""}',
+            '{"op": "remove", "where": []}',
+            '{"op": "write", "where": ["kind"]}',
             '{"op": "set", "where": [[]], "value": 1}',
         ):
             assert status(path, own, nonsense) == 400
