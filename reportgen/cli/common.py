@@ -75,8 +75,21 @@ def begin(
     if version:
         print("reportgen", own_version())
     elif context.invoked_subcommand is None:
+        from reportgen.cli.console import is_double_clicked
+
+        if is_double_clicked():
+            _choose(context)
+            return
         print(context.get_help(), file=sys.stderr)
         raise typer.Exit(WRONG_USAGE)
+
+
+def _choose(context: typer.Context) -> None:
+    """As `edit` alone: who double-clicks has no command line; a file is begun at home, never beside the program."""
+    if Path.cwd() == Path(sys.argv[0]).absolute().parent:
+        os.chdir(Path.home())
+    assert isinstance(context.command, TyperGroup), "only a group has commands"
+    context.invoke(context.command.commands["edit"])
 
 
 @contextmanager
