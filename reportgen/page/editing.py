@@ -24,6 +24,7 @@ from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
 from reportgen.base.source import (
     LARGEST,
+    MOST_TOKENS,
     MappingNode,
     Node,
     Scalar,
@@ -258,6 +259,9 @@ class EditSession(LiveSession):
             changed = _changed(text, operation, where, asked)
         except EditError as error:
             raise RefusedChangeError("cannot", reason=str(error)) from error
+        # Only a text of that many characters can hold more than a file may: of another no form could be made.
+        if len(changed) > MOST_TOKENS and read_text(changed).faults:
+            raise RefusedChangeError("too_large")
         if changed != text:
             mark, codec = encoding_of(before)
             try:

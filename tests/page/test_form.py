@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import http.client
 import json
+import os
 import re
 import sys
 import threading
@@ -19,11 +21,13 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
+from reportgen.base import source
 from reportgen.base.errors import Where
 from reportgen.base.kinds import kinds
 from reportgen.base.source import LARGEST, MappingNode, read_text
 from reportgen.base.units import Language
 from reportgen.cases import open_case
+from reportgen.page import editing
 from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession
 from reportgen.page.fields import FieldGroup, FieldLine, Form
@@ -200,6 +204,42 @@ def test_files_that_cannot_be_written(tmp_path: Path) -> None:
     edited.path.unlink()
     assert "refused" in put(edited, ("parameters", "a"), "275 mm")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_disk_is_told_and_leaves_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some of the new text has room: the file is the old one, nothing lies beside it, nothing is there to undo."""
+    edited = session(tmp_path)
+
+    def full(path: Path, content: bytes) -> int:
+        with path.open("wb") as file:
+            file.write(content[:100])
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as disk:
+        disk.setattr(Path, "write_bytes", full)
+        refused = put(edited, ("parameters", "a"), "275 mm")["refused"]
+    assert os.strerror(errno.ENOSPC) in refused
+    assert (list(tmp_path.iterdir()), edited.done) == ([edited.path], [])
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
+    assert "refused" not in put(edited, ("parameters", "a"), "275 mm"), "there is room again"
+
+
+def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """3,000 are told beside their field with the number that is taken; what no form could show is not taken at all."""
+    edited = session(tmp_path, catalogue.sample("engine-twin", "en"), "twin.yaml")
+    rows = ", ".join(f"{row / 2999:.6f}" for row in range(3000))
+    form = put(edited, ("indicator", "s"), rows, list=True)["form"]
+    assert re.search(r'<div id="f:indicator.s.d">(?:(?!</div>).)*2000 or fewer', form, re.DOTALL)
+    assert 'data-list="2000"' in form
+    edited.edit({"op": "undo"})
+    before = edited.path.read_bytes()
+    for module in (source, editing):
+        monkeypatch.setattr(module, "MOST_TOKENS", 2000)
+    for count, told in ((900, "too large"), (1100, "0, 0, …")):
+        refused = put(edited, ("indicator", "intake"), ", ".join(["0"] * count), list=True)["refused"]
+        assert told in refused
+        assert len(refused) < 200
+    assert edited.path.read_bytes() == before
 
 
 @contextmanager
