@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reportgen.assignment.common import Draft, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Draft
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM
 from reportgen.cam import file

@@ -112,6 +112,7 @@ def _app() -> typer.Typer:
         takeaway.figure,
         takeaway.plot,
         student.watch,
+        student.edit,
         student.solve,
         student.compare,
         student.kinds,

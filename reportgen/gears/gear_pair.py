@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import numpy as np
 from pydantic import Field
 
-from reportgen.assignment.common import Part, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM, Given

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from reportgen.assignment.common import of_parameters, one_of
+from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.gears import train_file
 from reportgen.gears.train import CONDITIONS, DUST, SCHEMES, Train, mended
