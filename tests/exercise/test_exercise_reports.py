@@ -51,6 +51,14 @@ def test_every_exercise_builds(path: Path, engine: Any) -> None:
             assert write(number.value, number.decimals, language) in text
 
 
+def test_no_figure_stands_above_the_title() -> None:
+    """Where the heading of the solution goes to the next page with what follows it, its figure stays below the data."""
+    pages = pymupdf.open(stream=api.typeset(document(FOLDER / "19.yaml", "en"), "typst")[1])
+    first = pages[0].get_text(sort=True)
+    assert first.index("Exercise of plane motion") < first.index("Table 1") < first.index("Figure 1")
+    assert "Solution" in pages[1].get_text()
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("path", matrix(FILES, FILES[3::4]), ids=lambda path: path.stem)
 def test_no_gap_is_left_in_the_words(path: Path, language: Any) -> None:
