@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +18,8 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.common import PARTS
+from reportgen.assignment.fields import UNIT_KEY
+from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Fault, Mark, Problem, ReportgenError, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
@@ -44,6 +47,8 @@ from reportgen.page.making import Maker
 from reportgen.page.ownership import owners
 from reportgen.report.case import Case
 
+PART_KEYS = "kind", "parameters"
+"""What is begun of a part."""
 MOST_STEPS = 500
 """So many changes can be undone."""
 HERE = Mark("")
@@ -142,6 +147,8 @@ class EditSession(LiveSession):
             can_undo=bool(self.done),
             can_redo=bool(self.undone),
             products=list(self.products),
+            part_kinds=part_kinds(),
+            kind_titles=titles(language),
         )
 
     def owners(self) -> Mapping[str, Any]:
@@ -199,11 +206,15 @@ class EditSession(LiveSession):
         return {"form": self.form(), **said}
 
     def _change(self, operation: str, where: Where, asked: Asked) -> None:
+        if not where:
+            raise ValueError("the whole file is no value")
         file, place = self._file_of(where)
         before = self._bytes(file)
         text = self._decoded(before, file)
         if "was" in asked and operation in ("set", "instead"):
             self._same(text, place, str(asked["was"]), str(asked["value"]))
+        if operation == "instead" and not asked.get("value"):
+            asked = {**asked, "value": _the_same(text, place, str(asked["key"]))}
         try:
             changed = _changed(text, operation, place, asked)
         except EditError as error:
@@ -235,19 +246,22 @@ class EditSession(LiveSession):
         self._put(change.file, change.before)
         (self.undone if operation == "undo" else self.done).append(steps.pop())
 
-    def drag(self, asked: Asked) -> bytes:
+    def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
         """The samples of what moves with another value at a place, as numbers of four bytes; nothing is written.
 
-        No bytes at all for a value with which there is no such machine.
+        No bytes at all for a value with which there is no such machine; no answer of a kind that is none, which moves
+        when the value is let go.
         """
         where = _place(asked["where"])
         with self.dragging:
             resident = self._resident_machine()
+            if resident is None:
+                return {}
             with self.lock:
                 text = self._text(self.path)
             top = None if isinstance(text, Fault) else read_own(text).top
             old = at(top, where)
-            if resident is None or not isinstance(old, Scalar) or top is None:
+            if not isinstance(old, Scalar) or top is None:
                 return b""
             changed = put(top, where, replace(old, text=str(asked["value"]), null=False))
             assignment, faults = catalogue.understood(Source(str(self.path), top=changed), self.path)
@@ -337,9 +351,32 @@ def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
 
 
 def _item(asked: Asked) -> Node:
-    """A new item of a list: a table with the entries that are asked for, or one that is still empty."""
-    entries = dict(asked.get("item", {}))
-    return MappingNode(tuple((Scalar(str(key), HERE), Scalar(str(text), HERE)) for key, text in entries.items()), HERE)
+    """A new item of a list: a part with the data of its kind to begin with, else a table that is still empty."""
+    if "kind" not in asked:
+        return MappingNode((), HERE)
+    kind = str(asked["kind"])
+    if kind not in part_kinds():
+        raise ValueError(kind)
+    top = read_own(catalogue.sample(kind, "en")).top
+    assert isinstance(top, MappingNode), "a file to begin with is in order"
+    return replace(top, entries=tuple(entry for entry in top.entries if entry[0].text in PART_KEYS))
+
+
+@cache
+def part_kinds() -> tuple[str, ...]:
+    """The kinds that can be a part of a coursework."""
+    return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
+
+
+def _the_same(text: str, place: Where, key: str) -> str:
+    """What stands at a place in the unit of another key beside it; "" where that is of another dimension."""
+    top = read_text(text).top
+    old, kind = at(top, place), at(top, ("kind",))
+    if not isinstance(old, Scalar) or not isinstance(kind, Scalar) or kind.text not in kinds():
+        return ""
+    schema = file_schema(catalogue.kind(kind.text))
+    units = [schema[UNIT_KEY] for schema in places(schema, schema, (*place[:-1], key)) if UNIT_KEY in schema]
+    return next(filter(None, (converted(old.text, unit) for unit in units)), "")
 
 
 def _value(text: str, where: Where, typed: str, as_items: bool) -> Node:

@@ -140,11 +140,31 @@ def test_nothing_typed_becomes_anything_else(tmp_path: Path, value: str) -> None
 
 
 def test_one_key_gives_way_to_another(tmp_path: Path) -> None:
-    edited = session(tmp_path)
+    """ω₁ in place of n is the same speed; a mass in place of a weight has to be typed."""
+    edited = session(tmp_path, SHAPER.replace("# G3: 200 N", "G3: 200 N"))
     edited.edit({"op": "instead", "where": ["parameters", "n"], "key": "omega1", "value": ""})
-    assert "  omega1:   " in edited.path.read_text(encoding="utf-8")
-    put(edited, ("parameters", "omega1"), "9.32 rad/s")
+    assert "  omega1: 9.32 rad/s   " in edited.path.read_text(encoding="utf-8")
     assert catalogue.check(edited.path) == []
+    edited.edit({"op": "instead", "where": ["parameters", "G3"], "key": "m3", "value": ""})
+    assert "  m3:   " in edited.path.read_text(encoding="utf-8")
+
+
+def test_parts_are_added_moved_and_removed(tmp_path: Path) -> None:
+    """Two cams and gears in place, with the data of a file to begin with; undone, the file is as it was."""
+    edited = session(tmp_path)
+    for kind in ("cam", "gear-pair"):
+        edited.edit({"op": "add", "where": ["parts"], "kind": kind})
+    assert [problem for problem in catalogue.check(edited.path) if problem.level == "error"] == []
+    form = put(edited, ("parts", 0, "parameters", "h"), "41 mm", was="40 mm")["form"]
+    assert 'id="f:parts.1.parameters.z1"' in form
+    edited.edit({"op": "move", "where": ["parts"], "first": 0})
+    edited.edit({"op": "remove", "where": ["parts", 0]})
+    assert [part.alone.kind for part in catalogue.load(edited.path).parts] == ["cam"]
+    with pytest.raises(ValueError, match="shaper"):
+        edited.edit({"op": "add", "where": ["parts"], "kind": "shaper"})
+    for _ in range(5):
+        edited.edit({"op": "undo"})
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
 
 
 def test_an_editor_meanwhile_is_not_written_over(tmp_path: Path) -> None:
@@ -304,7 +324,9 @@ def test_only_its_own_page_may_change_the_file(tmp_path: Path) -> None:
             "[]",
             "{",
             '{"op": "set"}',
-            '{"op": "write", "where": []}',
+            '{"op": "set", "where": [], "value": ""}',
+            '{"op": "remove", "where": []}',
+            '{"op": "write", "where": ["kind"]}',
             '{"op": "set", "where": [[]], "value": 1}',
         ):
             assert status(path, own, nonsense) == 400
