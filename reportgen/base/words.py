@@ -286,8 +286,9 @@ def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentEr
 
 def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
     """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
+    # What differs in case alone is nearer than anything else.
     same = [name for name in known if name.casefold() == key.casefold()]
-    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
+    close = same or difflib.get_close_matches(key, known, n=1, cutoff=0.6)
     return {"close": close[0]} if close else {"known": ", ".join(known)}
 
 
