@@ -1,16 +1,10 @@
-"""The part of an assignment file that every kind of machine shares, and checks for any kind to put in its list.
-
-Such checks look at several values at once.  They read the plain content, not the models, wherever they can:
-so they also speak when some other value of the file is wrong.
-"""
+"""The part of an assignment file that every kind of machine shares, as models."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from pathlib import Path
-from statistics import mode
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
@@ -28,9 +22,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding, UnknownNameError
-from reportgen.base.files import school_strays
-from reportgen.base.template_folders import is_school
-from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
+from reportgen.base.units import Given, Language
 from reportgen.base.words import named_school, unknown
 
 POSITIONS = "positions"
@@ -361,129 +353,3 @@ def number_of(named: int | str, labels: Sequence[str]) -> int:
     if isinstance(named, str):
         return labels.index(named) + 1 if named in labels else 0
     return named if named <= len(labels) else 0
-
-
-def worked_positions(turns: int, names: Labels | None = None) -> Check:
-    """Worked positions lie in the cycle of `turns` turns, each is named once."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        report, positions = draft.sections.get("report"), draft.sections.get("positions")
-        if report is None or positions is None or report.worked_positions is None:
-            return
-        labels = labels_of(names, draft.sections.get("parameters"), positions, turns)
-        met: set[int] = set()
-        for index, named in enumerate(report.worked_positions):
-            place, number = ("report", "worked_positions", index), number_of(named, labels)
-            if number in met:
-                yield Finding("repeated", place, {"text": str(named)})
-            elif number:
-                met.add(number)
-            elif isinstance(named, str):
-                yield Finding("no-such-label", place, {"text": named, "known": ", ".join(labels)})
-            else:
-                yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
-
-    return check
-
-
-def school_of(path: Path) -> Check:
-    """The school's folder of the file at `path` lies beside it or below, with words in it, and there is one."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        named, where = draft.at("report", "templates"), ("report", "templates")
-        if not isinstance(named, str):
-            return
-        folder = path.parent / named
-        if school_strays(folder, path.parent):
-            yield Finding("path-outside", where, {"text": named})
-        elif not is_school(folder):
-            yield Finding("no-templates", where, {"place": str(folder.absolute())})
-        else:
-            yield from one_of("report", "school", "templates", required=False)(draft)
-
-    return check
-
-
-def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
-    """A check of the parameters alone, made where each of them is in order by itself."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        if "parameters" in draft.sections:
-            yield from look(draft.sections["parameters"])
-
-    return check
-
-
-def one_of(section: str, *names: str, required: bool = True) -> Check:
-    """Of several keys that say the same thing, one stands in the section (at most one unless `required`).
-
-    A section of a section is named by its path, as "parameters.driver".
-    """
-    where = tuple(section.split("."))
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        content = draft.at(*where)
-        if not isinstance(content, dict):
-            return
-        given = [name for name, value in content.items() if name in names and value is not None]
-        if len(given) > 1:
-            first, second = given[:2]
-            yield Finding("both-given", (*where, second), {"first": first, "second": second}, at="key")
-        elif required and not given:
-            yield Finding("missing-key", (*where, names[0]), {"key": " | ".join(names)})
-
-    return check
-
-
-def same_length(section: str, key: str, rows: Sequence[str]) -> Check:
-    """The rows have as many values as the list `key`: those that differ from most of them are at fault."""
-    where = tuple(section.split("."))
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        columns = {row: draft.at(*where, row) for row in (key, *rows)}
-        lengths = {row: len(values) for row, values in columns.items() if isinstance(values, list)}
-        if not lengths:
-            return
-        wanted = mode(lengths.values())
-        agreeing = next(row for row, length in lengths.items() if length == wanted)
-        for row, length in lengths.items():
-            if length != wanted:
-                counts = {"key": row, "given": str(length), "other": agreeing, "wanted": str(wanted)}
-                yield Finding("row-length", (*where, row), counts)
-
-    return check
-
-
-def increasing(section: str, key: str, first: float, last: float, unit: str = "") -> Check:
-    """The list grows strictly from `first` to `last` (in `unit`)."""
-    where = (*section.split("."), key)
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        texts = draft.at(*where)
-        values = [_size(text, unit) for text in texts] if isinstance(texts, list) else []
-        sizes = [value for value in values if value is not None]
-        if not sizes or len(sizes) < len(values):
-            return
-        falls = [index + 1 for index, (one, next_one) in enumerate(pairwise(sizes)) if next_one <= one]
-        if falls:
-            yield Finding("not-increasing", (*where, falls[0]), {"key": key})
-            return
-        for index, value, wanted in ((0, sizes[0], first), (len(sizes) - 1, sizes[-1], last)):
-            # Ends are exact but for the rounding of a unit (2 turn for 720 deg).
-            if abs(value - wanted) > 1e-10 * (last - first):
-                end = f"{wanted:g} {unit}".strip()
-                yield Finding("table-end", (*where, index), {"key": key, "end": end})
-
-    return check
-
-
-def _size(text: Any, unit: str) -> float | None:
-    """The value of an item in `unit`; None if it cannot be read, which its own reader reports."""
-    if not isinstance(text, str):
-        return None
-    try:
-        if not unit:
-            return read_number(text)
-        return read_quantity(text, unit).si / read_quantity(f"1 {unit}", unit).si
-    except QuantityFault:
-        return None

@@ -57,6 +57,22 @@ def put_file(target: Path, content: bytes) -> None:
     put_set({target: content})
 
 
+def renew_file(target: Path, content: bytes) -> None:
+    """As `put_file`, for a user's own file: what a link leads to is renewed, with the rights that it has.
+
+    Raises `OSError`, for a file that may not be written, too.
+    """
+    real = Path(os.path.realpath(target))
+    with ExitStack() as temporary, _named(target):
+        mode = stat.S_IMODE(real.stat().st_mode)
+        if not mode & 0o222 or not os.access(real, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(target))
+        written = _beside(real, temporary)
+        written.write_bytes(content)
+        written.chmod(mode)
+        written.replace(real)
+
+
 def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:
     """Put files in place, and take the ones `gone` away, together or not at all: after a failure all is as it was.
 

@@ -11,7 +11,8 @@ from typing import Annotated, Any, ClassVar
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Check, Draft, Part, Positions, one_of
+from reportgen.assignment.checks import one_of
+from reportgen.assignment.common import Assignment, Check, Draft, Part, Positions
 from reportgen.assignment.fields import (
     Acceleration,
     AngularVelocity,

@@ -6,7 +6,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from reportgen.assignment.common import Part, Positions, increasing, same_length
+from reportgen.assignment.checks import increasing, same_length
+from reportgen.assignment.common import Part, Positions
 from reportgen.assignment.fields import (
     CycleAngles,
     Force,

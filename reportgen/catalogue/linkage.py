@@ -12,7 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
+from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.assignment.common import Assignment, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
 from reportgen.catalogue import linkage_checks
@@ -54,12 +55,6 @@ BOX = (0.210, 0.260)
 STEPS = 72
 
 
-def _check_speed(draft: Draft) -> Iterator[Finding]:
-    """A crank has a speed, in one way."""
-    if draft.at("parameters", "driver", "type") == "crank":
-        yield from one_of("parameters.driver", "n", "omega1")(draft)
-
-
 @of_parameters
 def _check_flywheel(given: Parameters) -> Iterator[Finding]:
     """A flywheel turns with a crank."""
@@ -67,7 +62,12 @@ def _check_flywheel(given: Parameters) -> Iterator[Finding]:
         yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
 
 
-CHECKS = (_check_speed, needs_loads(("masses", "loads")), _check_flywheel, linkage_checks.check)
+CHECKS = (
+    one_of("parameters.driver", "n", "omega1", form=("type", "crank")),
+    needs_loads(("masses", "loads")),
+    _check_flywheel,
+    linkage_checks.check,
+)
 
 
 def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, ...]:

@@ -49,12 +49,15 @@ from reportgen.plans.motion import (
 from reportgen.plans.sides import Side, image, scheme, sides
 
 
-def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = ()) -> None:
+def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = (), scaled: bool = True) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
 
     The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of
-    them if none is named) fill their paper.
+    them if none is named) fill their paper; without, where they are not `scaled`.
     """
+    if not scaled:
+        _enter(q, linkage, turn)
+        return
     trial = _enter(q.copy(), linkage, turn)
     _enter(q, linkage, turn, {what: chosen_scale(trial, what, worked) for what in ("v", "a")})
 
