@@ -94,4 +94,4 @@ def _unparted(text: str, mark: Mark) -> Fault | None:
     code = "equals-sign" if "=" in text[len(match["key"]) : end] else "no-blank"
     column = mark.column + len(match["lead"])
     fixed = f"{match['key']}: {value}"
-    return Fault(code, Mark(mark.file, mark.line, column), {"text": text[:end].lstrip() + value, "fixed": fixed})
+    return Fault(code, Mark(mark.file, mark.line, column), {"text": text[:end].lstrip() + value, "line": fixed})

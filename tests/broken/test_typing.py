@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.base.kinds import sample
+from reportgen.catalogue import sample
 
 NBSP, THIN = "\u00a0", "\u202f"
 SLIPS = {
