@@ -245,6 +245,12 @@ def messages(language: Language) -> Mapping[str, Any]:
     return _read(templates() / language / "messages.yaml")
 
 
+@cache
+def helps(language: Language) -> Mapping[str, Any]:
+    """The help of the command line: its `frame`, the short `start`, and `texts` by their English ones."""
+    return _read(templates() / language / "help.yaml")
+
+
 def word(key: str, language: Language | None, /, **arguments: object) -> str:
     """A text of the command line with its arguments filled in."""
     said = {name: one if isinstance(one, FILLS) else str(one) for name, one in arguments.items()}
