@@ -27,7 +27,7 @@ from tests import house
 from tests.lanes import matrix, proof
 
 ROOT = Path(__file__).parent.parent
-PAGES = ("README.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
+PAGES = ("README.md", "README.vi.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
 """For users: each is read, and its commands are run, by itself."""
 
 TELLING = ("README.md",)

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
-from typer.core import TyperGroup
 
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
@@ -56,17 +55,6 @@ def _use_templates(folder: Path | None) -> Path | None:
     return folder
 
 
-class Commands(TyperGroup):
-    """The commands, of which an unknown one is told with the one it was probably meant to be."""
-
-    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        if args[0] not in self.commands:
-            from reportgen.base.words import unknown
-
-            raise typer.BadParameter(unknown("no_command", args[0], list(self.commands), None), ctx=ctx)
-        return super().resolve_command(ctx, args)
-
-
 def begin(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
@@ -75,8 +63,9 @@ def begin(
     if version:
         print("reportgen", own_version())
     elif context.invoked_subcommand is None:
-        print(context.get_help(), file=sys.stderr)
-        raise typer.Exit(WRONG_USAGE)
+        from reportgen.cli.helping import start
+
+        print(start())
 
 
 @contextmanager
