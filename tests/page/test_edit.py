@@ -43,6 +43,10 @@ const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-c
 cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
 """
 REFUSED = "return document.getElementById('refused').textContent"
+IN_SIGHT = """
+const { left, top } = document.getElementById("refused").getBoundingClientRect();
+return document.elementFromPoint(left + 5, top + 5)?.id === "refused";
+"""
 PLACE = "return document.querySelector('[data-stage=machine] svg').innerHTML"
 
 
@@ -125,8 +129,10 @@ def test_the_form_can_be_used_by_all(
             changed = text.replace("1.0, -2.5, -2.5", "1.0, -2.4, -2.5", 1).replace("[28,  23.2, ", "[28,  24, ")
             assert changed != text
             until(lambda: file.read_text(encoding="utf-8") == changed)
+            browser.run("document.querySelector('.tabled').scrollIntoView()")
             browser.run(PASTE, 1, "0\t0\n" * 3000)
             assert re.findall(r"\d+", browser.run(REFUSED)) == ["3001", "2000"], "the number that is taken"
+            assert browser.run(IN_SIGHT), "where the table is"
             assert file.read_text(encoding="utf-8") == changed
         # What stands beside the form is looked at by itself.
         assert browser.violations(axe(), "#form") == []
