@@ -53,6 +53,13 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
     return _found(own, common, own.stat().st_mtime_ns, common.stat().st_mtime_ns)
 
 
+def shared_keys(language: Language) -> frozenset[str]:
+    """The parameters that are called alike in every kind that has them."""
+    common = templates() / language / FILE
+    groups: Mapping[str, Any] = _common(common, common.stat().st_mtime_ns)[PARAMETERS]
+    return frozenset(key for keys in groups.values() for key in keys)
+
+
 def choice_words(language: Language) -> Mapping[str, str]:
     """What the values are called among which a key may choose."""
     common = templates() / language / FILE

@@ -13,10 +13,12 @@ from typing import Any
 
 from reportgen.base.errors import Where
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_text
-from reportgen.base.source_text import at, entry_text, flow, quoted
+from reportgen.base.source_text import at, entry_text, flow, item_lines, quoted
 
 _REMARK = re.compile(r"#[ \t]?(?P<entry>(?P<key>[^\s:#][^:#]*):(?:[ \t].*)?)$")
 
+SHOWN = 60
+"""So much of what was typed is told."""
 BRACKETS = 2000
 """A text with fewer brackets is not set in itself deeper than any reader bears."""
 
@@ -117,7 +119,7 @@ def as_list(text: str) -> SequenceNode:
     source = read_text(f"[{text}]")
     if isinstance(source.top, SequenceNode) and not source.faults:
         return source.top
-    raise EditError(f"this is no list: {text}")
+    raise EditError(f"this is no list: {text if len(text) <= SHOWN else text[:SHOWN] + '…'}")
 
 
 # --- what stands where --------------------------------------------------------------------------------
@@ -202,7 +204,8 @@ def _with_item(text: str, listed: SequenceNode, value: Node) -> str:
     end = _line_end(text, _content_end(text, listed.span[1]))
     dash = listed.span[0] - _line_start(text, listed.span[0])
     head = text[:end] if text[:end].endswith("\n") else text[:end] + _newline(text)
-    return f"{head}{' ' * dash}- {flow(value)}{_newline(text)}{text[end:]}"
+    lines = "".join(f"{line}{_newline(text)}" for line in item_lines(value, dash))
+    return head + lines + text[end:]
 
 
 def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:

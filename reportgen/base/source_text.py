@@ -136,11 +136,11 @@ def entry_text(key: Scalar, value: Node, depth: int) -> str:
         return f"{space}{name}: {line}".rstrip() + "\n"
     if isinstance(value, MappingNode):
         return f"{space}{name}:\n{_lines(value, depth + 2)}"
-    return _joined([f"{space}{name}:", *(line for item in value.items for line in _item(item, depth + 2))])
+    return _joined([f"{space}{name}:", *(line for item in value.items for line in item_lines(item, depth + 2))])
 
 
-def _item(item: Node, depth: int) -> list[str]:
-    """An item of a list in one line; a long table with tables in it by its entries."""
+def item_lines(item: Node, depth: int) -> list[str]:
+    """An item of a list, so far to the right, in one line; a long table with tables in it by its entries."""
     line = flow(item)
     nested = isinstance(item, MappingNode) and any(isinstance(value, MappingNode) for _, value in item.entries)
     if depth + 2 + len(line) <= WIDTH or not isinstance(item, MappingNode) or not nested:

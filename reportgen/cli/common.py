@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin, get_type_hints
 
 import typer
+from typer.core import TyperGroup
 
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
@@ -63,9 +64,21 @@ def begin(
     if version:
         print("reportgen", own_version())
     elif context.invoked_subcommand is None:
+        from reportgen.cli.console import is_double_clicked
         from reportgen.cli.helping import start
 
-        print(start())
+        if is_double_clicked():
+            _choose(context)
+        else:
+            print(start())
+
+
+def _choose(context: typer.Context) -> None:
+    """As `edit` alone: who double-clicks has no command line; a file is begun at home, never beside the program."""
+    if Path.cwd() == Path(sys.argv[0]).absolute().parent:
+        os.chdir(Path.home())
+    assert isinstance(context.command, TyperGroup), "only a group has commands"
+    context.invoke(context.command.commands["edit"])
 
 
 @contextmanager

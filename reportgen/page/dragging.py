@@ -64,7 +64,7 @@ class Resident:
         samples = Samples(case, self.samples.kept)
         if not samples.analysis.motion.reachable.all():
             return b""
-        values, written = self.values.copy(), np.zeros(self.values.size, dtype=bool)
+        values, written = self.values.copy(), set[int]()
         panes = tuple(samples.panes())
         moved = list(tracks(panes, tuple(samples.values())))
         if len(moved) != len(self.numbers):
@@ -92,7 +92,7 @@ class Resident:
             else:
                 place += 1
 
-    def _put(self, values: np.ndarray, written: np.ndarray, number: int, track: np.ndarray) -> bool:
+    def _put(self, values: np.ndarray, written: set[int], number: int, track: np.ndarray) -> bool:
         """Put the samples of a track in place; not where they have another length, or share their place and differ."""
         parts = (track.real, track.imag) if np.iscomplexobj(track) else (track,)
         for index, part in enumerate(parts):
@@ -100,9 +100,11 @@ class Resident:
             samples = np.asarray(part, dtype="<f4") + np.float32(0)
             if values[place].size != samples.size:
                 return False
-            if written[place].all() and not _alike(values[place], samples):
+            if number + index not in written:
+                values[place] = samples
+                written.add(number + index)
+            elif values[place].tobytes() != samples.tobytes() and not _alike(values[place], samples):
                 return False
-            values[place], written[place] = samples, True
         return True
 
 

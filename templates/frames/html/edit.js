@@ -2,6 +2,7 @@
 // The form of the file: what is typed goes to the file, what comes back is the form of the file as it then is.
 (() => {
   const form = document.getElementById("fields"), pane = document.getElementById("form"), words = JSON.parse(document.getElementById("live").textContent).words;
+  const machine = typeof panels === "undefined" ? undefined : panels[0];
   const post = (name, body) => fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
   const place = (element) => JSON.parse(element.closest("[data-w]").dataset.w);
   const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => one.dataset.w === JSON.stringify(where));
@@ -75,12 +76,13 @@
       wanted = null;
       try {
         const answer = await post("drag.json", body);
+        if (answer.headers.get("Content-Type") === "application/json") continue;
         const samples = answer.ok ? await answer.arrayBuffer() : null, known = samples && samples.byteLength > 0;
         document.body.classList.toggle("stale", !known);
         if (!known) continue;
         const length = new DataView(samples).getUint32(0, true);
         const bodies = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
-        extended.get(panels[0]?.root)?.feed(new Float32Array(samples, 4 + length), bodies);
+        extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), bodies);
       } catch { /* the server tells of itself */ }
     }
     asking = false;
@@ -149,6 +151,7 @@
     else if ("remove" in data) change({ op: "remove", where: place(field || button) });
     else if ("make" in data) post("make.json", { product: data.make });
     else if ("add" in data) change({ op: "add", where: place(button) });
+    else if ("part" in data) change({ op: "add", where: ["parts"], kind: document.getElementById("part").value });
     else if ("up" in data) {
       const where = place(button), index = where.pop();
       change({ op: "move", where, first: index - 1 });
@@ -243,6 +246,11 @@
         all[from + index] ??= columns.map(() => "0");
         line.forEach((one, column) => { if (first + column < columns.length) all[from + index][first + column] = one; });
       });
+      const most = Math.min(...inputs.map((input) => Number(input.dataset.list) || Infinity));
+      if (all.length > most) {
+        document.getElementById("refused").textContent = words.many_rows.replace("{count}", all.length).replace("{most}", most);
+        return;
+      }
       put(inputs, all);
       if (turned) queue.then(() => { document.getElementById("refused").textContent = words.commas; });
     });
@@ -262,8 +270,8 @@
 
   const NEAR = 4;
   let owners = { fields: [], ground: {} }, marked = [], following = false;
-  const svg = () => panels[0]?.root.querySelector('[data-stage="machine"] svg');
-  const at = (name) => extended.get(panels[0].root).spotAt(name) || owners.ground[name];
+  const svg = () => machine?.root.querySelector('[data-stage="machine"] svg');
+  const at = (name) => extended.get(machine.root).spotAt(name) || owners.ground[name];
   const overlay = () => {
     const drawing = svg();
     let path = drawing.querySelector(".own");
@@ -292,7 +300,7 @@
     follow();
   };
   const learn = async () => {
-    if (!panels[0]) return;
+    if (!machine) return;
     owners = await (await fetch("owners.json", { cache: "no-store" })).json();
     mark(document.activeElement?.closest?.(".field")?.querySelector("[data-w]"));
   };
@@ -320,13 +328,13 @@
     while (place.length && !byPlace(place)) place.pop();
     return byPlace(place);
   });
-  panels[0]?.root.addEventListener("pointermove", (event) => {
+  machine?.root.addEventListener("pointermove", (event) => {
     const list = svg()?.contains(event.target) ? under(event) : [];
     const own = new Set(fieldsOf(list).map((one) => one?.closest(".field")));
     form.querySelectorAll(".field.own").forEach((one) => { if (!own.has(one)) one.classList.remove("own"); });
     own.forEach((one) => one?.classList.add("own"));
   });
-  panels[0]?.root.addEventListener("click", (event) => {
+  machine?.root.addEventListener("click", (event) => {
     if (svg()?.contains(event.target)) fieldsOf(under(event))[0]?.focus();
   });
 
@@ -363,8 +371,8 @@
     learn();
   });
   // Where there is no room beside the form, the machine stays above it.
-  if (matchMedia("(max-width: 61.99rem)").matches && panels[0]) {
-    panels[0].hold(true);
+  if (matchMedia("(max-width: 61.99rem)").matches && machine) {
+    machine.hold(true);
     document.body.classList.add("kept");
   }
   mount();
