@@ -249,9 +249,11 @@ def key(at: Desk) -> None:
 
 
 def task(at: Desk) -> None:
-    """Task and answer sheet as a batch makes them."""
-    files = api.task_files(at.file, at.engine, at.language or None)
-    assert {name: data[:2] for name, data in files.items()} == {"task.pdf": b"%P", "answers.xlsx": b"PK"}
+    """Task and answer sheet as a batch makes them, and the assignment beside them."""
+    files = dict(api.task_files(at.file, at.engine, at.language or None))
+    assert files.pop("assignment.yaml") == at.file.read_bytes()
+    starts = {name: data[:2] for name, data in files.items() if not name.endswith(".yaml")}
+    assert starts == {"task.pdf": b"%P", "answers.xlsx": b"PK"}
 
 
 def compare(at: Desk) -> None:
