@@ -42,8 +42,13 @@ CAD = 1e-4
 """Places in a DXF file are written to a millionth of a millimetre."""
 RULER = 0.02
 """Millimetres: places in the PDF are written to a thousandth, its heads to the angle of the arrow."""
-BY_RATIO = {("engine-single-I", "drawn.BC"): 0.01, ("engine-single-VI", "drawn.BC"): 0.1}
-"""What rounding R/λ makes of a rod (mm): four digits of λ are half a thousandth of 159 mm at most."""
+BY_RATIO = {
+    ("engine-single-I", "drawn.BC"): 0.01,
+    ("engine-single-V", "drawn.BC"): 0.03,
+    ("engine-single-VI", "drawn.BC"): 0.1,
+}
+"""What rounding makes of a rod (mm) that follows from R/λ, whose four digits are half a thousandth of 159 mm at most, or
+from an angle: θ = 6.923° of variant V prints as 6.92°, which makes 136.49 mm of 136.465."""
 DRAWN = 1.0
 """A shorter arm (mm) is hidden by the point that it is taken about."""
 
