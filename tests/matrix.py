@@ -83,7 +83,8 @@ class Desk:
         return self.language == OWN
 
     def formats(self, known: Sequence[str], enough: str) -> str:
-        return enough if self.brief else ",".join(known)
+        """Of the formats of a command those to be made: what no typesetter makes does not change with the engine."""
+        return enough if self.brief else ",".join(known) if self.engine == "typst" else "pdf"
 
     @property
     def out(self) -> Path:

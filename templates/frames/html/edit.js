@@ -90,7 +90,7 @@
 
   // --- the form anew: what is open stays open, what has the focus keeps it
 
-  const show = ({ form: body, refused, meanwhile }) => {
+  const show = ({ form: body, refused, meanwhile }, told = []) => {
     const focused = form.contains(document.activeElement) ? document.activeElement : null;
     const id = focused && (focused.id || focused.closest(".field")?.querySelector("[data-w]")?.id);
     const inBar = focused?.type === "range", typed = focused?.value, was = focused?.dataset?.was;
@@ -98,6 +98,7 @@
     const open = new Set([...form.querySelectorAll("details[open]")].map((one) => one.dataset.open));
     const top = pane.scrollTop;
     form.innerHTML = body;
+    document.getElementById("refused").append(...told);
     mount();
     for (const one of form.querySelectorAll("details")) one.open = open.has(one.dataset.open);
     pane.scrollTop = top;
@@ -248,7 +249,8 @@
       });
       const most = Math.min(...inputs.map((input) => Number(input.dataset.list) || Infinity));
       if (all.length > most) {
-        document.getElementById("refused").textContent = words.many_rows.replace("{count}", all.length).replace("{most}", most);
+        const told = words.many_rows.replace("{count}", all.length).replace("{most}", most);
+        queue.then(() => { document.getElementById("refused").textContent = told; });
         return;
       }
       put(inputs, all);
@@ -367,7 +369,9 @@
     tell(detail.making);
     if (!detail.changed) return;
     await queue;
-    show(await (await fetch("form.json", { cache: "no-store" })).json());
+    const news = await (await fetch("form.json", { cache: "no-store" })).json();
+    // What was told of a change of one's own stays until the next one.
+    show(news, document.getElementById("refused").childNodes);
     learn();
   });
   // Where there is no room beside the form, the machine stays above it.
