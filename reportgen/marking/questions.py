@@ -27,7 +27,9 @@ LEAST = 10
 @dataclass(frozen=True, slots=True)
 class Item:
     """Cells of a class under one name: how many students were asked, the share of the points that they earned, the
-    correlation of that with the rest of the sheet (NaN for few students, and where one of the two does not vary), the share left blank."""
+    correlation of that with the rest of the sheet (NaN for few students, and where one of the two does not vary), the
+    share left blank.
+    """
 
     key: Key
     place: Place
