@@ -5,11 +5,11 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from reportgen.base.files import reported, standing
+from reportgen.base.files import put_files, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
@@ -25,6 +25,9 @@ from reportgen.cli.common import (
     say,
     tell,
 )
+
+if TYPE_CHECKING:
+    from reportgen.marking.policy import Policy
 
 PolicyOption = Annotated[
     Path | None,
@@ -51,13 +54,26 @@ def variants(
         "out/variants"
     ),
     force: Annotated[bool, typer.Option("--force", help="Also replace files edited by hand.")] = False,
+    format: Annotated[
+        str, typer.Option("--format", metavar="LIST", help="Of yaml, moodle-xml; parted by commas.")
+    ] = "yaml",
+    policy: PolicyOption = None,
     lang: LangOption = None,
     shared: SharedOption = None,
 ) -> None:
-    """Draw a variant for each student of a class. It is frozen into DIR/<id>.yaml."""
+    """Draw a variant for each student of a class. It is frozen into DIR/<id>.yaml.
+
+    With --format moodle-xml a bank of questions for a Moodle quiz goes to DIR/questions.xml, too.
+    """
     from reportgen.classes.variants import make_variants
 
+    formats = listed(format, ("yaml", "moodle-xml"), "--format", "no_format", lang)
     with ending(lang):
+        if "moodle-xml" in formats:
+            from reportgen.classes import quiz
+
+            refuse_inputs([out / quiz.NAME], [spec, roster, policy], lang)
+        rules = _policy(policy, lang)
         made = make_variants(spec, roster, out, force, lang, _bar, shared=shared or ())
         print(
             *(path for file in made.files for path in (file.path, *file.parts)),
@@ -65,6 +81,16 @@ def variants(
             sep="\n",
         )
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
+        if "moodle-xml" in formats:
+            bank = quiz.question_bank([file.path for file in made.files], rules, spec.stem, lang)
+            print(*put_files(out, {quiz.NAME: bank}), sep="\n")
+
+
+def _policy(path: Path | None, lang: LangOption) -> Policy:
+    """The policy of a file, or what holds without one."""
+    from reportgen.marking.policy import Policy, read_policy
+
+    return Policy() if path is None else read_policy(path, lang)
 
 
 def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
@@ -204,13 +230,12 @@ def grade(
     from reportgen.classes.corrections import read_corrections
     from reportgen.classes.gradebooks import read_gradebook
     from reportgen.classes.platforms import files_read
-    from reportgen.marking.policy import Policy, read_policy
 
     with ending(lang):
         made = (*standing(out, "feedback", "*/"), *standing(out, "class"))
         filled = () if gradebook is None else (outcome.filled_gradebook(gradebook, out),)
         refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook, corrections], lang)
-        rules = Policy() if policy is None else read_policy(policy, lang)
+        rules = _policy(policy, lang)
         # What is wrong with it is told before an hour's marking, not after.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         judged = () if corrections is None else read_corrections(corrections, lang)

@@ -20,14 +20,16 @@ from reportgen.marking.key import symbol_text
 from reportgen.marking.marks import Marked, Marking, Place, Verdict
 from reportgen.report.key import Key, KeyRow
 
-LEAST = 3
-"""Students from whom on a correlation tells anything."""
+LEAST = 10
+"""Students from whom on a correlation tells anything: of fewer, one of 0.6 may be chance (1 in 20)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Item:
     """Cells of a class under one name: how many students were asked, the share of the points that they earned, the
-    correlation of that with the rest of the sheet (NaN where one of the two does not vary), the share left blank."""
+    correlation of that with the rest of the sheet (NaN for few students, and where one of the two does not vary), the
+    share left blank.
+    """
 
     key: Key
     place: Place

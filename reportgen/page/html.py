@@ -300,7 +300,7 @@ class Blocks:
         lines.append("</li></ol>" * depth)
         shown = escape(title)
         return (
-            f'<nav class="contents" aria-label="{shown}"><details open><summary>{shown}</summary>'
+            f'<nav class="contents" id="contents" aria-label="{shown}"><details open><summary>{shown}</summary>'
             f"{''.join(lines)}</details></nav>"
         )
 
@@ -399,7 +399,7 @@ class Blocks:
 
     def table(self, table: tree.Table) -> str:
         caption = self.caption(self.words.table, table)
-        shown = f"<caption>{caption}</caption>" if caption else ""
+        shown = f"<caption><span>{caption}</span></caption>" if caption else ""
         aligns = [ALIGNS[column.align] for column in table.columns]
         head = "".join(f"<tr>{''.join(self.cells(row, aligns, 'th'))}</tr>" for row in table.head)
         rows = "\n".join(f"<tr>{''.join(self.cells(row, aligns, 'td'))}</tr>" for row in table.rows)

@@ -40,6 +40,8 @@ CLASS = [
     sheet(3, [False, True, False, False, False]),
     sheet(4, [False, True, True, True, False]),
 ]
+TWELVE = CLASS * 3
+"""The same shares and correlations, of enough students."""
 
 
 def test_facility_is_the_mean_share_of_the_points() -> None:
@@ -51,10 +53,10 @@ def test_facility_is_the_mean_share_of_the_points() -> None:
 
 def test_discrimination_is_the_correlation_with_the_rest_of_the_sheet() -> None:
     """ω₁: 1 1 0 0 against 4 2 1 3 of v_B, off their means by ½ ½ −½ −½ and 1½ −½ −1½ ½: products 1, squares 1 and 5."""
-    omega = by_question(CLASS)[0]
+    omega = by_question(TWELVE)[0]
     assert omega.discrimination == pytest.approx(1 / math.sqrt(1 * 5))
-    assert math.isnan(by_cell(CLASS)[1].discrimination)
-    assert math.isnan(by_question(CLASS[:2])[0].discrimination)
+    assert math.isnan(by_cell(TWELVE)[1].discrimination)
+    assert math.isnan(by_question(CLASS)[0].discrimination)
 
 
 def test_the_table_has_a_row_for_each_section_question_and_cell() -> None:

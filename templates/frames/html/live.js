@@ -75,6 +75,10 @@
         document.dispatchEvent(new CustomEvent("news", { detail: { making: now.making, changed } }));
         fault.hidden = !now.fault;
         fault.lastElementChild.textContent = now.fault;
+        // Of a file that was never right there is nothing to show.
+        const said = now.moving || now.report ? given.words.fault : given.words.never;
+        fault.firstElementChild.textContent = said;
+        fault.setAttribute("aria-label", said);
         if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { leave(); return; }
         if (now.moving !== shown.moving) await renewMoving();
         shown.moving = now.moving;

@@ -1,0 +1,151 @@
+"""A class's variants as a bank of questions for a Moodle quiz: a cloze question each.
+
+It shows the scheme and the given data, and asks for the cells that a policy names.  A number is right within the wider
+of the key's two bands; where books differ in the sense, either sign is; a direction may be a whole turn on.
+Source: docs.moodle.org, Moodle XML format, and Embedded Answers (Cloze) question type.
+"""
+
+from __future__ import annotations
+
+import base64
+import html
+from collections.abc import Iterable, Iterator, Mapping
+from decimal import Decimal
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from reportgen import api
+from reportgen.base.kinds import title
+from reportgen.base.units import Language
+from reportgen.cases import open_case
+from reportgen.marking.key import key_of, shown_number, symbol_text, words_of
+from reportgen.marking.policy import Policy
+from reportgen.marking.sheet import given_entry
+from reportgen.report.key import Key, KeyRow, Role
+
+NAME = "questions.xml"
+PICTURE = "scheme"
+"""The figure that shows the machine."""
+DOTS = 110
+"""Of the picture, an inch: it is read on a screen."""
+TURN = 360.0
+FIGURES = 9
+"""Of a number: more than any band needs."""
+SCALES = (1, 2, 4, 5, 10, 20, 100)
+"""By one of these weights become whole, as Moodle wants them."""
+
+
+def question_bank(files: Iterable[Path], policy: Policy, category: str, language: Language | None = None) -> bytes:
+    """The questions of assignment files in Moodle's XML format, below a category.
+
+    Raises `AssignmentError` for a file at fault, and for a policy that asks for what there is not.
+    """
+    parts = ['<?xml version="1.0" encoding="UTF-8"?>', "<quiz>", _category(category)]
+    parts += [_question(file, policy, language) for file in files]
+    return "\n".join((*parts, "</quiz>", "")).encode()
+
+
+def _category(name: str) -> str:
+    # A slash parts a category from the one above it.
+    text = escape(f"$course$/top/{name.replace('/', '//')}")
+    return f'<question type="category"><category><text>{text}</text></category></question>'
+
+
+def _question(file: Path, policy: Policy, language: Language | None) -> str:
+    case = open_case(file, language)
+    whole = key_of(case)
+    policy.ask.check([whole], language)
+    key = policy.ask.of(whole)
+    words = words_of(key)["quiz"]
+    pictures = dict(_pictures(file, language))
+    shown = "".join(f'<p><img src="@@PLUGINFILE@@/{name}" alt={quoteattr(words["scheme"])}/></p>' for name in pictures)
+    lead = html.escape(title(key.kind, key.language))
+    text = f"<p>{lead}</p>{shown}{_data(key, words)}<p>{html.escape(words['lead'])}</p>{_cells(key, policy)}"
+    attached = "".join(
+        f'<file name={quoteattr(name)} path="/" encoding="base64">{base64.b64encode(data).decode()}</file>'
+        for name, data in pictures.items()
+    )
+    # No section of character data may hold its own end.
+    body = text.replace("]]>", "]]&gt;")
+    return (
+        f'<question type="cloze"><name><text>{escape(key.id)}</text></name>'
+        f'<questiontext format="html"><text><![CDATA[{body}]]></text>{attached}</questiontext>'
+        '<generalfeedback format="html"><text></text></generalfeedback>'
+        f"<penalty>0</penalty><hidden>0</hidden><idnumber>{escape(key.id)}</idnumber></question>"
+    )
+
+
+def _pictures(file: Path, language: Language | None) -> Iterator[tuple[str, bytes]]:
+    """The picture of the scheme, of each part that has one."""
+    still, _ = api.figure_list(file, language)
+    names = [figure.name for figure in still if figure.name.rpartition(".")[2] == PICTURE]
+    if names:
+        yield from api.figure_files(file, names, formats=("png",), dpi=DOTS, language=language).items()
+
+
+def _data(key: Key, words: Mapping[str, Any]) -> str:
+    """The given data as a list, with the scales that lengths asked for are drawn at."""
+    scales = {row.id for row in key.rows if row.role is Role.scale and any(row.id in one.plans for one in key.asked)}
+    rows = [row for row in key.rows if row.single and (row.role is Role.given or row.id in scales)]
+    items = "".join(f"<li>{_named(row, key)} = {_shown(row, key)}</li>" for row in rows)
+    return f"<p>{html.escape(words['data'])}</p><ul>{items}</ul>"
+
+
+def _named(row: KeyRow, key: Key) -> str:
+    what = f" ({row.named})" if row.named else ""
+    return html.escape(f"{symbol_text(row, key)}{what}")
+
+
+def _shown(row: KeyRow, key: Key) -> str:
+    entry = given_entry(row, 0)
+    value = shown_number(row, float(row.printed[0])).shown if entry is None else entry.value
+    return html.escape(f"{value} {row.unit}".strip())
+
+
+def _cells(key: Key, policy: Policy) -> str:
+    """A table of the cells asked for, section by section; what counts nothing is left out."""
+    words = words_of(key)
+    rows = [row for row in key.asked if row.role is Role.asked and policy.worth(row.id)]
+    worths = [policy.worth(row.id) for row in rows]
+    factor = next((scale for scale in SCALES if all(_is_whole(scale * worth) for worth in worths)), SCALES[-1])
+    lines: list[str] = []
+    for part, members in groupby(rows, lambda row: row.part):
+        lines.append(f"<tr><th colspan='3'>{html.escape(str(words['parts'][part]))}</th></tr>")
+        for row in members:
+            weight = max(round(policy.worth(row.id) * factor), 1)
+            for position in row.positions:
+                if (answer := _answer(row, position, weight)) is not None:
+                    label = key.label(position, row.id)
+                    at = f", {words['answer_sheet']['at'].format(label=label)}" if label else ""
+                    named = f"{_named(row, key)}{html.escape(at)}"
+                    lines.append(f"<tr><td>{named}</td><td>{answer}</td><td>{html.escape(row.unit)}</td></tr>")
+    return f"<table>{''.join(lines)}</table>"
+
+
+def _is_whole(value: float) -> bool:
+    return abs(value - round(value)) < 1e-9
+
+
+def _answer(row: KeyRow, position: int, weight: int) -> str | None:
+    """A cell as a cloze answer, `{1:NUMERICAL:=4.71:0.05}`; None where the quantity does not exist."""
+    index = row.at(position)
+    value = float(row.values[index])
+    if not np.isfinite(value):
+        return None
+    band = max(float(np.nan_to_num(bands[index if len(bands) > 1 else 0])) for bands in (row.drawn, row.computed))
+    values = [value]
+    if row.open_sense and value:
+        values.append(-value)
+    if row.unit == "°":
+        values += [one + turn for one in values[:] for turn in (-TURN, TURN) if abs(one + turn) <= TURN + band]
+    right = "~".join(f"={_number(one)}:{_number(band)}" for one in values)
+    return f"{{{weight}:NUMERICAL:{right}}}"
+
+
+def _number(value: float) -> str:
+    """A number as Moodle reads it: a decimal point, no power of ten."""
+    return f"{Decimal(f'{value:.{FIGURES}g}'):f}"

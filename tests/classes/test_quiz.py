@@ -1,0 +1,126 @@
+"""The question bank, read by a parser of the tests' own as Moodle documents its XML and cloze formats.
+
+docs.moodle.org, “Moodle XML format” and “Embedded Answers (Cloze) question type”: `{weight:NUMERICAL:=value:band}`,
+pictures as files in base64 that the text names by @@PLUGINFILE@@, `$course$/top/` before a category.
+"""
+
+from __future__ import annotations
+
+import base64
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from reportgen.base.errors import AssignmentError
+from reportgen.cases import open_case
+from reportgen.classes.quiz import _answer, question_bank
+from reportgen.marking.key import Ask, key_of
+from reportgen.marking.policy import Policy
+from reportgen.report.key import Role
+from tests.marking.students import ASSIGNMENTS
+
+FILE = ASSIGNMENTS / "slider-crank-02.yaml"
+POLICY = Policy(ask=Ask(("velocity", "M.eq")), weights={"M.eq": 2.5})
+_CLOZE = re.compile(r"\{(\d+):NUMERICAL:((?:[^{}]|\\\})*)\}")
+_RIGHT = re.compile(r"=(-?\d+(?:\.\d+)?):(\d+(?:\.\d+)?)")
+
+
+@dataclass(frozen=True)
+class Subquestion:
+    weight: int
+    right: tuple[tuple[float, float], ...]
+
+    def takes(self, value: float) -> bool:
+        return any(abs(value - middle) <= band for middle, band in self.right)
+
+
+@dataclass(frozen=True)
+class Question:
+    name: str
+    text: str
+    files: dict[str, bytes]
+    cells: tuple[Subquestion, ...]
+
+
+def parsed(bank: bytes) -> tuple[str, list[Question]]:
+    """The category and the questions; whatever is not as the format says fails here."""
+    root = ElementTree.fromstring(bank)
+    assert root.tag == "quiz"
+    category, *questions = root
+    assert (category.tag, category.get("type")) == ("question", "category")
+    found = []
+    for one in questions:
+        assert one.get("type") == "cloze"
+        body = one.find("questiontext")
+        assert body is not None
+        assert body.get("format") == "html"
+        text = body.findtext("text") or ""
+        files = {
+            file.get("name", ""): base64.b64decode(file.text or "", validate=True) for file in body.findall("file")
+        }
+        assert set(re.findall(r'"@@PLUGINFILE@@/([^"]+)"', text)) == set(files)
+        # The text of the question is a well-formed piece of HTML.
+        ElementTree.fromstring(f"<div>{text}</div>")
+        cells = []
+        for weight, answers in _CLOZE.findall(text):
+            parts = [_RIGHT.fullmatch(part) for part in answers.split("~")]
+            assert all(parts), answers
+            cells.append(Subquestion(int(weight), tuple((float(p[1]), float(p[2])) for p in parts if p)))
+        # No other brace opens what Moodle could take for an answer.
+        assert text.count("{") == len(cells)
+        found.append(Question(one.findtext("name/text") or "", text, files, tuple(cells)))
+    return category.findtext("category/text") or "", found
+
+
+def test_each_variant_has_a_question_with_its_scheme_data_and_cells() -> None:
+    category, (question,) = parsed(question_bank([FILE], POLICY, "spring/2026", "en"))
+    assert category == "$course$/top/spring//2026"
+    assert question.name == FILE.stem
+    ((name, picture),) = question.files.items()
+    assert name.endswith(".png")
+    assert picture.startswith(b"\x89PNG\r\n\x1a\n")
+    for text in ("Slider-crank", "= 0.2 m", "= 1.0 m", "10.0 rad/s"):
+        assert text in question.text or text.replace(".0", "") in question.text, text
+
+
+def test_the_cells_that_the_policy_names_take_what_lies_within_the_keys_bands() -> None:
+    _, (question,) = parsed(question_bank([FILE], POLICY, "x", "en"))
+    rows = [row for row in POLICY.ask.of(key_of(open_case(FILE, "en"))).asked if row.role is Role.asked]
+    wanted = [(row, k) for row in rows for k in row.positions if np.isfinite(row.values[row.at(k)])]
+    assert len(question.cells) == len(wanted) > 5
+    for cell, (row, position) in zip(question.cells, wanted, strict=True):
+        value = row.values[row.at(position)]
+        band = max(bands[row.at(position) if len(bands) > 1 else 0] for bands in (row.drawn, row.computed))
+        assert cell.takes(value)
+        assert cell.takes(value + 0.9 * band)
+        assert not cell.takes(value + 1.1 * band + 1e-6 * abs(value))
+        assert cell.takes(-value) or not row.open_sense
+        # Weights are whole numbers in the ratio of the policy's: 2.5 to 1.
+        assert cell.weight == {"M.eq": 5}.get(row.id, 2)
+
+
+def test_a_direction_may_be_a_whole_turn_on() -> None:
+    """Whoever measures 359° where 1° ± 2° is right has measured well."""
+    row = next(row for row in key_of(open_case(FILE, "en")).asked if row.unit == "°" and not row.open_sense)
+    count = len(row.values)
+    row = replace(row, values=np.full(count, 1.0), drawn=np.full(count, 2.5), computed=np.full(count, 0.1))
+    text = _answer(row, row.positions[0], 1)
+    assert text is not None
+    match = _CLOZE.fullmatch(text)
+    assert match is not None
+    right = [_RIGHT.fullmatch(part) for part in match[2].split("~")]
+    cell = Subquestion(1, tuple((float(part[1]), float(part[2])) for part in right if part))
+    assert cell.takes(0.0)
+    assert cell.takes(359.0)
+    assert not cell.takes(180.0)
+
+
+def test_what_nothing_fits_is_told(tmp_path: Path) -> None:
+    policy = tmp_path / "policy.yaml"
+    policy.write_text("ask: [nothing.like.it]\n", encoding="utf-8")
+    with pytest.raises(AssignmentError):
+        question_bank([FILE], Policy(ask=Ask(("nothing.like.it",), file=policy)), "x", "en")
