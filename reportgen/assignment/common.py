@@ -6,11 +6,10 @@ so they also speak when some other value of the file is wrong.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from pathlib import Path
-from statistics import mode
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
@@ -19,6 +18,7 @@ from reportgen.assignment.fields import (
     Angle,
     Date,
     Flag,
+    Instant,
     Interval,
     OneLine,
     Ratio,
@@ -29,13 +29,17 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding, UnknownNameError
 from reportgen.base.files import school_strays
-from reportgen.base.units import Given, Language, QuantityFault, read_number, read_quantity
+from reportgen.base.units import Given, Language
 from reportgen.base.words import is_school, named_school, unknown
 
 POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
+MOST_INSTANTS = 24
+TENS, ONES = ("", "X", "XX"), ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
+ROMAN = tuple(ten + one for ten in TENS for one in ONES)[: MOST_INSTANTS + 1]
+"""Roman numbers up to that of the last instant; the first of them stands for nothing."""
 Extent = Literal["full", "short"]
 
 
@@ -95,12 +99,30 @@ class ReportSection(Part):
 class Positions(Part):
     """How many positions a turn has, which way the driver goes and where it starts.
 
-    `start` is the driver's angle from +x; None is the natural start of the kind.
+    `start` is the driver's angle from +x; None is the natural start of the kind.  Instants `at` places of the driver
+    (angles of a crank from +x, ways of a slider) stand in place of evenly spaced positions.
     """
 
     count: Count = 8
     direction: Literal["anticlockwise", "clockwise"] = "anticlockwise"
     start: Angle | None = None
+    at: Annotated[tuple[Instant, ...], Field(min_length=1, max_length=MOST_INSTANTS)] | None = None
+
+    @property
+    def number(self) -> int:
+        """How many there are in a turn, or how many instants."""
+        return len(self.at) if self.at else self.count
+
+    @property
+    def first(self) -> Given | None:
+        """The driver's place in position 1, None for the natural start of the kind."""
+        return self.at[0] if self.at else self.start
+
+    def instants(self, turns: int = 1) -> tuple[float, ...]:
+        """How far (rad) a crank has turned from the first instant to each, within a cycle of so many turns."""
+        whole = turns * 2 * math.pi
+        at = self.at or ()
+        return tuple(self.sign * (one.si - at[0].si) % whole if one is not at[0] else 0.0 for one in at)
 
     @property
     def sign(self) -> int:
@@ -109,7 +131,7 @@ class Positions(Part):
 
     def start_or(self, natural: float = 0.0) -> float:
         """The driver's angle in position 1 (rad): as given, else its natural one."""
-        return natural if self.start is None else self.start.si
+        return natural if self.first is None else self.first.si
 
 
 class Drawing(Part):
@@ -223,7 +245,7 @@ class Assignment:
     @property
     def worked_positions(self) -> tuple[int, ...]:
         """Numbers, 1…`cycle_positions`, of the positions written out in full."""
-        worked = self.report.worked_positions
+        worked = named_worked(self.report, self.positions)
         if worked is None:
             return tuple(range(1, self.cycle_positions + 1))
         return tuple(self.labels.index(one) + 1 if isinstance(one, str) else one for one in worked)
@@ -244,7 +266,7 @@ class Assignment:
             raise ValueError(f"{count} positions")
         if POSITIONS in type(self.parameters).model_fields:
             return replace(self, parameters=self.parameters.model_copy(update={POSITIONS: count}))
-        counted = replace(self, positions=self.positions.model_copy(update={"count": count}))
+        counted = replace(self, positions=self.positions.model_copy(update={"count": count, "at": None}))
         worked = self.report.worked_positions
         labels = counted.labels
         kept = None if worked is None else tuple(one for one in worked if number_of(one, labels)) or (2,)
@@ -348,8 +370,19 @@ def file_model(kind: Kind) -> type[Part]:
     return create_model(f"{name}File", __base__=Part, **fields)
 
 
+def named_worked(report: ReportSection, positions: Positions) -> tuple[int | str, ...] | None:
+    """The positions written out in full as the file names them (None: all); of instants all, if it names none."""
+    untold = "worked_positions" not in report.model_fields_set
+    return None if positions.at and untold else report.worked_positions
+
+
 def labels_of(names: Labels | None, parameters: Any, positions: Positions, turns: int) -> Sequence[str]:
-    """What the positions of a cycle of `turns` turns are called: their numbers, if the kind has no names for them."""
+    """What the positions of a cycle of `turns` turns are called: their numbers, if the kind has no names for them.
+
+    Instants have Roman numbers, whatever the kind.
+    """
+    if positions.at:
+        return ROMAN[1 : len(positions.at) + 1]
     if names is None or parameters is None:
         return tuple(map(str, range(1, positions.count * turns + 1)))
     return names(parameters, positions)
@@ -367,11 +400,11 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
 
     def check(draft: Draft) -> Iterator[Finding]:
         report, positions = draft.sections.get("report"), draft.sections.get("positions")
-        if report is None or positions is None or report.worked_positions is None:
+        if report is None or positions is None or (worked := named_worked(report, positions)) is None:
             return
         labels = labels_of(names, draft.sections.get("parameters"), positions, turns)
         met: set[int] = set()
-        for index, named in enumerate(report.worked_positions):
+        for index, named in enumerate(worked):
             place, number = ("report", "worked_positions", index), number_of(named, labels)
             if number in met:
                 yield Finding("repeated", place, {"text": str(named)})
@@ -383,6 +416,20 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
                 yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
 
     return check
+
+
+def instants(draft: Draft) -> Iterator[Finding]:
+    """Instants stand alone, each once: evenly spaced positions have a number and a start."""
+    positions = draft.at("positions")
+    if not isinstance(positions, dict) or positions.get("at") is None:
+        return
+    for key in ("count", "start"):
+        if positions.get(key) is not None:
+            yield Finding("both-given", ("positions", key), {"first": "at", "second": key}, at="key")
+    at = positions["at"]
+    for index, text in enumerate(at if isinstance(at, list) else ()):
+        if text in at[:index]:
+            yield Finding("repeated", ("positions", "at", index), {"text": str(text)})
 
 
 def school_of(path: Path) -> Check:
@@ -413,6 +460,17 @@ def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
     return check
 
 
+def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
+    """As `of_parameters`, of what only a whole turn asks for: at single instants a machine need but stand."""
+    every = of_parameters(look)
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        if draft.at("positions", "at") is None:
+            yield from every(draft)
+
+    return check
+
+
 def one_of(section: str, *names: str, required: bool = True) -> Check:
     """Of several keys that say the same thing, one stands in the section (at most one unless `required`).
 
@@ -432,57 +490,3 @@ def one_of(section: str, *names: str, required: bool = True) -> Check:
             yield Finding("missing-key", (*where, names[0]), {"key": " | ".join(names)})
 
     return check
-
-
-def same_length(section: str, key: str, rows: Sequence[str]) -> Check:
-    """The rows have as many values as the list `key`: those that differ from most of them are at fault."""
-    where = tuple(section.split("."))
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        columns = {row: draft.at(*where, row) for row in (key, *rows)}
-        lengths = {row: len(values) for row, values in columns.items() if isinstance(values, list)}
-        if not lengths:
-            return
-        wanted = mode(lengths.values())
-        agreeing = next(row for row, length in lengths.items() if length == wanted)
-        for row, length in lengths.items():
-            if length != wanted:
-                counts = {"key": row, "given": str(length), "other": agreeing, "wanted": str(wanted)}
-                yield Finding("row-length", (*where, row), counts)
-
-    return check
-
-
-def increasing(section: str, key: str, first: float, last: float, unit: str = "") -> Check:
-    """The list grows strictly from `first` to `last` (in `unit`)."""
-    where = (*section.split("."), key)
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        texts = draft.at(*where)
-        values = [_size(text, unit) for text in texts] if isinstance(texts, list) else []
-        sizes = [value for value in values if value is not None]
-        if not sizes or len(sizes) < len(values):
-            return
-        falls = [index + 1 for index, (one, next_one) in enumerate(pairwise(sizes)) if next_one <= one]
-        if falls:
-            yield Finding("not-increasing", (*where, falls[0]), {"key": key})
-            return
-        for index, value, wanted in ((0, sizes[0], first), (len(sizes) - 1, sizes[-1], last)):
-            # Ends are exact but for the rounding of a unit (2 turn for 720 deg).
-            if abs(value - wanted) > 1e-10 * (last - first):
-                end = f"{wanted:g} {unit}".strip()
-                yield Finding("table-end", (*where, index), {"key": key, "end": end})
-
-    return check
-
-
-def _size(text: Any, unit: str) -> float | None:
-    """The value of an item in `unit`; None if it cannot be read, which its own reader reports."""
-    if not isinstance(text, str):
-        return None
-    try:
-        if not unit:
-            return read_number(text)
-        return read_quantity(text, unit).si / read_quantity(f"1 {unit}", unit).si
-    except QuantityFault:
-        return None

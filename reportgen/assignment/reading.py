@@ -22,6 +22,7 @@ from reportgen.assignment.common import (
     Kind,
     Positions,
     file_model,
+    instants,
     school_of,
     sections,
     worked_positions,
@@ -57,7 +58,7 @@ def assess(
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        numbered = (worked_positions(kind.turns, kind.labels),) if kind.has_positions else ()
+        numbered = (instants, worked_positions(kind.turns, kind.labels)) if kind.has_positions else ()
         for check_one in (school_of(path), *kind.checks, *numbered):
             places = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in places]

@@ -189,6 +189,14 @@ def _ways(body: str) -> list[str]:
     return [whole + "".join(groups)] if apart and len(groups[-1]) == 3 else []
 
 
+def measures(unit: str, like: str) -> bool:
+    """Whether one unit has the dimension of another."""
+    try:
+        return read_unit(unit, like) > 0
+    except QuantityFault:
+        return False
+
+
 def read_unit(text: str, unit: str) -> float:
     """The SI factor of a unit of the same dimension as `unit`; raises `QuantityFault`."""
     try:

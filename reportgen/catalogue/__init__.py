@@ -21,13 +21,14 @@ from types import ModuleType
 from typing import Any
 
 from reportgen.assignment import reading
-from reportgen.assignment.common import Assignment, Kind, file_model
+from reportgen.assignment.common import Assignment, Kind, file_model, named_worked
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
-from reportgen.base.units import Language
+from reportgen.base.units import Language, measures
 from reportgen.base.words import as_error, as_problem, kinds, language_of, samples, word
-from reportgen.catalogue import assembly
+from reportgen.catalogue import assembly, declared_loads
+from reportgen.catalogue.parameters import Driven
 from reportgen.machine.analysis import Machine
 
 
@@ -57,7 +58,8 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     assignment, faults = understood(source, path)
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
-        faults = reading.placed(source, _out_of_reach(machine_of(assignment)))
+        machine = machine_of(assignment)
+        faults = reading.placed(source, [*_misplaced(assignment, machine), *_out_of_reach(machine)])
     return (None if faults else assignment), faults
 
 
@@ -66,8 +68,28 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
     return reading.assess(source, path, kinds(), kind)
 
 
+def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
+    """Instants at places of another sort of driver; loads on links and points that are not there."""
+    slides = bool(machine.span)
+    for index, at in enumerate(assignment.positions.at or ()):
+        if slides == measures(at.unit, "deg"):
+            words = {"given": at.text, "unit": "mm" if slides else "deg"}
+            yield Finding("wrong-unit", ("positions", "at", index), words)
+    if isinstance(assignment.parameters, Driven):
+        points = declared_loads.pins(machine.linkage)
+        for index, load in enumerate(assignment.parameters.loads):
+            where = ("parameters", "loads", index)
+            yield from declared_loads.on_link(points, load.link, load.at, where)
+            yield from declared_loads.sized(load, where)
+            if isinstance(load, declared_loads.OverAngle):
+                yield from declared_loads.over_cycle(load, machine.turns, where)
+
+
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
+    if machine.instants:
+        yield from assembly.at_instants(machine.linkage, machine.angles(machine.cycle_angles), not machine.span)
+        return
     driven_through = (
         assembly.Way(machine.start, machine.start + machine.turn * machine.span, False)
         if machine.span
@@ -136,7 +158,7 @@ def example(path: Path, language: Language | None = None) -> str:
 
 def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
     """Which positions are worked out, where their labels are not their numbers."""
-    if not kind(assignment.kind).has_positions or assignment.report.worked_positions is None:
+    if not kind(assignment.kind).has_positions or named_worked(assignment.report, assignment.positions) is None:
         return
     labels = assignment.labels
     pairs = [(number, labels[number - 1]) for number in assignment.worked_positions]

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from reportgen.assignment.common import Part, Positions, increasing, same_length
+from reportgen.assignment.common import Part, Positions
 from reportgen.assignment.fields import (
     CycleAngles,
     Force,
@@ -18,6 +18,7 @@ from reportgen.assignment.fields import (
     Values,
     quantity,
 )
+from reportgen.assignment.rows import increasing, same_length
 from reportgen.base.units import Given
 from reportgen.formula import ids
 from reportgen.machine import Linkage

@@ -34,7 +34,7 @@ PLACES: Mapping[str, str] = {
     "about": r"[A-Z][^.]*",
     "line": r"[A-Z][^.]*",
     "to": r"[A-Z][^.]*",
-    "relative": r"[A-Z][^.]*[A-Z][^.]*",
+    "relative": r"[A-Z][^.]*",
     "start": r"[a-z]\d*",
     "end": r"[a-z]\d*",
     # what of a quantity is meant

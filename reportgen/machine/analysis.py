@@ -110,7 +110,8 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
 
 def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
     """The motion at cycle angles [N]."""
-    return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
+    rate, acceleration = machine.turn * machine.speed, machine.turn * machine.acceleration
+    return solve_motion(machine.linkage, machine.angles(cycle_angle), rate, acceleration)
 
 
 def breaks(machine: Machine) -> np.ndarray:
@@ -260,6 +261,10 @@ class Machine:
     """What the positions of the cycle are called; empty: their numbers."""
     span: float = 0.0
     """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
+    acceleration: float = 0.0
+    """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
+    instants: bool = False
+    """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
     essential: tuple[str, ...] = ()
     """Sections that the task of the kind asks for, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
@@ -278,7 +283,12 @@ class Machine:
     @property
     def positions(self) -> int:
         """Number of positions of the whole cycle."""
-        return self.count * self.turns
+        return self.count if self.instants else self.count * self.turns
+
+    @property
+    def cyclic(self) -> bool:
+        """Whether the driver runs through the whole cycle at a constant speed, so that there are means and work."""
+        return not (self.instants or self.acceleration)
 
     @property
     def even(self) -> np.ndarray:
@@ -291,6 +301,8 @@ class Machine:
         step = 2 * np.pi / self.count
         if not self.places:
             return np.arange(self.positions) * step
+        if self.instants:
+            return np.asarray(self.places)
         turns = np.arange(self.turns)[:, None] * (2 * np.pi)
         return np.asarray((turns + np.asarray(self.places)).ravel())
 

@@ -77,7 +77,8 @@ def has_chosen_scale(report: Report) -> bool:
 
 def tabled_forces(report: Report) -> tuple[Applied, ...]:
     """The working forces that are given by a table."""
-    return () if "P.given" in report.ledger else report.machine.applied
+    further = {row.id for row in report.own["declared"]}
+    return () if "P.given" in report.ledger else tuple(one for one in report.machine.applied if one.name not in further)
 
 
 def diagram_words(report: Report) -> str:
@@ -94,6 +95,11 @@ def without_mass(report: Report) -> list[str]:
     """The links whose mass is not given."""
     links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
     return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
+
+
+def further_loads(report: Report) -> list[str]:
+    """The loads that are declared beside those of the kind."""
+    return report.known(row.id for row in report.own["declared"])
 
 
 def uniform_rods(report: Report) -> list[str]:

@@ -152,7 +152,7 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     """The curve of what balances the driver, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = charts.PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
-    levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
+    levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),) if report.cyclic else ()
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)
