@@ -6,6 +6,7 @@ chromium, and left as it is where there is none.
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import sys
@@ -13,12 +14,13 @@ import tempfile
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
+from typing import Any
 
 import pymupdf
 from PIL import Image
 
 from reportgen import api
-from reportgen.base.words import kinds
+from reportgen.base.kinds import kinds
 from reportgen.report import Document, Figure
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -40,7 +42,7 @@ MOVING = ROOT / "assignments" / "shaper-01.yaml"
 """The machine that the README shows in motion."""
 WINDOW, FRAME_WIDTH, STEP, FRAME_MS, FRAME_COLOURS = (1180, 900), 760, 8, 100, 48
 """Of that picture: the window and the width of a frame (pixels), degrees and time (ms) from one to the next."""
-PAGE_DPI, WORD_DPI, SHEET_DPI, SCHEME_DPI = 100, 80, 38, 60
+PAGE_DPI, WORD_DPI, SHEET_DPI, SCHEME_DPI, CURVES_DPI = 100, 80, 38, 60, 100
 COLOURS = 96
 """Few enough that a picture is small, and enough that thin lines stay smooth."""
 
@@ -147,13 +149,30 @@ def word_page() -> None:
         save(page_with(SHOWN_IN_WORD, pymupdf.open(f"{folder}/report.pdf")), "word", WORD_DPI)
 
 
+def curves() -> None:
+    """Save the chart of the notebook beside this file as `docs/curves.png`."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    names: dict[str, Any] = {}
+    for cell in json.loads((ROOT / "docs" / "variants.ipynb").read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code" and "ax2" not in (code := "".join(cell["source"])):
+            exec(code, names)
+    stream = BytesIO()
+    names["fig"].savefig(stream, dpi=CURVES_DPI)
+    Image.open(stream).convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE).save(
+        ROOT / "docs" / "curves.png", optimize=True
+    )
+
+
 def main() -> None:
-    """Draw a page of the sample, one of its Word file and a sheet, then the scheme of each kind from its first file."""
+    """Draw a page of the sample, one of its Word file and a sheet, what moves, curves, and the scheme of each kind."""
     save(page_with(CAPTION, typeset(document(SAMPLE))), "page", PAGE_DPI)
     word_page()
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
+    curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))
         page = typeset(scheme_alone(document(file)))[0]

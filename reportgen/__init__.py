@@ -6,16 +6,23 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from reportgen.api import analyse, build, check, load, solve
     from reportgen.base.errors import AssignmentError, ReportgenError
+    from reportgen.notebook import Model, open
 
-__all__ = ["AssignmentError", "ReportgenError", "analyse", "build", "check", "load", "solve"]
+PLACES = {
+    "reportgen.api": ("analyse", "build", "check", "load", "solve"),
+    "reportgen.base.errors": ("AssignmentError", "ReportgenError"),
+    "reportgen.notebook": ("Model", "open"),
+}
+"""Where the names are that the package offers; a module is loaded when the first of them is asked for."""
+
+__all__ = ["AssignmentError", "Model", "ReportgenError", "analyse", "build", "check", "load", "open", "solve"]
 
 
 def __getattr__(name: str) -> object:
-    """The functions of `reportgen.api` and its errors, which are loaded when the first of them is asked for."""
-    if name not in __all__:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    """The functions and classes of `PLACES`, and the errors."""
+    from importlib import import_module
 
-    from reportgen import api
-    from reportgen.base import errors
-
-    return getattr(errors if name.endswith("Error") else api, name)
+    for module, names in PLACES.items():
+        if name in names:
+            return getattr(import_module(module), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -21,13 +21,15 @@ from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import reported, scratch, version
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, school_folder, templates_hash, word
+from reportgen.base.words import as_error, templates_hash, word
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.report.case import bounded
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
+    from reportgen.export.curves import Over
     from reportgen.export.figures import MovingFigure
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
@@ -403,6 +405,34 @@ def figure_files(
     case, labels = worked_at(case.assignment, at) if at else (case, ())
     query = figures.FigureQuery(names, labels, formats, dpi, tuple(layers))
     return figures.figure_files(case, query)
+
+
+PLOT_FORMATS = ("svg", "png", "pdf", "eps")
+
+
+def plot_files(
+    paths: Sequence[Path],
+    of: Sequence[str],
+    over: Over = "phi",
+    measured: Path | None = None,
+    formats: Sequence[str] = ("svg",),
+    dpi: int = 220,
+    language: Language | None = None,
+) -> Mapping[str, bytes]:
+    """Quantities by their ids as curves of each file, a chart for each unit, in some of `PLOT_FORMATS`.
+
+    They run over the driver's way or over time; a table of `measured` values is drawn as points.  Raises
+    `UnknownNameError`, `NotOfferedError`, `AssignmentError` also for the table.
+    """
+    from reportgen.export import curves
+    from reportgen.report.named_figures import safe
+    from reportgen.writers import figure
+
+    cases = [opened(curves.dense(load(path, language))) for path in paths]
+    points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
+    spoken = cases[0].assignment.language
+    made = {safe(name): figure.chart(one, spoken) for name, one in curves.diagrams(cases, of, over, points).items()}
+    return {f"{name}.{format}": figure.saved(one, format, dpi) for name, one in made.items() for format in formats}
 
 
 def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:

@@ -21,18 +21,17 @@ from reportgen.base.units import Language
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
-from reportgen.machine.laws import STEPS
+from reportgen.machine.laws import FULL_TURN, STEPS
 from reportgen.report import Block, Document, Paragraph, Strong, Text
-from reportgen.report.case import AskedFor, Case, MachineAnalysis, Misconceptions
-from reportgen.report.equations import heading_words
+from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.report.key import Span
-from reportgen.report.report import Report
 from reportgen.report.shafts import Shaft
 from reportgen.report.wording import positive_sense
 
 if TYPE_CHECKING:
     from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
+    from reportgen.report.report import Report
 
 
 GENERAL, HEIGHT = "vasntωεφα", "y"
@@ -106,7 +105,7 @@ class MachineCase(MachineAnalysis):
 
     @property
     def span(self) -> Span:
-        machine, report = self.analysis.machine, Report(self)
+        machine, report = self.analysis.machine, self._report
         labels = tuple(str(machine.position(k)) for k in range(1, machine.positions + 1))
         printed = report.all_positions if report.thinned else ()
         return Span(labels, machine.count, tuple(self.assignment.worked_positions), printed)
@@ -114,19 +113,46 @@ class MachineCase(MachineAnalysis):
     def sense(self, id: str) -> str:
         return positive_sense(id, self.ledger, self.words, self._ways)
 
+    @property
+    def _report(self) -> Report:
+        """The same as its templates name it."""
+        # It loads what renders templates, which most commands go without.
+        from reportgen.report.report import Report
+
+        return Report(self)
+
     @cached_property
     def _ways(self) -> Mapping[str, str]:
         """Where the motion of its sliders counts as positive, in words, by their points."""
-        report = Report(self)
+        from reportgen.report.equations import heading_words
+
+        report = self._report
         ways = report.slider_senses.items()
         return {point: heading_words(report, float(np.degrees(np.angle(way)))) for point, way in ways}
 
     @property
     def speed(self) -> float:
+        """The driver's speed (rad/s), or that of a slide (m/s)."""
         return self.analysis.machine.speed
 
     @property
+    def driver_motion(self) -> DriverMotion:
+        """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
+        from reportgen.report.report import Report
+
+        machine, points = self.analysis.machine, self.analysis.motion.points
+        signed = {
+            name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
+            for pin, way in Report(self).slider_senses.items()
+            for rate, name in ids.POINT_RATE.items()
+        }
+        slides = bool(machine.span)
+        gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
+        return DriverMotion(gone, machine.way, abs(machine.speed), slides, signed)
+
+    @property
     def balance(self) -> np.ndarray | None:
+        """The balancing torque (N·m) [N], or the force (N) of a slide; None without loads."""
         return np.real(self.analysis.torque) if self.analysis.loads else None
 
     @property
@@ -155,7 +181,7 @@ class MachineCase(MachineAnalysis):
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
         from reportgen.report.outline import names
 
-        report = Report(self)
+        report = self._report
         prose = report.prose
         known = names(report) | {
             "answer_tables": asked.answers,
@@ -188,7 +214,7 @@ class MachineCase(MachineAnalysis):
     @property
     def redrawn(self) -> tuple[float, Callable[[float], Case]] | None:
         """The length (mm) of its drawn crank, and the same case with another."""
-        crank = Report(self).drawn_crank
+        crank = self._report.drawn_crank
         return (crank, self._with_crank) if crank else None
 
     def _with_crank(self, length: float) -> Case:

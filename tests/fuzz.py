@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import random
@@ -13,6 +14,7 @@ import sys
 import tempfile
 import time
 import traceback
+import zipfile
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -25,22 +27,27 @@ import numpy as np
 from reportgen import api
 from reportgen.base.errors import ReportgenError
 from reportgen.base.files import folder as kept_in
-from reportgen.base.words import load_words, search_path, sections, templates
+from reportgen.base.template_folders import search_path, templates
+from reportgen.base.words import load_words, sections
 from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
 from reportgen.marking.key import key_of
-from reportgen.marking.marks import read_policy
 from reportgen.marking.paper import task_of
+from reportgen.marking.policy import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key
+from reportgen.report.layout import Letter
 from reportgen.report.outline import names
 from reportgen.report.prose import Prose
 from reportgen.report.report import Report
 from reportgen.sheets.frame import FIELDS, blocks, read_block
 from reportgen.workbook import write_csv, write_xlsx
+from reportgen.workbook.letterhead import read_letterhead
+from reportgen.writers import word
+from reportgen.writers.word_styles import merged, styles
 
 ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))
 DEMO = Path("assignments/class-demo")
@@ -274,6 +281,43 @@ def _words(number: int, chance: random.Random, folder: Path) -> None:
     task_of(case, key_of(case))
 
 
+def _letterhead(number: int, chance: random.Random, folder: Path) -> None:
+    """A school's Word file with a part spoilt as a text or as elements, or with some bytes changed."""
+    file, made = folder / "report.docx", io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(_word_file())) as old, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as new:
+        changed = chance.choice([one for one in old.namelist() if re.search(r"document|styles|header|footer", one)])
+        for name in old.namelist():
+            text = old.read(name).decode()
+            for _ in range(chance.choice((1, 1, 3)) if name == changed else 0):
+                text = chance.choice((_element, _value, _letter))(text, chance)
+            new.writestr(name, text.encode("utf-8", "surrogatepass"))
+    content = bytearray(made.getvalue())
+    for _ in range(chance.choice((1, 20)) if number % 8 == 0 else 0):
+        content[chance.randrange(len(content))] = chance.randrange(256)
+    file.write_bytes(content)
+    merged(styles("Times New Roman", 13.0, "en", close=False, room=160.0), read_letterhead(file, "en").styles, "en")
+
+
+def _element(text: str, chance: random.Random) -> str:
+    """A tag is left out, there twice, or named as another."""
+    one, other = (chance.choice(list(re.finditer(r"<(/?)([\w:]+)([^<>]*)>", text))) for _ in range(2))
+    new = chance.choice(("", one[0] * 2, f"<{one[1]}{other[2]}{one[3]}>", one[0] + other[0]))
+    return text[: one.start()] + new + text[one.end() :]
+
+
+def _value(text: str, chance: random.Random) -> str:
+    """An attribute has another value."""
+    one = chance.choice(list(re.finditer(r'(?<==")[^"]*', text)))
+    return text[: one.start()] + chance.choice((*EXTREMES, "", "16000", "Normal", "true")) + text[one.end() :]
+
+
+@cache
+def _word_file() -> bytes:
+    """A report as a school may take it for its own look."""
+    case = open_case(Path("assignments/plane-motion/01.yaml"), "en")
+    return word.write(replace(case.document(), blocks=()), lambda _: (), Letter(word.FONT, 13.0))
+
+
 @cache
 def _case() -> MachineAnalysis:
     case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
@@ -328,12 +372,23 @@ KINDS: dict[str, Callable[[int, random.Random, Path], None]] = {
     "block": _block,
     "template": _template,
     "words": _words,
+    "letterhead": _letterhead,
 }
 WRITTEN = frozenset(
-    {"a.yaml", "roster.csv", "spec.yaml", "policy.yaml", "sheet.csv", "sheet.xlsx", "block.yaml", "en.md"}
+    {
+        "a.yaml",
+        "roster.csv",
+        "spec.yaml",
+        "policy.yaml",
+        "sheet.csv",
+        "sheet.xlsx",
+        "block.yaml",
+        "en.md",
+        "report.docx",
+    }
 )
 """The files that are tried; a text that was run would make another."""
-SHARES = (48, 10, 3, 7, 10, 8, 10, 4)
+SHARES = (44, 10, 3, 7, 10, 8, 10, 4, 4)
 """How many of a hundred files are of each kind."""
 
 
@@ -370,6 +425,7 @@ def guard() -> Guard:
     kept_in()
     _case().document()
     _key()
+    _word_file()
     sys.addaudithook(found.hear)
     return found
 

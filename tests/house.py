@@ -276,7 +276,7 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     ids_by_f_string: 0,
     class_names_twice: 0,
     longest_positional_call: 6,
-    vague_names: 320,
+    vague_names: 150,
 }
 """What no figure may pass."""
 

@@ -25,8 +25,9 @@ from reportgen import cases as cases_module
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import samples
 from reportgen.base.units import Language
-from reportgen.base.words import kinds, samples
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.marking.key import Ask, key_of
@@ -38,7 +39,7 @@ from tests.marking.filled import filled
 OWN: Language | Literal[""] = ""
 """The language of the file."""
 CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYPE html>", ".dxf": b"  0\nSECTION"} | {
-    ".svg": b"<svg",
+    ".svg": b"<",
     ".png": b"\x89PNG",
     ".eps": b"%!PS-Adobe-3.0 EPSF-3.0",
 }
@@ -217,6 +218,22 @@ def figure(at: Desk) -> None:
     assert paths[0].stem.startswith(name)
 
 
+def plot(at: Desk) -> None:
+    """The first quantity that is a curve; what has none is told."""
+    from reportgen.export.quantities import shown
+
+    case = open_case(at.file, at.language or None)
+    id = next(shown(case), None)
+    if id is None:
+        with pytest.raises(SystemExit) as end:
+            app(["plot", str(at.file), "--of", next(iter(case.ledger.families)), "--out", str(at.out)])
+        assert (end.value.code, at.capture.readouterr().out) == (1, "")
+        return
+    formats = at.formats(api.PLOT_FORMATS, "svg")
+    paths = at.made("plot", "--of", id, "--format", formats)
+    assert [path.name for path in paths] == [f"{id}.{format}" for format in formats.split(",")]
+
+
 def key(at: Desk) -> None:
     formats = at.formats(api.KEY_FORMATS, "csv,json")
     paths = at.made("key", "--format", formats, "--engine", at.engine)
@@ -258,7 +275,7 @@ def watch(at: Desk) -> None:
 
 
 COMMANDS: tuple[Callable[[Desk], None], ...] = (
-    *(check, solve, solve_json, solve_format, build, sheet, figure, key, task, compare, grade, watch),
+    *(check, solve, solve_json, solve_format, build, sheet, figure, plot, key, task, compare, grade, watch),
 )
 BY_ENGINE, BY_EXTENT = {build, key, task, grade}, {build}
 """Commands that typeset what they make, and that which makes it in two extents."""

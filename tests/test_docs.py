@@ -17,7 +17,8 @@ import pytest
 import typer
 
 from reportgen import api, catalogue
-from reportgen.base.words import kinds, search_path
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import search_path
 from reportgen.cli import app
 from reportgen.report.prose import Prose
 from reportgen.writers import pdflatex
@@ -191,20 +192,33 @@ def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
     assert done.returncode == 0
 
 
-def test_a_machine_has_the_files_that_the_table_says(tmp_path: Path) -> None:
-    """Five of its own, all that the page prints, and no file that was there before names it."""
-    text = text_of("CONTRIBUTING.md")
-    (row,) = (line for line in text.splitlines() if line.startswith("| a machine"))
+@pytest.mark.parametrize(
+    ("what", "document", "count"),
+    [("| a machine", "CONTRIBUTING.md", 5), ("| [a kind of work", "docs/extending.md", 4)],
+)
+def test_a_machine_and_a_further_kind_of_work_have_the_files_that_the_table_says(
+    what: str, document: str, count: int
+) -> None:
+    """So many of its own, all that the page prints, and no file that was there before names it."""
+    (row,) = (line for line in text_of("CONTRIBUTING.md").splitlines() if line.startswith(what))
     _, _, new, changed, _ = row.split("|")
     files = re.findall(r"`([\w/.-]+)`", new)
-    assert sorted(files) == sorted(name for name, _ in _FILE.findall(text))
-    assert len(files) == 5
+    printed = [name for name, _ in _FILE.findall(text_of(document)) if not name.startswith("jacks/")]
+    assert sorted(files) == sorted(printed)
+    assert len(files) == count
     assert changed.strip() == "none"
 
 
-def test_the_example_machine_is_clean(tmp_path: Path) -> None:
-    files = dict(_FILE.findall(text_of("CONTRIBUTING.md")))
-    code = files["reportgen/catalogue/plunger_pump.py"]
+@pytest.mark.parametrize(
+    ("document", "file"),
+    [
+        ("CONTRIBUTING.md", "reportgen/catalogue/plunger_pump.py"),
+        ("docs/extending.md", "reportgen/screw/screw_jack.py"),
+        ("docs/extending.md", "reportgen/screw/screw_ids.py"),
+    ],
+)
+def test_the_example_machine_and_kind_of_work_are_clean(document: str, file: str) -> None:
+    code = dict(_FILE.findall(text_of(document)))[file]
     # The project's own rules; the file's name tells ruff which of them hold for it.
     done = subprocess.run(
         [sys.executable, "-m", "ruff", "check", "--config", ROOT / "pyproject.toml", "--stdin-filename", "a.py", "-"],
@@ -320,7 +334,7 @@ def test_pictures_are_small_and_used(picture: Path) -> None:
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_files_that_are_named_exist(document: str) -> None:
     text = text_of(document)
-    printed = {name for name, _ in _FILE.findall(text)}
+    printed = {name for other in DOCUMENTS for name, _ in _FILE.findall(text_of(other))}
     for name in set(re.findall(r"`((?:reportgen|templates|tests|assignments|docs)/[\w./-]+)`", text)) - printed:
         assert (ROOT / name).exists(), name
 

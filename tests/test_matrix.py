@@ -10,8 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import Extent
+from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
-from reportgen.base.words import kinds
 from tests import matrix
 from tests.lanes import matrix as lanes
 from tests.report.built import MARKS

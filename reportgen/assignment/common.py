@@ -29,8 +29,9 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding, UnknownNameError
 from reportgen.base.files import school_strays
+from reportgen.base.template_folders import is_school
 from reportgen.base.units import Given, Language
-from reportgen.base.words import is_school, named_school, unknown
+from reportgen.base.words import named_school, unknown
 
 POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""
@@ -252,10 +253,10 @@ class Assignment:
 
     def position(self, named: str) -> int:
         """The number of the position of a label or a number; raises `UnknownNameError` where there is none."""
-        found = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
-        if not found:
+        position = number_of(named, self.labels) or (number_of(int(named), self.labels) if named.isdecimal() else 0)
+        if not position:
             raise UnknownNameError(unknown("no_position", named, self.labels, self.language))
-        return found
+        return position
 
     def with_positions(self, count: int) -> Assignment:
         """The same with `count` positions a turn; worked positions beyond the new cycle are dropped.

@@ -18,8 +18,8 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import school_strays
 from reportgen.base.source import STRANGE, Quoted
+from reportgen.base.template_folders import school_folder, schools, templates
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
-from reportgen.base.words import school_folder, schools, templates
 
 LONGEST_TEXT = 300
 MOST_WORKED = 720
@@ -83,7 +83,7 @@ class Interval:
         return {"range": f"{ends}{zero}", **{name: grouped(number) for name, number in shown.items()}}
 
     def require(self, value: float, text: str, unit: str = "", **hint: str) -> None:
-        """Raises the fault of a value, typed as `text`, that does not lie here."""
+        """Raises the fault of a value (SI), typed as `text`, that does not lie here."""
         if value not in self:
             raise fault("out-of-range", text=text, unit=f" {unit}" if unit else "", **self.words, **hint)
 

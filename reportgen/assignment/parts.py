@@ -16,10 +16,10 @@ from pathlib import Path
 from reportgen.assignment.common import PARTS, AssignedPart, Assignment, Kind, NamedPart, TakenDatum
 from reportgen.base.errors import Fault, Where
 from reportgen.base.files import leads_out
+from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
 from reportgen.base.source_text import at, put, without
 from reportgen.base.units import NUMBER
-from reportgen.base.words import kinds
 
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
@@ -148,7 +148,7 @@ def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fa
         # Nothing of it is read, so that nothing of it is told.
         return Source(str(path)), [Fault("path-outside", named.mark, {"text": named.text})]
     source = read_source(file)
-    unread = [replace(one, mark=named.mark) for one in source.faults if one.code == "unreadable"]
+    unread = [replace(fault, mark=named.mark) for fault in source.faults if fault.code == "unreadable"]
     return source, unread
 
 

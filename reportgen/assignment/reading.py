@@ -32,8 +32,9 @@ from reportgen.base.errors import Fault, Finding, Mark, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
 from reportgen.base.source_text import at
+from reportgen.base.template_folders import school_files
 from reportgen.base.units import Language, two_readings
-from reportgen.base.words import as_error, close_or_known, language_of, school_files
+from reportgen.base.words import as_error, close_or_known, language_of
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"

@@ -25,6 +25,7 @@ SETS = {
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
+    "plots": r".+\.(svg|png|pdf|eps)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
     "feedback": r"feedback\.(pdf|xlsx)",
     "class": r"grades\.csv|class\.pdf|feedback\.zip",

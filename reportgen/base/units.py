@@ -352,7 +352,7 @@ SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
 
 
 def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
-    """The smallest s·10ⁿ, s of the series, that is not below `value`.
+    """The smallest s·10ⁿ, s of the series, that is not below `value`, in its unit.
 
     Raises `ValueError` unless `value` is positive and finite.
     """
@@ -365,7 +365,7 @@ def nice_up(value: float, series: Sequence[float] = SERIES) -> float:
 
 
 def nice_down(value: float, series: Sequence[float] = SERIES) -> float:
-    """The largest s·10ⁿ, s of the series, that is not above `value`; raises `ValueError` as `nice_up` does."""
+    """The largest s·10ⁿ, s of the series, not above `value`, in its unit; raises `ValueError` as `nice_up` does."""
     if not (value > 0 and math.isfinite(value)):
         raise ValueError("a scale is a positive number")
     decade = math.floor(math.log10(value))

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
-from reportgen.base.files import OF_SCHOOL, school_strays
+from reportgen.base.files import school_strays
 from reportgen.base.gaps import FILLS, filled, gaps, plain_gaps
 from reportgen.base.source import (
     STRANGE,
@@ -37,6 +37,7 @@ from reportgen.base.source import (
     text_in,
 )
 from reportgen.base.source_text import at, path_text
+from reportgen.base.template_folders import MACHINES, is_school, school_files, templates
 from reportgen.base.units import Language
 
 DEFAULT_LANGUAGE: Language = "vi"
@@ -55,22 +56,6 @@ TEMPLATES = "REPORTGEN_TEMPLATES"
 """The variable of the environment that names a school's folder, for all files of a run."""
 
 
-def templates() -> Path:
-    """The folder of words and frames: packed into the package, or beside it in a checkout."""
-    return _packed("templates", "templates")
-
-
-def samples() -> Path:
-    """The folder of examples, in the same way."""
-    return _packed("samples", "assignments")
-
-
-def _packed(name: str, beside: str) -> Path:
-    package = Path(__file__).resolve().parents[1]
-    packed = package / name
-    return packed if packed.is_dir() else package.parent / beside
-
-
 def templates_hash() -> str:
     """SHA-256 of the names and contents of all templates, those of schools included, in sorted order."""
     root, own, digest = templates(), named_school(), sha256()
@@ -79,28 +64,6 @@ def templates_hash() -> str:
         for part in (name.encode(), path.read_bytes()):
             digest.update(len(part).to_bytes(8, "big") + part)
     return digest.hexdigest()
-
-
-def school_files(folder: Path) -> list[Path]:
-    """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
-    patterns = OF_SCHOOL if os.path.isdir(folder) else ()
-    return sorted(path for pattern in patterns for path in folder.glob(pattern) if path.name != "blocks")
-
-
-def is_school(folder: Path) -> bool:
-    """Whether a folder holds a school's own words or its Word file."""
-    return any(path.suffix in (".md", ".docx") for path in school_files(folder))
-
-
-def schools() -> list[str]:
-    """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
-    own = {"vi", "en", "frames"}
-    return sorted(folder.name for folder in templates().iterdir() if folder.name not in own and is_school(folder))
-
-
-def school_folder(school: Path | str) -> Path:
-    """The folder of a school's own templates."""
-    return templates() / school
 
 
 def named_school() -> Path | None:
@@ -117,27 +80,6 @@ def named_school() -> Path | None:
     if not is_school(folder):
         raise TemplateError(word("no_templates", None, place=folder))
     return folder
-
-
-def search_path(
-    language: Language, kind: str = "", school: Path | str = "", root: Path | None = None
-) -> tuple[Path, ...]:
-    """The places in which sections and words are looked for; the first that has a name wins.
-
-    The file of a school (its folder, or its name among the templates), then that of one kind of machine, then the
-    folder of the language.
-    """
-    root = root or templates()
-    return (
-        *((root / school / f"{language}.md",) if school else ()),
-        *((kind_file(language, kind, root),) if kind else ()),
-        root / language,
-    )
-
-
-def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
-    """The file with all words of one kind of machine."""
-    return (root or templates()) / language / MACHINES / f"{kind}.md"
 
 
 def load_words(places: Sequence[Path]) -> Mapping[str, Any]:
@@ -263,9 +205,7 @@ def _alike(present: Any, standing_in: Any) -> bool:
     """Whether a word can stand for another one: both are tables, or texts, or lists of as many that can."""
     if isinstance(present, list) and isinstance(standing_in, list):
         return len(present) == len(standing_in) and all(map(_alike, present, standing_in))
-    return isinstance(present, Mapping) == isinstance(standing_in, Mapping) and isinstance(present, str) == isinstance(
-        standing_in, str
-    )
+    return all(isinstance(present, kind) == isinstance(standing_in, kind) for kind in (Mapping, str))
 
 
 def language_of(source: Source) -> Language:
@@ -369,9 +309,6 @@ def _shown(text: str) -> str:
 # those of all machines a folder: `report.md` has `foreword`, `dyads.md` the section `RRR-forces` of `dyads/RRR-forces`.
 
 HEADING = "%%"
-MACHINES = "catalogue"
-"""The folder beside `report.md` with a file for each kind of machine or exercise."""
-
 KEPT_FILES = 128
 """How many files are kept."""
 
@@ -461,42 +398,3 @@ def _sections_of(file: Path, changed: int, size: int) -> Mapping[str, Passage]:
             raise TemplateError(f"{file}:{number}: the section {name} is there already, in line {passages[name].line}")
         passages[name] = Passage(file, number, "\n".join(lines[number : end - 1]).rstrip("\n") + "\n")
     return passages
-
-
-# --- which kinds of assignments there are ---------------------------------------------------------
-# What each is called, and a file to begin with: all without any mathematics.
-
-SAMPLE = "new"
-"""The section of a kind's words with the file to begin with."""
-
-
-@cache
-def kinds() -> Mapping[str, str]:
-    """The module of every kind, dotted, by the name that stands in a file, in alphabetical order.
-
-    A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
-    """
-    package = Path(__file__).parents[1]
-    modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
-    named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
-    return {kind: named[kind] for kind in sorted(named) if kind_file("vi", kind).is_file()}
-
-
-def title(name: str, language: Language) -> str:
-    """The line of description of a kind, from its words."""
-    return str(load_words((kind_file(language, name),))["title"])
-
-
-def titles(language: Language) -> dict[str, str]:
-    """Each kind with its line of description."""
-    return {name: title(name, language) for name in kinds()}
-
-
-def sample(name: str, language: Language) -> str:
-    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
-    if name not in kinds():
-        raise KeyError(name)
-    file = kind_file(language, name)
-    if (section := sections(file).get(SAMPLE)) is None:
-        raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
-    return section.text

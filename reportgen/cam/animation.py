@@ -13,7 +13,7 @@ from reportgen.cam.drawings import PITCH, fitting, follower_parts, guide_walls, 
 from reportgen.cam.laws import NODE, Floats
 from reportgen.cam.profile import CamProfile, Complexes
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing import Circle, Item, Line, Polyline, style
+from reportgen.drawing import Circle, Diagram, Item, Line, PlottedCurve, Polyline, style
 from reportgen.drawing.animation import (
     Animation,
     BarScale,
@@ -31,7 +31,7 @@ from reportgen.drawing.animation import (
     Track,
     extent,
 )
-from reportgen.drawing.charts import PlottedCurve, plotted
+from reportgen.drawing.charts import plotted
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import KINDS
@@ -154,7 +154,8 @@ def _charts(case: SolvedCam, profile: CamProfile) -> Iterator[Chart]:
     sampled = case.solution.cam.sampled()
     for (symbol, unit, values), now in zip(motion_charts(case), (profile.s, profile.ds, profile.dds), strict=True):
         shown = plotted(
-            (PlottedCurve(symbol, np.degrees(sampled.φ), values),), angle_axis(case), axis(symbol, unit), half=True
+            Diagram((PlottedCurve(symbol, np.degrees(sampled.φ), values),), angle_axis(case), axis(symbol, unit)),
+            half=True,
         )
         scale = np.abs(values).max() / max(float(np.abs(now).max()), NODE)
         yield Chart(formula(symbol, language), shown, (Curve(symbol, Track(now * scale)),))

@@ -15,7 +15,7 @@ from reportgen.cam.solved import SolvedCam
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet
-from reportgen.report.case import Misconceptions
+from reportgen.report.case import DriverMotion, Misconceptions
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
 
@@ -25,6 +25,10 @@ class CamCase(SolvedCam):
     """A cam, as a `Case`."""
 
     PAGE = views.CamPage
+
+    @property
+    def driver_motion(self) -> DriverMotion:
+        return DriverMotion(self.solution.φ, 2 * np.pi, self.speed)
 
     @property
     def misconceptions(self) -> Misconceptions:

@@ -17,8 +17,12 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.cam import formulas
+from reportgen.cam.formulas import valued
 from reportgen.cam.laws import Floats, FollowerMotion
 from reportgen.cam.profile import Cam, greatest
+from reportgen.formula import Ref
+from reportgen.formula.evaluation import evaluate
 
 Rule = Literal["apex", "rise", "return"]
 """What decides: both lines together, or that of one phase."""
@@ -83,13 +87,13 @@ class NoCamError(ValueError):
 
 
 def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Floats]) -> Touch:
-    """Where in a phase a function of s and s′ is greatest."""
+    """Where in a phase a function (SI) of s and s′ [N] is greatest."""
     best: Touch | None = None
     for number, interval in enumerate(motion.intervals):
         if interval.phase == phase:
 
             def value(φ: Floats, number: int = number) -> Floats:
-                s, ds, _ = motion(φ, np.full(φ.shape, number))
+                s, ds, _ = motion(φ, np.full(φ.shape, number), derivatives=1)
                 return of(s, ds)
 
             φ, bound = greatest(value, interval.start, interval.stop)
@@ -101,37 +105,45 @@ def touch(motion: FollowerMotion, phase: str, of: Callable[[Floats, Floats], Flo
 
 
 def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None) -> Least:
-    """The least cam of a translating follower with a knife or a roller, at a given offset or at the best one.
+    """The least cam of a translating follower with a knife or a roller, at an offset e (m) or at the best one.
 
     c₁ = max(s′ − s tan [α]) and c₂ = max(−s′ − s tan [α′]) lead to s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′].
     Where the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides by what is usual with a spring.
     """
     assert limits.rise is not None
     t1 = math.tan(limits.rise)
-    rise = touch(motion, "rise", lambda s, ds: ds - t1 * s)
+    rise = touch(motion, "rise", lambda s, ds: valued(formulas.rise_intercept, s, ds, t1))
     back, t2 = None, math.inf
     if limits.back is not None or (e is not None and e >= rise.bound):
         t2 = math.tan(limits.back or USUAL_BY_SPRING)
-        back = touch(motion, "return", lambda s, ds: -ds - t2 * s)
+        back = touch(motion, "return", lambda s, ds: valued(formulas.return_intercept, s, ds, t2))
     c1, c2 = rise.bound, back.bound if back else 0.0
 
-    high = (c1 + c2) / (t1 + t2)
-    apex = complex(c1 - t1 * high, high) if back else None
+    high = float(valued(formulas.apex_height, c1, c2, t1, t2))
+    across = float(valued(formulas.apex_offset, c1, high, t1))
+    apex = complex(across, high) if back else None
+
+    def by_rise(offset: float) -> float:
+        return float(valued(formulas.height_by_rise, c1, offset, t1))
+
+    def by_return(offset: float) -> float:
+        return float(valued(formulas.height_by_return, c2, offset, t2))
 
     def at(rule: Rule, s0: float, offset: float) -> Least:
-        return Least(rule, math.hypot(s0, offset), offset, s0, rise=rise, back=back, apex=apex)
+        r0 = float(valued(formulas.base_radius, s0, offset))
+        return Least(rule, r0, offset, s0, rise=rise, back=back, apex=apex)
 
     if e is not None:
-        by_rise, by_return = (c1 - e) / t1, (c2 + e) / t2
-        return at("rise", by_rise, e) if by_rise >= by_return else at("return", by_return, e)
+        return at("rise", by_rise(e), e) if by_rise(e) >= by_return(e) else at("return", by_return(e), e)
     # The nearest point of the region to the origin: the foot on one line, if the other allows it, else the apex.
-    foot = c1 / (1 + t1**2)
-    if -foot + t2 * (foot * t1) >= c2:
-        return at("rise", foot * t1, foot)
-    foot = c2 / (1 + t2**2)
-    if -foot + t1 * (foot * t2) >= c1:
-        return at("return", foot * t2, -foot)
-    return at("apex", high, c1 - t1 * high)
+    foot = float(valued(formulas.foot_of_rise, c1, t1))
+    if (s0 := float(valued(formulas.height_on_rise, foot, t1))) >= by_return(foot):
+        return at("rise", s0, foot)
+    if back is not None:
+        foot = float(valued(formulas.foot_of_return, c2, t2))
+        if (s0 := float(valued(formulas.height_on_return, foot, t2))) >= by_rise(foot):
+            return at("return", s0, foot)
+    return at("apex", high, across)
 
 
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
@@ -163,17 +175,22 @@ def bounded(
     """
     side = opposite if phase == "rise" else -opposite
 
-    def share(ds: Floats) -> Floats:
-        return arm * (1 + opposite * ds) * math.cos(limit) / a
+    lowest_by = formulas.lowest_against if side > 0 else formulas.lowest_with
 
-    def half(ds: Floats) -> Floats:
-        return np.arccos(np.clip(share(ds), -1, 1))
+    cosine = formulas.cosine_aside(Ref("l"), formulas.factor(Ref("ds"), opposite), Ref("cos"), Ref("a"))
+    known = {"l": arm, "cos": math.cos(limit), "a": a}
+
+    def share(ds: Floats) -> Floats:
+        return np.asarray(evaluate(cosine, {"ds": ds, **known}))
 
     def lowest(s: Floats, ds: Floats) -> Floats:
-        return np.where(side * share(ds) > 1, np.inf, side * (limit - half(ds)) - s)
+        c = share(ds)
+        aside = np.arccos(np.clip(c, -1, 1))
+        return np.where(side * c > 1, np.inf, valued(lowest_by, limit, aside, s))
 
     def most(s: Floats, ds: Floats) -> Floats:
-        return (limit + half(ds) if side > 0 else 2 * math.pi - half(ds) - limit) - s
+        aside = np.arccos(np.clip(share(ds), -1, 1))
+        return (limit + aside if side > 0 else 2 * math.pi - aside - limit) - s
 
     return touch(motion, phase, lowest), -touch(motion, phase, lambda s, ds: -most(s, ds)).bound
 
@@ -184,7 +201,7 @@ def triangle(a: float, arm: float, angle: float) -> float:
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:
-    """The least cam of an oscillating follower at the best distance a of the pivot, between 0.4 and 3 arms.
+    """The least cam of an oscillating follower, arm in m, at the best distance a of the pivot: 0.4 to 3 arms.
 
     The region of the centres is convex, so that r₀ over a has one valley: a golden section finds it.
     """
@@ -212,7 +229,7 @@ def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposit
 
 
 def least_flat(cam: Cam, rho: float) -> float:
-    """The least r₀ with which the profile under a flat face is convex with a radius of curvature ρ at least.
+    """The least r₀ (m) with which the profile under a flat face is convex, its curvature's radius ρ (m) at least.
 
     A translating face: r₀ = ρ − min(s + s″).
     """
@@ -251,13 +268,13 @@ def step_of(length: float) -> float:
 
 
 def rounded_up(length: float) -> float:
-    """The least round length that is no less."""
+    """The least round length (m) that is no less."""
     step = step_of(length)
     return round(math.ceil(length / step - 1e-9) * step, 9)
 
 
 def rounded_down(length: float) -> float:
-    """The greatest round length that is no more, to whole millimetres where it has several."""
+    """The greatest round length (m) that is no more, to whole millimetres where it has several."""
     step = min(step_of(length), 1.0 / MM)
     return round(math.floor(length / step + 1e-9) * step, 9)
 
@@ -282,12 +299,12 @@ def enlarged_until(cam: Cam, enough: Callable[[Cam], bool], error: NoCamError) -
 
 
 def least_convex_radius(cam: Cam) -> float:
-    """The least radius of curvature where the working profile is convex; infinite where it nowhere is."""
+    """The least radius of curvature (m) where the working profile is convex; infinite where it nowhere is."""
     every = range(len(cam.motion.intervals))
     return min(-cam.worst(number, lambda one: -one.effective)[1] for number in every)
 
 
 def largest_roller(cam: Cam, rho: float) -> float:
-    """r_T ≤ 0.8 ρ_min and ≤ 0.4 r₀, and so that ρ is left of the convex curvature, rounded down; none if ≤ 0."""
+    """r_T ≤ 0.8 ρ_min, ≤ 0.4 r₀, leaving ρ of the convex curvature (all m), rounded down; none if ≤ 0."""
     least = least_convex_radius(replace(cam, roller=0.0))
     return rounded_down(min(SHARE_OF_RHO * least, SHARE_OF_R0 * cam.r0, least - rho))

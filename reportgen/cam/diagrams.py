@@ -13,10 +13,24 @@ from reportgen.cam import cam_ids
 from reportgen.cam.laws import PHASES, Floats
 from reportgen.cam.solution import HEIGHT, LEAST_POLE, TURN_ON_PAPER
 from reportgen.cam.solved import SolvedCam
-from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
-from reportgen.drawing.geometry import box
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing import (
+    Arrow,
+    Circle,
+    Content,
+    Diagram,
+    Item,
+    Label,
+    Line,
+    Pen,
+    PlottedCurve,
+    Polyline,
+    Scene,
+    style,
+)
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.charts import Area, Plotted, plotted
+from reportgen.drawing.label_size import box
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.formula.vocabulary import KINDS
@@ -49,6 +63,7 @@ class Graph:
     zero: float
 
     def at(self, y: Floats) -> Floats:
+        """The ordinate (mm) on paper of one of the diagram (mm)."""
         return self.zero + y
 
 
@@ -64,11 +79,12 @@ class LawScales:
     poles: tuple[float, float]
 
     def shrunk(self, times: float) -> LawScales:
-        """Those of diagrams so many times smaller."""
+        """Those of diagrams smaller by a factor."""
         (s, ds, dds), (one, two) = self.per_mm, self.poles
         return LawScales(self.turn / times, (s * times, ds * times, dds * times), (one / times, two / times))
 
     def across(self, φ: Floats) -> Floats:
+        """Abscissae (mm) [N] of angles of the cam (rad)."""
         return φ / (2 * math.pi) * self.turn
 
 
@@ -239,7 +255,9 @@ def pressure_chart(case: SolvedCam, half: bool = False, area: Area | None = None
         if limit is not None
     ]
     shown = PlottedCurve(Symbol("α"), np.degrees(profile.φ), np.degrees(profile.alpha))
-    return plotted((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=levels, half=half, area=area)
+    return plotted(
+        Diagram((shown,), angle_axis(case), axis(Symbol("α"), "°"), levels=tuple(levels)), half=half, area=area
+    )
 
 
 def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
@@ -257,7 +275,7 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
         series.append(PlottedCurve(case.ledger.symbol("cam.rho.working"), np.degrees(profile.φ), inner * MM))
     limit = case.ledger["cam.limit.rho"].values[0] * MM
     levels = [(float(limit), case.ledger.symbol("cam.limit.rho"))]
-    return plotted(series, angle_axis(case), axis(Symbol("ρ"), "mm"), levels=levels, half=half)
+    return plotted(Diagram(tuple(series), angle_axis(case), axis(Symbol("ρ"), "mm"), levels=tuple(levels)), half=half)
 
 
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:

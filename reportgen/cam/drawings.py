@@ -14,8 +14,9 @@ from reportgen.cam import cam_ids
 from reportgen.cam.profile import Cam, CamProfile
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Symbol
 
@@ -63,12 +64,12 @@ def limit_diagram(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
 
 def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     """s upwards over s′, both at one scale; the centre at e to the right and s₀ below."""
-    found, cam = case.solution.designed, case.solution.cam
+    design, cam = case.solution.designed, case.solution.cam
     profile = cam.sampled()
     curve = profile.ds + 1j * profile.s
     centre = complex(cam.e, -cam.s0)
     places = [*curve, centre, 0j, complex(0, -1.25 * cam.s0)]
-    least = found.least
+    least = design.least
     if least is not None:
         places += [complex(least.e, -least.s0)] + ([least.apex.conjugate()] if least.apex is not None else [])
     usual, at = fitting(places, DIAGRAM_ROOM, size)
@@ -78,22 +79,21 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     box = (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     items: list[Item] = []
     requests: list[Request] = []
-    planes: list[HalfPlane] = []
+    lines: list[tuple[str, float, int, HalfPlane]] = []
     limits = (
-        ("rise", found.limits.rise, 1, None if least is None else least.rise),
-        ("return", found.limits.back, -1, None if least is None else least.back),
+        ("rise", design.limits.rise, 1, None if least is None else least.rise),
+        ("return", design.limits.back, -1, None if least is None else least.back),
     )
-    for _, limit, side, touch in limits:
+    for phase, limit, side, touch in limits:
         if limit is None or touch is None:
             continue
         # Down the line s grows less and s′ goes with the other sign: the angle to the axis of s is the limit.
         down = complex(-side * math.sin(limit), -math.cos(limit))
-        planes.append(HalfPlane(complex(touch.ds, touch.s) * at, 1j * side * down))
-    allowed = region(planes, box)
-    if len(allowed) > 2 and planes:
+        lines.append((phase, limit, side, HalfPlane(complex(touch.ds, touch.s) * at, 1j * side * down)))
+    allowed = region([plane for *_, plane in lines], box)
+    if len(allowed) > 2 and lines:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
-    for (phase, limit, side, _), plane in zip([one for one in limits if one[1] and one[3]], planes, strict=True):
-        assert limit is not None
+    for phase, limit, side, plane in lines:
         # The plane's edge from the upper edge of the drawing to the lower one.
         along = plane.inward * -1j * side
         ends = [plane.at + along * (level - plane.at.imag) / along.imag for level in (low, high)]
@@ -151,6 +151,7 @@ def _within(end: complex, start: complex, left: float, right: float) -> complex:
 
 
 def style_point(at: complex) -> tuple[Item, ...]:
+    """A point of the construction at a place (mm)."""
     return (Circle(at, 0.6, None, style.BLACK),)
 
 
@@ -161,17 +162,17 @@ def _centre(at: complex) -> tuple[Item, ...]:
 
 def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     """On each position of the arm l k is laid off along it; a line at 90° − [α] to the arm through its end bounds."""
-    found, cam = case.solution.designed, case.solution.cam
+    design, cam = case.solution.designed, case.solution.cam
     σ, pivot = cam.opposite, pivot_of(cam)
     planes: list[HalfPlane] = []
     shown: list[tuple[complex, complex, HalfPlane]] = []
-    for phase, limit, sign in (("rise", found.limits.rise, 1), ("return", found.limits.back, -1)):
+    for phase, limit, sign in (("rise", design.limits.rise, 1), ("return", design.limits.back, -1)):
         if limit is None:
             continue
-        for number, one in enumerate(cam.motion.intervals):
-            if one.phase != phase:
+        for number, interval in enumerate(cam.motion.intervals):
+            if interval.phase != phase:
                 continue
-            φ = np.linspace(one.start, one.stop, 161)
+            φ = np.linspace(interval.start, interval.stop, 161)
             s, ds, _ = cam.motion(φ, np.full(φ.shape, number))
             for index, (ψ, rate) in enumerate(zip(s, ds, strict=True)):
                 arm = _arm(cam, float(ψ))
@@ -306,7 +307,7 @@ def _laid_off(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item
 
 
 def pivot_of(cam: Cam) -> complex:
-    """The pivot of an oscillating follower in the fixed frame."""
+    """The pivot of an oscillating follower in the fixed frame (m)."""
     return complex(cam.mirrored(np.array([complex(cam.opposite * cam.a, 0)]))[0])
 
 
@@ -335,7 +336,7 @@ def _position(cam: Cam, profile: CamProfile, k: int, at: float) -> Iterator[Item
 
 
 def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: bool = True) -> Iterator[Item]:
-    """The follower with its tip (centre of the roller, edge, point of contact) at a place of the paper.
+    """The follower, its tip (centre of the roller, edge, point of contact) at a place of the paper (mm).
 
     With `walls` what holds it is drawn, too.
     """
@@ -360,7 +361,7 @@ def follower_parts(cam: Cam, tip: complex, at: float, pivot: complex, walls: boo
 
 
 def guide_walls(tip: complex) -> Iterator[Item]:
-    """The guide of a translating follower whose end is in its highest position."""
+    """The guide (mm) of a translating follower whose end is in its highest position."""
     for side in (-1, 1):
         wall = tip + complex(side * GUIDE, 0.6 * FOLLOWER)
         yield from style.ground(wall - 4j, wall + 4j, 1 if side < 0 else -1)

@@ -199,7 +199,7 @@ def law_of(given: str | AccelerationTable) -> FollowerLaw:
 
 @lru_cache(maxsize=64)
 def _motion(stroke: float, phases: tuple[float, ...], rise: Any, back: Any) -> FollowerMotion:
-    first, far, behind, near = (math.radians(one) for one in phases)
+    first, far, behind, near = (math.radians(phase) for phase in phases)
     return FollowerMotion(stroke, (first, far, behind, near), law_of(rise), law_of(back))
 
 
@@ -320,7 +320,7 @@ def positions_of(given: Parameters) -> tuple[float, ...]:
 
 
 def exceeded(design_found: Designed) -> Iterator[tuple[str, float, float]]:
-    """The phases in which the pressure angle passes its limit: its largest value, and at which angle of the cam."""
+    """The phases in which the pressure angle passes its limit: its largest value, at which angle of the cam (rad)."""
     cam, limits = design_found.cam, design_found.limits
     for phase, limit, sign in (("rise", limits.rise, 1), ("return", limits.back, -1)):
         if limit is None or cam.flat:
@@ -331,7 +331,7 @@ def exceeded(design_found: Designed) -> Iterator[tuple[str, float, float]]:
 
 
 def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
-    """Where no limits are given: pressure angles beyond what is usual, by their size, with where and what is usual."""
+    """Where no limits are given: pressure angles (rad) beyond what is usual, by size, with where and what is usual."""
     cam = design_found.cam
     if cam.flat:
         return
@@ -343,7 +343,7 @@ def steep(design_found: Designed) -> Iterator[tuple[float, float, float]]:
 
 
 def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
-    """Where in a phase ±α is greatest, and how great it is."""
+    """Where in a phase ±α is greatest, and how great it is (rad)."""
     numbers = [number for number, one in enumerate(cam.motion.intervals) if one.phase == phase]
     return max((cam.worst(number, lambda one: sign * one.alpha) for number in numbers), key=lambda one: one[1])
 

@@ -6,11 +6,14 @@ formula holds is chosen by the kind of follower and end and by the senses of tur
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 
 from reportgen.cam import cam_ids
-from reportgen.formula import Expression, acos, asin, atan, cos, signed, sin, sqrt
+from reportgen.formula import Expression, Ref, acos, asin, atan, cos, signed, sin, sqrt
+from reportgen.formula.constructions import Value
+from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
 
 
@@ -52,6 +55,96 @@ def enter_lengths(q: Sheet, kind: CamKind, lengths: Mapping[str, float]) -> None
 def enter_lowest(q: Sheet, kind: CamKind) -> None:
     """s₀ = √(r₀² − e²), the height of the lowest position of a translating follower with a tip."""
     q.define("cam.s0", sqrt(q["cam.r0"] ** 2 - q["cam.e"] ** 2) if kind.offset else q["cam.r0"])
+
+
+def valued(formula: Callable[..., Expression], *numbers: Value) -> Value:
+    """The value of a formula of this module with numbers, or arrays of any shape, in place of its symbols."""
+    return evaluate(_written(formula, len(numbers)), {str(place): number for place, number in enumerate(numbers)})
+
+
+@lru_cache(maxsize=64)
+def _written(formula: Callable[..., Expression], count: int) -> Expression:
+    """A formula of so many symbols, each called by its place."""
+    return formula(*(Ref(str(place)) for place in range(count)))
+
+
+# --- the least cam of a translating follower: s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′] ----
+
+
+def rise_intercept(s: Expression, ds: Expression, t: Expression) -> Expression:
+    """c₁ = s′ − s tan [α], greatest where the limit line of the rise touches."""
+    return ds - s * t
+
+
+def return_intercept(s: Expression, ds: Expression, t: Expression) -> Expression:
+    """c₂ = −s′ − s tan [α′], greatest where the limit line of the return touches."""
+    return -ds - s * t
+
+
+def height_by_rise(c: Expression, e: Expression, t: Expression) -> Expression:
+    """The least s₀ that the rise allows at an offset e."""
+    return (c - e) / t
+
+
+def height_by_return(c: Expression, e: Expression, t: Expression) -> Expression:
+    """The least s₀ that the return allows at an offset e."""
+    return (c + e) / t
+
+
+def apex_height(c1: Expression, c2: Expression, t1: Expression, t2: Expression) -> Expression:
+    """s₀ where both limit lines meet."""
+    return (c1 + c2) / (t1 + t2)
+
+
+def apex_offset(c1: Expression, high: Expression, t1: Expression) -> Expression:
+    """e where both limit lines meet."""
+    return c1 - high * t1
+
+
+def foot_of_rise(c: Expression, t: Expression) -> Expression:
+    """e of the point of the rise's limit line that is nearest to the follower's lowest point."""
+    return c / (1 + t**2)
+
+
+def foot_of_return(c: Expression, t: Expression) -> Expression:
+    """e of the point of the return's limit line that is nearest to the follower's lowest point."""
+    return -(c / (1 + t**2))
+
+
+def height_on_rise(e: Expression, t: Expression) -> Expression:
+    """s₀ of that nearest point of the rise's line."""
+    return e * t
+
+
+def height_on_return(e: Expression, t: Expression) -> Expression:
+    """s₀ of that nearest point of the return's line."""
+    return -(e * t)
+
+
+def base_radius(s0: Expression, e: Expression) -> Expression:
+    """r₀ = √(s₀² + e²)."""
+    return sqrt(s0**2 + e**2)
+
+
+# --- the least cam of an oscillating follower -----------------------------------------------------
+
+
+def cosine_aside(arm: Expression, k: Expression, cosine: Expression, a: Expression) -> Expression:
+    """l k cos [α]/a, the cosine of the angle by which the arm may lie aside of the limit line."""
+    return arm * k * cosine / a
+
+
+def lowest_against(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
+    """The lowest ψ₀ of a phase in which the arm turns against the cam."""
+    return limit - aside - ψ
+
+
+def lowest_with(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
+    """The lowest ψ₀ of a phase in which the arm turns as the cam does."""
+    return aside - limit - ψ
+
+
+# --- the cam --------------------------------------------------------------------------------------
 
 
 def factor(dψ: Expression, opposite: int) -> Expression:

@@ -55,24 +55,24 @@ class AccelerationGraph:
 
     @cached_property
     def nodes(self) -> tuple[Floats, Floats, Floats]:
-        """A, V and S at the nodes."""
+        """A, V and S at the nodes [nodes], ratios of no dimension."""
         V, S = _integrated(self.x, self.a)
         return self.a / S[-1], V / S[-1], S / S[-1]
 
     @property
     def way(self) -> float:
-        """How far the graph moves as it stands; backwards if it is negative."""
+        """How far the graph moves as it stands, a ratio; backwards if it is negative."""
         return float(_integrated(self.x, self.a)[1][-1])
 
     @property
     def areas(self) -> tuple[float, float]:
-        """The areas above and below the axis, which must be equal: the follower comes to rest."""
+        """The areas above and below the axis (no dimension), which must be equal: the follower comes to rest."""
         parts = _areas(self.x, self.a)
         return float(parts[parts > 0].sum()), float(-parts[parts < 0].sum())
 
     @property
     def slopes(self) -> Floats:
-        """How steeply A goes from each node to the next; 0 where it jumps."""
+        """How steeply A goes from each node [nodes − 1] to the next; 0 where it jumps."""
         Δ = np.diff(self.x)
         return np.divide(np.diff(self.nodes[0]), Δ, out=np.zeros(Δ.size), where=Δ > NODE)
 
@@ -196,7 +196,7 @@ class FollowerLaw:
 
 
 def evaluated(of: Formula, x: Floats) -> Floats:
-    """The values of a formula over x."""
+    """The values of a formula, of no dimension, over x [N]."""
     formula = of(Ref("x"))
     return np.broadcast_to(formula if isinstance(formula, float) else evaluate(formula, {"x": x}), x.shape)
 
@@ -226,6 +226,7 @@ class LawInterval:
     piece: Piece | None
 
     def x(self, φ: Floats) -> Floats:
+        """The share of its phase that angles [N] (rad) lie behind its beginning."""
         return (φ - self.begin) / self.angle
 
     @cached_property
@@ -279,7 +280,7 @@ class FollowerMotion:
 
     @cached_property
     def starts(self) -> dict[str, float]:
-        """Where each phase begins."""
+        """Where each phase begins (rad)."""
         return dict(zip(PHASES, np.concatenate(([0.0], np.cumsum(self.phases[:3]))).tolist(), strict=True))
 
     @cached_property
@@ -306,8 +307,13 @@ class FollowerMotion:
         corner = at_start & (number > 0) & still[number] & ~still[before]
         return np.where(corner, before, number)
 
-    def __call__(self, φ: Floats, of: NDArray[np.intp] | None = None) -> tuple[Floats, Floats, Floats]:
-        """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be."""
+    def __call__(
+        self, φ: Floats, of: NDArray[np.intp] | None = None, derivatives: int = 2
+    ) -> tuple[Floats, Floats, Floats]:
+        """s, s′ and s″ over angles [N] of the cam; `of` says in which interval each is taken to be.
+
+        What is beyond so many `derivatives` is left 0.
+        """
         numbers = self.of(φ) if of is None else of
         turned = φ if of is not None else np.mod(φ, 2 * math.pi)
         motion = np.zeros((3, φ.size))

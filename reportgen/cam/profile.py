@@ -85,14 +85,14 @@ class Cam:
         return CamProfile(self, φ, *self.motion(φ, of))
 
     def lifting(self, s: Floats) -> Complexes:
-        """The way in which the follower lifts, of length 1 in the fixed frame of a cam that turns anticlockwise."""
+        """The way in which the follower lifts [N], of length 1 in the fixed frame of a cam that turns anticlockwise."""
         if self.translating:
             return np.full(s.shape, 1j)
         lifting: Complexes = 1j * np.exp(-1j * self.opposite * (self.psi0 + s))
         return lifting
 
     def mirrored(self, points: Complexes) -> Complexes:
-        """Points of a cam that turns anticlockwise as they are at one that turns as this does."""
+        """Points [N] of a cam that turns anticlockwise as they are at one that turns as this does, in their unit."""
         return points if self.turn > 0 else -points.conj()
 
     # --- curves
@@ -100,9 +100,9 @@ class Cam:
     def sampled(self, count: int = 720) -> CamProfile:
         """A whole turn, both sides of each corner of the motion: evenly spaced within each interval."""
         angles, numbers = [], []
-        for number, one in enumerate(self.motion.intervals):
-            steps = max(math.ceil(count * (one.stop - one.start) / (2 * math.pi)), 8)
-            angles.append(np.linspace(one.start, one.stop, steps + 1))
+        for number, interval in enumerate(self.motion.intervals):
+            steps = max(math.ceil(count * (interval.stop - interval.start) / (2 * math.pi)), 8)
+            angles.append(np.linspace(interval.start, interval.stop, steps + 1))
             numbers.append(np.full(steps + 1, number))
         return self.profile_at(np.concatenate(angles), np.concatenate(numbers))
 
@@ -134,26 +134,26 @@ class Cam:
 
     @cached_property
     def undercut(self) -> tuple[float, ...]:
-        """Angles of the cam at which the working profile has a cusp or is cut away, the worst of each interval."""
+        """Angles of the cam (rad) where the working profile has a cusp or is cut away, the worst of each interval."""
         if not (self.flat or self.roller):
             return ()
-        found = []
+        angles = []
         for number in range(len(self.motion.intervals)):
             φ, least = self.worst(number, lambda cam: -cam.effective)
             if -least <= 0:
-                found.append(φ)
+                angles.append(φ)
         # Where a uniform law stops at once a convex corner is left.
-        found += [one.angle for one in self.motion.impacts if one.kind == "rigid" and one.jump < 0]
-        return tuple(sorted(set(found)))
+        angles += [impact.angle for impact in self.motion.impacts if impact.kind == "rigid" and impact.jump < 0]
+        return tuple(sorted(set(angles)))
 
     def worst(self, number: int, of: Callable[[CamProfile], Floats]) -> tuple[float, float]:
-        """Where in an interval a quantity of the cam is greatest, and how great it is."""
-        one = self.motion.intervals[number]
+        """Where in an interval (rad) a quantity of the cam is greatest, and how great it is (SI)."""
+        interval = self.motion.intervals[number]
 
         def value(φ: Floats) -> Floats:
             return of(self.profile_at(φ, np.full(φ.shape, number)))
 
-        return greatest(value, one.start, one.stop)
+        return greatest(value, interval.start, interval.stop)
 
 
 @dataclass(frozen=True)
@@ -172,8 +172,8 @@ class CamProfile:
     def _of(self, *wanted: str) -> list[Floats]:
         """Some quantities of the cam's sheet, by their ids."""
         motion = zip(self.cam.kind.moved, (self.s, self.ds, self.dds), strict=True)
-        found = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
-        return [np.broadcast_to(found[id], self.φ.shape) for id in wanted]
+        evaluated = model(self.cam.sheet, wanted, **{"cam.phi": self.φ, **dict(motion)})
+        return [np.broadcast_to(evaluated[id], self.φ.shape) for id in wanted]
 
     @cached_property
     def alpha(self) -> Floats:
@@ -217,16 +217,16 @@ class CamProfile:
 
     @cached_property
     def normal(self) -> Complexes:
-        """The outward normal, of length 1: the way in which the follower lifts, turned by the pressure angle."""
+        """The outward normal [N], of length 1: the way in which the follower lifts, turned by the pressure angle."""
         return self.cam.mirrored(self.cam.lifting(self.s) * np.exp(1j * (self.alpha - self.φ)))
 
 
 def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[float, float]:
-    """Where in an interval a function is greatest, and its value: sampled, then closer and closer about the best."""
+    """Where in an interval a function of it is greatest, and its value in its unit: sampled, then ever closer."""
     x = np.linspace(low, high, 361)
     for _ in range(8):
         y = np.nan_to_num(of(x), nan=-np.inf, posinf=np.inf, neginf=-np.inf)
         best = int(y.argmax())
-        found = float(x[best]), float(y[best])
+        top = float(x[best]), float(y[best])
         x = np.linspace(x[max(best - 1, 0)], x[min(best + 1, x.size - 1)], 33)
-    return found
+    return top

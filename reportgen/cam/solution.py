@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
-from reportgen.cam import cam_ids
+from reportgen.cam import cam_ids, formulas
 from reportgen.cam.design import Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
@@ -73,10 +73,12 @@ class CamSolution:
 
     @cached_property
     def degrees(self) -> tuple[float, ...]:
+        """The angles of the positions [N] in degrees."""
         return positions_of(self.given)
 
     @cached_property
     def φ(self) -> Floats:
+        """The angles of the positions [N] (rad)."""
         return np.radians(self.degrees)
 
     @cached_property
@@ -196,8 +198,8 @@ class CamSheet:
             begun = [self._beyond(one, x) for one in intervals]
             q.define("cam.z", branch(number, *begun), scale=1.0)
         written = [self._formulas(one, x) for one in intervals]
-        for id, formulas in zip(self.of.moved, zip(*written, strict=True), strict=True):
-            q.define(id, branch(number, *map(as_expression, formulas)), scale=motion.stroke)
+        for id, branches in zip(self.of.moved, zip(*written, strict=True), strict=True):
+            q.define(id, branch(number, *map(as_expression, branches)), scale=motion.stroke)
         _, ds, dds = (q[id] for id in self.of.moved)
         if omega := q.find("cam.omega"):
             rate, acceleration = (
@@ -299,6 +301,7 @@ class CamSheet:
 
     @property
     def given_rho(self) -> float:
+        """The least radius of curvature that is asked for (m)."""
         return self.of.designed.limits.rho
 
     def _touch(self, phase: str, touch: Touch) -> tuple[Ref, Ref]:
@@ -315,12 +318,12 @@ class CamSheet:
         assert least.rise is not None
         s, ds = self._touch("rise", least.rise)
         t1 = tan(q["cam.limit.rise"])
-        c1 = q.define(cam_ids.intercept(1), ds - s * t1)
+        c1 = q.define(cam_ids.intercept(1), formulas.rise_intercept(s, ds, t1))
         c2, t2 = None, None
         if least.back is not None:
             s, ds = self._touch("return", least.back)
             t2 = tan(q["cam.limit.return"])
-            c2 = q.define(cam_ids.intercept(2), -ds - s * t2)
+            c2 = q.define(cam_ids.intercept(2), formulas.return_intercept(s, ds, t2))
         if not self.given.seeks("e"):
             top = c1 if least.rule == "rise" else c2
             assert top is not None
@@ -329,24 +332,24 @@ class CamSheet:
             if not self.cam.e:
                 q.define("cam.least.r0", top / limit)
                 return
-            aside = top - q["cam.e"] if least.rule == "rise" else top + q["cam.e"]
-            s0 = q.define("cam.least.s0", aside / limit)
-            q.define("cam.least.r0", sqrt(s0**2 + q["cam.e"] ** 2))
+            height = formulas.height_by_rise if least.rule == "rise" else formulas.height_by_return
+            s0 = q.define("cam.least.s0", height(top, q["cam.e"], limit))
+            q.define("cam.least.r0", formulas.base_radius(s0, q["cam.e"]))
             return
         if c2 is not None and t2 is not None:
-            high = q.define("cam.apex.s0", (c1 + c2) / (t1 + t2))
-            across = q.define("cam.apex.e", c1 - high * t1)
+            high = q.define("cam.apex.s0", formulas.apex_height(c1, c2, t1, t2))
+            across = q.define("cam.apex.e", formulas.apex_offset(c1, high, t1))
         if least.rule == "apex":
             s0, e = q.define("cam.least.s0", high), q.define("cam.least.e", across)
         elif least.rule == "rise":
-            e = q.define("cam.least.e", c1 / (1 + t1**2))
-            s0 = q.define("cam.least.s0", e * t1)
+            e = q.define("cam.least.e", formulas.foot_of_rise(c1, t1))
+            s0 = q.define("cam.least.s0", formulas.height_on_rise(e, t1))
         else:
             assert c2 is not None
             assert t2 is not None
-            e = q.define("cam.least.e", -(c2 / (1 + t2**2)))
-            s0 = q.define("cam.least.s0", -(e * t2))
-        q.define("cam.least.r0", sqrt(s0**2 + e**2))
+            e = q.define("cam.least.e", formulas.foot_of_return(c2, t2))
+            s0 = q.define("cam.least.s0", formulas.height_on_return(e, t2))
+        q.define("cam.least.r0", formulas.base_radius(s0, e))
 
     def _oscillating(self) -> None:
         """The lowest ψ₀ that each limit allows; the larger one counts."""
@@ -359,7 +362,8 @@ class CamSheet:
                 continue
             ψ, dψ = self._touch(phase, touch)
             limit = q[cam_ids.limit(phase)]
-            aside = acos(arm * factor(dψ, self.σ) * cos(limit) / a)
-            found[phase] = limit - aside - ψ if side > 0 else aside - limit - ψ
+            aside = acos(formulas.cosine_aside(arm, factor(dψ, self.σ), cos(limit), a))
+            lowest = formulas.lowest_against if side > 0 else formulas.lowest_with
+            found[phase] = lowest(limit, aside, ψ)
         ψ0 = q.define("cam.least.psi0", found[least.rule])
         q.define("cam.least.r0", sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0)))

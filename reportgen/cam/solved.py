@@ -28,6 +28,7 @@ class SolvedCam(DesignCase):
 
     @property
     def speed(self) -> float | None:
+        """The cam's speed (rad/s), None where there is none."""
         return self.ledger["cam.omega"].at(1) if "cam.omega" in self.ledger else None
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -18,14 +18,13 @@ from reportgen.cam.laws import FollowerLaw, Piece
 from reportgen.cam.solution import MOVING
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Scene
-from reportgen.formula import Call, Chain, Expression, Number, Symbol, substitute, vocabulary
+from reportgen.formula import Call, Chain, Expression, Number, Symbol, substitute
 from reportgen.formula.plain import formula
 from reportgen.report import Cell, Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.case import AskedFor
 from reportgen.report.design import DesignPage
 from reportgen.report.prose import Prose
 
-DATA = (95.0, 25.0, 40.0)
 CHECKS = (74.0, 30.0, 30.0, 26.0)
 ROWS = 16.0
 """The width of the column of positions (mm)."""
@@ -143,7 +142,7 @@ class CamPage(DesignPage[SolvedCam]):
             "sound": not (exceeded or undercut) and all_hold,
             # symbols, numbers, lines, figures
             "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
-            "value": lambda id, k=None: Value(case.printed.number(id, k)),
+            "value": self.value,
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
@@ -162,46 +161,22 @@ class CamPage(DesignPage[SolvedCam]):
         read = {name: cam_ids.touch(MOVING[rule], name) for name in ("phi", "psi", "dpsi")}
         return {"phase": str(self.words["phases"][rule]), **read}
 
-    # --- symbols and lines
-
-    def math(self, text: str) -> Symbol:
-        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
-        if text in self.case.printed:
-            return self.case.printed.symbol(text)
-        base, _, sub = text.partition("_")
-        return vocabulary.in_language(Symbol(base, sub), self.case.words["symbols"])
-
-    def quantity(self, id: str, k: int | None = None) -> Inlines:
-        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
-
-    def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Equation, ...]:
-        """Worked lines, in an equation if there are any."""
-        rows = tuple(self.case.printed.chain(id, k) for id in quantities)
-        return (Equation(rows),) if rows else ()
-
     # --- what is given
 
     @property
     def data(self) -> Table:
         """The data with their names, symbols and values; what was found is left out."""
-        case, heads, finds = self.case, self.case.words["table"], self.case.solution.given.finds
+        case, finds = self.case, self.case.solution.given.finds
         hidden = {_id(key) for key in finds}
         if case.solution.designed.usual:
             hidden.add(cam_ids.limit("return"))
-        rows = []
-        for id, name in case.words["given"].items():
-            if id in case.printed and id not in hidden:
-                symbol, value = case.printed.symbol(id), Value(case.printed.number(id))
-                rows.append((Cell((Text(str(name)),)), Cell((InlineMath(symbol),)), Cell((value,))))
+        rows = list(self.given_rows(hidden))
         for key in ("follower", "end", "lifts", "direction", "closed_by"):
             if (said := self._said(key)) is not None:
-                rows.append((Cell((Text(said[0]),)), Cell((Text("–"),)), Cell((Text(said[1]),))))
+                rows.append(((Text(said[0]),), (Text("–"),), (Text(said[1]),)))
         for phase, text in self.law_words.items():
-            rows.append((Cell((Text(self.words["law_of"][phase]),)), Cell((Text("–"),)), Cell((Text(text),))))
-        head = tuple(Cell((Text(heads[key]),)) for key in ("quantity", "symbol", "value"))
-        caption = Prose(case.places).inlines(self.words["captions"]["data"])
-        widths = (Column(DATA[0], "left"), Column(DATA[1]), Column(DATA[2]))
-        return Table(widths, (head,), tuple(rows), caption, "tab.data")
+            rows.append(((Text(self.words["law_of"][phase]),), (Text("–"),), (Text(text),)))
+        return self.data_table(rows)
 
     def _said(self, key: str) -> tuple[str, str] | None:
         """A choice of the file in words."""

@@ -8,7 +8,8 @@ positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but
 
 A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
 `machine`, which makes a case of its own.  `PART` is the name that the ids of a kind begin with which can be a part of a
-coursework; its words have under `index` what symbols get that an earlier part has too.
+coursework; its words have under `index` what symbols get that an earlier part has too.  Ids of its own are in a module
+called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
 """
 
 from __future__ import annotations
@@ -23,10 +24,12 @@ from typing import Any
 from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Kind, file_model, named_worked
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem
+from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
+from reportgen.base.template_folders import samples
 from reportgen.base.units import Language, measures
-from reportgen.base.words import as_error, as_problem, kinds, language_of, samples, word
+from reportgen.base.words import as_error, as_problem, language_of, word
 from reportgen.catalogue import assembly, declared_loads
 from reportgen.catalogue.parameters import Driven
 from reportgen.machine.analysis import Machine

@@ -82,7 +82,7 @@ def driven(
     sections: Mapping[str, Any] | None = None,
     **own: Any,
 ) -> Machine:
-    """The machine of an assignment whose crank stands at the angle `start` in position 1.
+    """The machine of an assignment whose crank stands at the angle `start` (rad) in position 1.
 
     `sections` go to `outline`, all further fields of its `Machine` are given by name; loads that are zero throughout
     are left out.

@@ -100,8 +100,8 @@ def _check_assembly(given: Parameters) -> Iterator[Finding]:
         return
     members = {(2, 3): Member("BC", ("parameters", "BC")), (4, 5): Member(f"{given.joint}E", ("parameters", "DE"))}
     linkage = _linkage(given, _sheet(given))
-    if found := list(assembly.findings(linkage, members)):
-        yield from found
+    if obstacles := list(assembly.findings(linkage, members)):
+        yield from obstacles
         return
     motion_at = crank_motion(linkage, Positions(), 0.0)
     for slider, key in ((3, "BC"), (5, "DE")):

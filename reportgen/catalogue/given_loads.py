@@ -192,7 +192,7 @@ class LinkTorque(Part):
 def torque_on(
     given: LinkTorque | None, link: int, linkage: Linkage, positions: Positions, start: float
 ) -> tuple[Torque, ...]:
-    """The torque on a link of a crank's linkage whose crank stands at the angle `start` in position 1."""
+    """The torque on a link of a crank's linkage whose crank stands at the angle `start` (rad) in position 1."""
     if given is None:
         return ()
     size, motion_at = given.M.si, crank_motion(linkage, positions, start)

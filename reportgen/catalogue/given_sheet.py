@@ -69,7 +69,7 @@ class GivenSheet(Sheet):
         self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
 
     def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
-        """The crank's drawn length by a round scale of the drawing."""
+        """The crank's drawn length (mm) by a round scale (m per mm) of the drawing."""
         μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
         self.define(ids.drawn(start, end), crank / μ, drawn_length(start, end))
 
@@ -145,7 +145,7 @@ class GivenSheet(Sheet):
         return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
 
     def fix(self, id: str, at: complex, length: Operand) -> None:
-        """A fixed point or a guide's point that lies at a given `length` from the origin, and so goes with it."""
+        """A fixed point or a guide's point `at` (m) that lies at a `length` from the origin, and so goes with it."""
         far = self.construct(ids.far(id), length)
         if self.si(far):
             self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
@@ -175,7 +175,7 @@ class GivenSheet(Sheet):
 
 
 def cycle_angles(positions: Positions, turns: int = 1) -> np.ndarray:
-    """Cycle angles of evenly spaced positions [count·turns], or of the instants [N]."""
+    """Cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N]."""
     if positions.at:
         return np.array(positions.instants(turns))
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)

@@ -352,6 +352,6 @@ class Parameters(UnderGravity):
             driver=self.driver.driver,
             dyads=tuple(group.dyad for group in self.groups),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
-            inertias=tuple(one for one in bodies if one.mass or one.moment),
+            inertias=tuple(body for body in bodies if body.mass or body.moment),
             gravity=-1j * self.gravity,
         )

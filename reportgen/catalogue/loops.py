@@ -83,7 +83,7 @@ class LoopBody:
     eps: Expression = NOTHING
 
     def place(self, local: complex) -> Pair:
-        """The place of a point by its typed distances along the link and across it."""
+        """The place of a point by its typed distances (m) along the link and across it."""
         e, (u, w) = along(self.angle), typed(local)
         return add(self.origin.p, scaled(u, e), scaled(w, turned(e)))
 
@@ -221,8 +221,9 @@ class ClosedLoops:
     def shown(self, u: Pair, w: Pair, velocity: Sides, acceleration: Sides) -> None:
         """The equations in matrix form: both unknowns and the right-hand side of each."""
         A = Matrix(((u[0], w[0]), (u[1], w[1])))
-        for what, (first, second, b) in zip(RATES.values(), (velocity, acceleration), strict=True):
-            self.equations[f"{what}-{self.group}"] = (Chain((A * column(first, second), column(*b))),)
+        for what, sides in {"velocity": velocity, "acceleration": acceleration}.items():
+            first, second, right = sides
+            self.equations[f"{what}-{self.group}"] = (Chain((A * column(first, second), column(*right))),)
 
     def closure(self, outward: Pair, back: Pair) -> None:
         self.equations[f"closure-{self.group}"] = tuple(Chain(sides) for sides in zip(outward, back, strict=True))
@@ -287,7 +288,8 @@ class ClosedLoops:
 
 
 def _rrr(k: ClosedLoops, dyad: Dyad) -> None:
-    (i, j), P, T, Q = dyad.links, k.points[str(dyad.start)], k.points[str(dyad.end)], dyad.middle
+    i, j = dyad.links
+    P, T, Q = k.points[str(dyad.start)], k.points[str(dyad.end)], dyad.middle
     l_i, l_j = Ref(ids.length(str(dyad.start), Q)), Ref(ids.length(str(dyad.end), Q))
     x, y = less(T.p, P.p)
     d = k.line("place", ids.loop_distance(k.group), sqrt(plus(square(x), square(y))))
@@ -316,7 +318,8 @@ def _rrr(k: ClosedLoops, dyad: Dyad) -> None:
 
 
 def _rrp(k: ClosedLoops, dyad: Dyad) -> None:
-    (i, j), P, Q, rail = dyad.links, k.points[str(dyad.start)], dyad.middle, k.rail(dyad.links[1], dyad.end)
+    i, j = dyad.links
+    P, Q, rail = k.points[str(dyad.start)], dyad.middle, k.rail(j, dyad.end)
     l, α, joint = Ref(ids.length(str(dyad.start), Q)), rail.angle, ids.joint(rail.link, j)  # noqa: E741
     d = k.line("place", ids.loop_distance(k.group), across(less(P.p, rail.at), α))
     dip = asin(d / l)
@@ -357,7 +360,8 @@ def _rrp(k: ClosedLoops, dyad: Dyad) -> None:
 
 
 def _rpr(k: ClosedLoops, dyad: Dyad) -> None:
-    (i, j), P, T, joint = dyad.links, k.points[str(dyad.start)], k.points[str(dyad.end)], ids.joint(*dyad.links[::-1])
+    i, j = dyad.links
+    P, T, joint = k.points[str(dyad.start)], k.points[str(dyad.end)], ids.joint(j, i)
     relative, e = f"{dyad.middle}{dyad.start}", as_expression(0.0)
     if offset := dyad.lengths[1]:
         e = signed(offset, Ref(ids.length(str(dyad.end), f"H{j}")))
@@ -386,7 +390,8 @@ def _rpr(k: ClosedLoops, dyad: Dyad) -> None:
 
 
 def _prp(k: ClosedLoops, dyad: Dyad) -> None:
-    (i, j), Q = dyad.links, dyad.middle
+    i, j = dyad.links
+    Q = dyad.middle
     rail1, rail2 = k.rail(i, dyad.start), k.rail(j, dyad.end)
     first, second = ids.joint(rail1.link, i), ids.joint(rail2.link, j)
     α, β, apart = rail1.angle, rail2.angle, between(rail2.angle, rail1.angle)
@@ -414,7 +419,8 @@ def _prp(k: ClosedLoops, dyad: Dyad) -> None:
 
 
 def _rpp(k: ClosedLoops, dyad: Dyad) -> None:
-    (i, j), P, Q, rail = dyad.links, k.points[str(dyad.start)], dyad.middle, k.rail(dyad.links[1], dyad.end)
+    i, j = dyad.links
+    P, Q, rail = k.points[str(dyad.start)], dyad.middle, k.rail(j, dyad.end)
     on_guide, in_slot = ids.joint(rail.link, j), ids.joint(j, i)
     α, ψ, ω = rail.angle, degrees(dyad.slide_angle), rail.carrier.omega
     β = Number(α.value + ψ.value, unit="°") if isinstance(α, Number) else α + ψ

@@ -46,6 +46,10 @@ class Flywheel(Part):
     delta: Unevenness
 
 
+OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s": Share}
+"""What a file may give of a link, by the letter before its number."""
+
+
 class UnderGravity(Part):
     """Where a machine stands: gravity, which does not act in a horizontal plane."""
 
@@ -86,13 +90,13 @@ class Driven(UnderGravity):
         loads: Iterable[str] = (),
         **rest: Any,
     ) -> None:
-        links = tuple(tuple(sorted({DRIVER, *numbers})) for numbers in (masses, moments, shares))
-        types = (Weight, Mass, MomentOfInertia, Share)
-        cls.links = {"G": links[0], "m": links[0], "J": links[1], "s": links[2]}
+        of_masses, of_moments, of_shares = (tuple(sorted({DRIVER, *links})) for links in (masses, moments, shares))
+        cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares}
         cls.required, cls.evened = tuple(required), (*loads, "loads")
-        for (letter, numbers), kind in zip(cls.links.items(), types, strict=True):
+        # A field of pydantic is an annotation with a default, which the body of the class would have had.
+        for letter, numbers in cls.links.items():
             for number in numbers:
-                cls.__annotations__[f"{letter}{number}"] = kind | None
+                cls.__annotations__[f"{letter}{number}"] = OF_LINK[letter] | None
                 setattr(cls, f"{letter}{number}", None)
         super().__init_subclass__(**rest)
 
@@ -110,7 +114,7 @@ class Driven(UnderGravity):
 
     @property
     def unevenness(self) -> float | None:
-        """δ of the flywheel, None if none is asked for."""
+        """δ of the flywheel, a ratio; None if none is asked for."""
         return None if self.flywheel is None else self.flywheel.delta.si
 
     @classmethod

@@ -119,10 +119,44 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     sin γ = h/l₄;  v_E = v⊥ tan γ − v∥;  a_E = a⊥ tan γ + v⊥²/(l₄ cos³γ) − a∥, towards the crank.  Uses `delta` and
     what `centred_slider` enters; enters `beta.4`, `f.v.E`, `f.omega.4`, `f.a.E`, `f.eps.4`.
     """
-    R, ω1, φ, δ, l4 = q["R"], q["omega.1"], q["phi.3"], q["delta"], q[ids.length(joint, "E")]
+    δ, l4 = q["delta"], q[ids.length(joint, "E")]
     line = partial(q.define, scale=1.0)
-    x: Expression = R * sin(φ)
-    y: Expression = R * cos(φ)
+    _joint_of_second_rod(q, turn, joint)
+    ξ, η = (ids.formula_coordinate(axis, joint) for axis in "xy")
+    v_ξ, v_η = (ids.formula_component(axis, joint, "v") for axis in "xy")
+    a_ξ, a_η = (ids.formula_component(axis, joint, "a") for axis in "xy")
+
+    # Across and along the second cylinder, which stands at δ from the first.
+    def across(ξ: str, η: str) -> Expression:
+        return q[ξ] * cos(δ) - q[η] * sin(δ)
+
+    def along(ξ: str, η: str) -> Expression:
+        return q[η] * cos(δ) + q[ξ] * sin(δ)
+
+    h = line("f.h", across(ξ, η), "h", "length")
+    γ = line("beta.4", asin(h / l4), "γ")
+    v1 = line("f.across.v", across(v_ξ, v_η), Symbol("v", "⊥"), "velocity")
+    v2 = line("f.along.v", along(v_ξ, v_η), Symbol("v", "∥"), "velocity")
+    v = line("f.v.E", v1 * tan(γ) - v2)
+    ω4 = line("f.omega.4", signed(-turn, v1 / (l4 * cos(γ))))
+    a1 = line("f.across.a", across(a_ξ, a_η), Symbol("a", "⊥"), "acceleration")
+    a2 = line("f.along.a", along(a_ξ, a_η), Symbol("a", "∥"), "acceleration")
+    a = line("f.a.E", a1 * tan(γ) + v1**2 / (l4 * cos(γ) ** 3) - a2)
+    ε4 = line("f.eps.4", signed(-turn, (a1 + l4 * ω4**2 * sin(γ)) / (l4 * cos(γ))))
+
+    v_joint, a_joint = ids.formula(ids.velocity(joint)), ids.formula(ids.acceleration(joint))
+    q.set_out("velocity_main", q["phi.3"], "beta.2", "f.v.C", "f.omega.2", v_ξ, v_η, v_joint)
+    q.set_out("velocity_second", ξ, η, h, γ, v1, v2, v, ω4)
+    q.set_out("acceleration_main", "f.a.C", "f.eps.2", a_ξ, a_η, a_joint)
+    q.set_out("acceleration_second", a1, a2, a, ε4)
+
+
+def _joint_of_second_rod(q: Sheet, turn: int, joint: str) -> None:
+    """Where the second rod hangs: ξ and η of the crank pin B, with its rates, or of D, whose rates are there."""
+    R, ω1, φ = q["R"], q["omega.1"], q["phi.3"]
+    line = partial(q.define, scale=1.0)
+    ξ: Expression = R * sin(φ)
+    η: Expression = R * cos(φ)
     if joint == "B":
         line("f.x.B.v", ω1 * R * cos(φ), Symbol("v", "Bξ"))
         line("f.y.B.v", -(ω1 * R * sin(φ)), Symbol("v", "Bη"))
@@ -131,33 +165,9 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
         line("f.y.B.a", plus(-(ω1**2 * R * cos(φ)), minus(times(ε1, R, sin(φ)))), Symbol("a", "Bη"))
     else:
         s = q[ids.length("B", joint)]
-        x, y = R * (1 - s / q["L"]) * sin(φ), y + s * cos(q["beta.2"])
-    place = ids.formula_coordinate("x", joint), ids.formula_coordinate("y", joint)
-    rates = {what: tuple(ids.formula_component(axis, joint, what) for axis in "xy") for what in "va"}
-    line(place[0], x, Symbol("ξ", joint))
-    line(place[1], y, Symbol("η", joint))
-
-    def across(x: str, y: str) -> Expression:
-        return q[x] * cos(δ) - q[y] * sin(δ)
-
-    def along(x: str, y: str) -> Expression:
-        return q[y] * cos(δ) + q[x] * sin(δ)
-
-    h = line("f.h", across(*place), "h", "length")
-    γ = line("beta.4", asin(h / l4), "γ")
-    v1 = line("f.across.v", across(*rates["v"]), Symbol("v", "⊥"), "velocity")
-    v2 = line("f.along.v", along(*rates["v"]), Symbol("v", "∥"), "velocity")
-    v = line("f.v.E", v1 * tan(γ) - v2)
-    ω4 = line("f.omega.4", signed(-turn, v1 / (l4 * cos(γ))))
-    a1 = line("f.across.a", across(*rates["a"]), Symbol("a", "⊥"), "acceleration")
-    a2 = line("f.along.a", along(*rates["a"]), Symbol("a", "∥"), "acceleration")
-    a = line("f.a.E", a1 * tan(γ) + v1**2 / (l4 * cos(γ) ** 3) - a2)
-    ε4 = line("f.eps.4", signed(-turn, (a1 + l4 * ω4**2 * sin(γ)) / (l4 * cos(γ))))
-    of_joint = {what: (*rates[what], ids.formula(ids.POINT_RATE[what](joint))) for what in "va"}
-    q.set_out("velocity_main", φ, "beta.2", "f.v.C", "f.omega.2", *of_joint["v"])
-    q.set_out("velocity_second", *place, h, γ, v1, v2, v, ω4)
-    q.set_out("acceleration_main", "f.a.C", "f.eps.2", *of_joint["a"])
-    q.set_out("acceleration_second", a1, a2, a, ε4)
+        ξ, η = R * (1 - s / q["L"]) * sin(φ), η + s * cos(q["beta.2"])
+    line(ids.formula_coordinate("x", joint), ξ, Symbol("ξ", joint))
+    line(ids.formula_coordinate("y", joint), η, Symbol("η", joint))
 
 
 # --- with an offset ---------------------------------------------------------------------------------
@@ -175,12 +185,12 @@ class OffsetSlider:
 
     @property
     def stretched(self) -> float:
-        """φ at the outer dead centre, crank and rod in line: sin φ = e/(l + r)."""
+        """φ (rad) at the outer dead centre, crank and rod in line: sin φ = e/(l + r)."""
         return math.asin(self.e / (self.l + self.r))
 
     @property
     def folded(self) -> float:
-        """φ at the inner dead centre, the rod over the crank: φ = π + arcsin(e/(l − r))."""
+        """φ (rad) at the inner dead centre, the rod over the crank: φ = π + arcsin(e/(l − r))."""
         return math.pi + math.asin(self.e / (self.l - self.r))
 
     def slider(self, reach: float) -> complex:
@@ -188,11 +198,11 @@ class OffsetSlider:
         return self._placed(complex(math.sqrt(reach**2 - self.e**2), self.e))
 
     def crank_angle(self, phi: float) -> float:
-        """The crank's angle from +x of the drawing."""
+        """The crank's angle (rad) from +x of the drawing."""
         return self.axis + self.turn * phi
 
     def phi(self, crank_angle: float) -> float:
-        """φ of a crank's angle from +x of the drawing."""
+        """φ (rad) of a crank's angle (rad) from +x of the drawing."""
         return self.turn * (crank_angle - self.axis)
 
     def _placed(self, own: complex) -> complex:
@@ -205,7 +215,7 @@ class OffsetSlider:
         return -(self.r * np.cos(phi - beta) + omega**2 * self.l) / np.cos(beta)
 
     def fastest(self) -> tuple[float, float]:
-        """φ of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
+        """φ (rad) of the slider's greatest speeds, inward and outward: a_C = 0, once in each stroke."""
         low = np.array([self.stretched, self.folded])
         high = np.array([self.folded, self.stretched + FULL_TURN])
         before = self.acceleration(low)[:, None]
@@ -213,7 +223,7 @@ class OffsetSlider:
         return float(low[0]), float(low[1])
 
     def course(self, start: float, turns: int) -> Stroke:
-        """The way of slider 3 in a machine that starts at φ = `start` and has a cycle of `turns` turns."""
+        """The way of slider 3 in a machine that starts at φ = `start` (rad) and has a cycle of `turns` turns."""
         return Stroke(
             link=3,
             rod=2,
@@ -228,7 +238,7 @@ class OffsetSlider:
 
     @property
     def line(self) -> complex:
-        """The point of the guide's line that is nearest to A."""
+        """The point (m) of the guide's line that is nearest to A."""
         return self._placed(1j * self.e)
 
     def linkage(self, inertias: Sequence[Inertia], gravity: float, centre: float | None = None) -> Linkage:

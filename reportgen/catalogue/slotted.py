@@ -68,20 +68,21 @@ class SlottedCrank:
         return math.asin(self.r / self.d)
 
     def place(self, own: complex) -> complex:
-        """A point of the own axes, seen from A, on the drawing."""
+        """A point of the own axes, seen from A, on the drawing (m)."""
         up = cmath.exp(1j * self.axis)
         return -1j * self.turn * up * own.real + up * own.imag
 
     def crank_angle(self, phi: float) -> float:
-        """The crank's angle from +x of the drawing."""
+        """The crank's angle (rad) from +x of the drawing."""
         return self.axis + self.turn * (phi - math.pi / 2)
 
     def phi(self, crank_angle: float) -> float:
-        """φ of a crank's angle from +x of the drawing."""
+        """φ (rad) of a crank's angle (rad) from +x of the drawing."""
         return math.pi / 2 + self.turn * (crank_angle - self.axis)
 
     @property
     def ground(self) -> dict[str, complex]:
+        """The fixed points (m) by name."""
         return {"A": 0j, "C": self.place(-1j * self.d)}
 
     @property
@@ -110,18 +111,18 @@ class Ram:
 
     @property
     def beginning(self) -> float:
-        """φ₁ at which the working stroke begins: −θ, the crank square to the lever."""
+        """φ₁ (rad) at which the working stroke begins: −θ, the crank square to the lever."""
         return -self.crank.half_swing
 
     def end(self, side: int) -> complex:
-        """Where E stands at the beginning (+1) or the end (−1) of the working stroke, from A on the drawing."""
+        """Where E stands (m) at the beginning (+1) or the end (−1) of the working stroke, from A on the drawing."""
         theta = self.crank.half_swing
         rise = (self.height - self.lever * math.cos(theta)) / self.link
         along = side * self.lever * math.sin(theta) - self.link * math.sqrt(1 - rise**2)
         return self.crank.place(complex(along, self.height - self.crank.d))
 
     def course(self, start: float) -> Stroke:
-        """The ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start`."""
+        """The ram's way from the beginning of its working stroke, for a machine that starts at φ₁ = `start` (rad)."""
         return Stroke(
             link=5,
             rod=4,
@@ -136,11 +137,11 @@ class Ram:
 
     @property
     def line(self) -> complex:
-        """The point of the ram's line that is nearest to A."""
+        """The point (m) of the ram's line that is nearest to A."""
         return self.crank.place(1j * (self.height - self.crank.d))
 
     def linkage(self, points: Sequence[LinkPoint], inertias: Sequence[Inertia], gravity: float) -> Linkage:
-        """The mechanism; the ram's guide points against its working way, E lies on the working side of D."""
+        """The mechanism (gravity in m/s²); the ram's guide points against its working way, E lies on its side of D."""
         towards = self.crank.place(1 + 0j)
         guide = Guide(self.line, math.atan2(towards.imag, towards.real))
         return Linkage(

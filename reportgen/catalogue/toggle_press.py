@@ -100,8 +100,8 @@ def machine(assignment: Assignment) -> Machine:
     sliders: tuple[Stroke, ...] = ()
     pressing: tuple[Applied, ...] = ()
     if press is not None:
-        way = course(linkage, 5, crank_motion(linkage, positions, start))
-        sliders, pressing = (way,), (Applied("P5", 5, "C", fixed(1j), TableLaw(way, press.table, turns=1)),)
+        stroke = course(linkage, 5, crank_motion(linkage, positions, start))
+        sliders, pressing = (stroke,), (Applied("P5", 5, "C", fixed(1j), TableLaw(stroke, press.table, turns=1)),)
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]

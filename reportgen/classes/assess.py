@@ -15,17 +15,22 @@ from reportgen import api
 from reportgen.api import Engine
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
 from reportgen.base.files import overwritten, put_files, reported, scratch
+from reportgen.base.kinds import title
 from reportgen.base.units import Language
-from reportgen.base.words import as_problem, counted, title, word
+from reportgen.base.words import as_problem, counted, word
 from reportgen.cases import open_case
-from reportgen.classes.platforms import Gradebook, Owner, StudentResult, handed_in, read_sheets, zipped
+from reportgen.classes.gradebooks import Gradebook, StudentResult
+from reportgen.classes.platforms import Owner, handed_in, zipped
+from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import RosterEntry, assignment_files, comparable, folder_name, read_roster
 from reportgen.marking.feedback import feedback_book, feedback_document
 from reportgen.marking.grades import class_document, grade_rows, person
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, MarkingScheme, Policy, Submission, marking_scheme
+from reportgen.marking.marks import Marking, Submission
 from reportgen.marking.parts import check_shares
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx

@@ -19,7 +19,7 @@ SOCKETS, OUT = "REPORTGEN_SOCKETS", "REPORTGEN_OUT"
 """By these names in its environment it knows the folder of the sockets of all processes, and that of the results."""
 
 
-def told(out: Path | None) -> Mapping[str, str]:
+def environment(out: Path | None) -> Mapping[str, str]:
     """What the process has to know, for its environment."""
     # The folder that multiprocessing makes; a run that ends by itself removes it.
     sockets = multiprocessing.util.get_temp_dir()

@@ -34,8 +34,9 @@ from reportgen.base.errors import AssignmentError, Problem, ReportgenError
 from reportgen.base.files import version
 from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.made import assignment_hash
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates, templates_hash, unexpected, word
+from reportgen.base.words import templates_hash, unexpected, word
 from reportgen.classes import leavings
 
 if TYPE_CHECKING:
@@ -246,7 +247,7 @@ def _context(
     context.set_forkserver_preload([leavings.__name__, *loaded])
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.told(out)}
+    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.environment(out)}
     before = {name: os.environ.get(name) for name in surroundings}
     os.environ |= surroundings
     try:

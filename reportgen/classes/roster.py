@@ -26,10 +26,11 @@ from reportgen.assignment import parts
 from reportgen.assignment.fields import RESERVED, TypedText
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import contents
+from reportgen.base.kinds import kinds
 from reportgen.base.source import Scalar, read_source
 from reportgen.base.source_text import at
 from reportgen.base.units import NUMBER, UNIT, Language
-from reportgen.base.words import as_error, as_problem, close_or_known, kinds, messages
+from reportgen.base.words import as_error, as_problem, close_or_known, messages
 from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20

@@ -110,6 +110,7 @@ def _app() -> typer.Typer:
         student.build,
         student.sheet,
         takeaway.figure,
+        takeaway.plot,
         student.watch,
         student.solve,
         student.compare,

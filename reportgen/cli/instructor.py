@@ -101,8 +101,9 @@ def batch(
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
     from reportgen.api import MAKERS
-    from reportgen.classes.run import NAME, Order, run_batch
-    from reportgen.marking.marks import read_policy
+    from reportgen.classes.manifest import NAME
+    from reportgen.classes.run import Order, run_batch
+    from reportgen.marking.policy import read_policy
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
@@ -149,7 +150,7 @@ def key(
     from reportgen import api
     from reportgen.base.files import scratch
     from reportgen.base.made import put_made
-    from reportgen.marking.marks import read_policy
+    from reportgen.marking.policy import read_policy
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
@@ -194,8 +195,9 @@ def grade(
 ) -> None:
     """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen.classes import assess
-    from reportgen.classes.platforms import files_read, read_gradebook
-    from reportgen.marking.marks import Policy, read_policy
+    from reportgen.classes.gradebooks import read_gradebook
+    from reportgen.classes.platforms import files_read
+    from reportgen.marking.policy import Policy, read_policy
 
     with ending(lang):
         made = (*standing(out, "feedback", "*/"), *standing(out, "class"))

@@ -229,7 +229,8 @@ def new(
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
     from reportgen import catalogue
-    from reportgen.base.words import kinds, sample, spoken, unknown
+    from reportgen.base.kinds import kinds, sample
+    from reportgen.base.words import spoken, unknown
 
     if kind not in kinds():
         raise typer.BadParameter(unknown("no_kind", kind, list(kinds()), lang))
@@ -244,7 +245,7 @@ def new(
 
 
 def _kinds() -> list[str]:
-    from reportgen.base.words import kinds
+    from reportgen.base.kinds import kinds
 
     return list(kinds())
 
@@ -255,7 +256,7 @@ def samples(
     lang: LangOption = None,
 ) -> None:
     """Copy the examples, and a class to try, to DIR. Every kind of machine has examples."""
-    from reportgen.base.words import samples as packed
+    from reportgen.base.template_folders import samples as packed
 
     with ending(lang):
         files = {folder / path.relative_to(packed()): path for path in sorted(packed().rglob("*")) if path.is_file()}
@@ -270,7 +271,8 @@ def samples(
 
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
-    from reportgen.base.words import spoken, titles
+    from reportgen.base.kinds import titles
+    from reportgen.base.words import spoken
 
     known = titles(lang or spoken())
     width = max(map(len, known))

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 import typer
 
 from reportgen.base.files import reported, standing
-from reportgen.cli.common import File, LangOption, TemplatesOption, ending, listed, refuse_inputs, tell
+from reportgen.cli.common import File, Files, LangOption, TemplatesOption, ending, listed, refuse_inputs, tell
 
-FIGURES = "figures"
-"""The folder of figures beside the report."""
+FIGURES, PLOTS = "figures", "plots"
+"""The folder of figures beside the report, and that of plots."""
 
 
 def figure(
@@ -59,6 +59,42 @@ def figure(
             )
             of = api.made_of(file, "typst", api.load(file, lang).language)
             tell(put_made(folder, files, "figures", of), lang)
+
+
+def plot(
+    files: Files,
+    of: Annotated[str, typer.Option("--of", metavar="IDS", help="Quantities, parted by commas.", show_default=False)],
+    over: Annotated[
+        Literal["phi", "time"], typer.Option("--over", help="The driver's angle, or its way, or time.")
+    ] = "phi",
+    measured: Annotated[
+        Path | None, typer.Option("--with", metavar="TABLE", help="Measured values, CSV or XLSX.", show_default=False)
+    ] = None,
+    format: Annotated[
+        str, typer.Option("--format", metavar="LIST", help="Of svg, png, pdf, eps; parted by commas.")
+    ] = "svg",
+    dpi: Annotated[int, typer.Option("--dpi", min=10, max=1200, help="Dots an inch.")] = 220,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the charts.")] = Path("out"),
+    lang: LangOption = None,
+) -> None:
+    """Plot quantities of each FILE as curves, a chart a unit. They go to DIR/<id of the first>/plots/ID.svg, ….
+
+    Ids are those of answer sheets and keys, v.E. A TABLE is headed by ids with their units, v.E (m/s); its first column
+    is phi (deg) from position 1, or t (s).
+    """
+    from reportgen import api
+    from reportgen.base.files import scratch
+    from reportgen.base.made import put_made
+
+    formats = listed(format, api.PLOT_FORMATS, "--format", "no_format", lang)
+    ids = tuple(dict.fromkeys(name.strip() for name in of.split(",") if name.strip()))
+    with ending(lang):
+        folder = out / files[0].stem / PLOTS
+        refuse_inputs(standing(folder, "plots"), [*files, measured], lang)
+        with reported(), scratch(out):
+            made = api.plot_files(files, ids, over, measured, formats=formats, dpi=dpi, language=lang)
+            of_first = api.made_of(files[0], "", api.load(files[0], lang).language)
+            tell(put_made(folder, made, "plots", of_first, alone=True), lang)
 
 
 def _print_list(file: Path, lang: LangOption) -> None:

@@ -17,6 +17,7 @@ from reportgen.report import (
     Block,
     Cell,
     Column,
+    Contents,
     Cover,
     Document,
     Equation,
@@ -30,6 +31,7 @@ from reportgen.report import (
     Table,
     Text,
 )
+from reportgen.report.layout import contents
 from reportgen.report.numbering import number
 from reportgen.report.wording import sentence
 
@@ -63,9 +65,9 @@ class PartReport:
         """What stands below the heading that opens a section, "" for the chapters, their headings included."""
         blocks: list[Block] = []
         for group in self._groups:
-            if told(group[0]) == what:
+            if topic(group[0]) == what:
                 blocks += group[1:]
-            elif not what and told(group[0]) not in ("given", "conclusion"):
+            elif not what and topic(group[0]) not in ("given", "conclusion"):
                 blocks += group
         return tuple(blocks)
 
@@ -81,32 +83,33 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
     """One numbered document; `words` are those of the machine, `senses` say which way the shafts turn."""
     sections = list(groups(machine.blocks))
     # A short report has no summary.
-    last_told = "overview" if any(told(head) == "overview" for head, *_ in sections) else "conclusion"
+    last_topic = "overview" if any(topic(head) == "overview" for head, *_ in sections) else "conclusion"
     counted = [index for index, (head, *_) in enumerate(sections) if isinstance(head, Section) and head.numbered]
     last = counted[-1] if counted else len(sections) - 1
     blocks: list[Block] = []
     for index, (head, *below) in enumerate(sections):
-        below = list(with_parts_named(below, parts, words)) if told(head) == "foreword" else below
+        below = list(with_parts_named(below, parts, words)) if topic(head) == "foreword" else below
         blocks += (with_titles(head, parts) if isinstance(head, Cover) else head, *below)
-        if told(head) == "symbols":
+        if topic(head) == "symbols":
             blocks += symbols(parts, words)
         for part in parts:
-            match told(head):
+            match topic(head):
                 case "given":
                     blocks += (heading(part.title, 2), *part.group("given"), *part.taken)
                 case "overview":
                     blocks += (heading(f"{part.title}.", RUN_IN), *part.summary)
                 case "conclusion":
                     blocks += (heading(f"{part.title}.", RUN_IN), *part.group("conclusion"))
-        if told(head) == last_told:
+        if topic(head) == last_topic:
             blocks += senses
         if index == last:
             for part in parts:
                 blocks += (Section(1, (Text(part.title),)), *part.lettered, *part.group(""))
-    return number(replace(machine, blocks=tuple(blocks)))
+    listed = (contents(one.title, blocks, one.brief) if isinstance(one, Contents) else one for one in blocks)
+    return number(replace(machine, blocks=tuple(listed)))
 
 
-def task_of(machine: Document, parts: Sequence[PartReport]) -> Document:
+def handout(machine: Document, parts: Sequence[PartReport]) -> Document:
     """One handout: that of the machine, then those of the parts, each from a page of its own and without its head."""
     blocks = list(machine.blocks)
     for part in parts:
@@ -130,7 +133,7 @@ def groups(blocks: Iterable[Block]) -> Iterator[Blocks]:
         yield tuple(group)
 
 
-def told(block: Block) -> str:
+def topic(block: Block) -> str:
     """What a heading begins, whatever kind of work it is of: given, symbols, conclusion, …."""
     return block.opens.rpartition("-")[2] if isinstance(block, Section) else ""
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.assignment.common import AssignedPart, Assignment, TakenDatum
 from reportgen.coursework import senses
-from reportgen.coursework.booklet import PartReport, booklet, task_of
+from reportgen.coursework.booklet import PartReport, booklet, handout
 from reportgen.coursework.senses import PartShafts
 from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, nodes, relettered
 from reportgen.drawing.animation import Animation
@@ -25,7 +25,7 @@ from reportgen.formula import Chain, Expression, Number, Ref, Symbol
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
 from reportgen.report import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
-from reportgen.report.case import Case, CaseOfParts, Misconceptions
+from reportgen.report.case import Case, CaseOfParts, DriverMotion, Misconceptions
 from reportgen.report.key import Key, PartOfKey, Span, capitalised
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
@@ -174,6 +174,10 @@ class Coursework(CaseOfParts):
         return self.machine.speed
 
     @property
+    def driver_motion(self) -> DriverMotion | None:
+        return self.machine.driver_motion
+
+    @property
     def balance(self) -> np.ndarray | None:
         return self.machine.balance
 
@@ -234,7 +238,7 @@ class Coursework(CaseOfParts):
             for member in self.members
         ]
         for driver in self.machine.shafts[:1]:
-            yield from senses.told(driver, parts, self.words, unit)
+            yield from senses.senses_of_shafts(driver, parts, self.words, unit)
 
     @property
     def shafts(self) -> Sequence[Shaft]:
@@ -317,7 +321,7 @@ class Coursework(CaseOfParts):
 
     def joined_task(self, papers: Sequence[Document]) -> Document:
         machine, *others = papers
-        return task_of(machine, list(map(self._handout, self.members, others)))
+        return handout(machine, list(map(self._handout, self.members, others)))
 
     def _handout(self, member: PartCase, paper: Document) -> PartReport:
         own = relettered(paper, self.letters[member.name])

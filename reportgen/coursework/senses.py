@@ -62,7 +62,9 @@ def _is_driver(shaft: Shaft, taken: Mapping[str, str], driver: Shaft) -> bool:
     return math.isclose(shaft.speed, driver.speed, rel_tol=max(shaft.share, SAME))
 
 
-def told(driver: Shaft, parts: Sequence[PartShafts], words: Mapping[str, Any], unit: str) -> Iterator[Block]:
+def senses_of_shafts(
+    driver: Shaft, parts: Sequence[PartShafts], words: Mapping[str, Any], unit: str
+) -> Iterator[Block]:
     """A sentence and a table of all shafts, and why a speed may have another sign in its own part."""
     own = words["coursework"]["shafts"]
     rows: list[tuple[Inlines, Inlines, Inlines]] = [_row(TurningShaft(driver, driver.turn, driver), words)]

@@ -37,7 +37,7 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
         table = {key: _changed(value, kind, change) for key, value in node.items()}
         return table if any(table[key] is not node[key] for key in node) else node
     if is_dataclass(node) and not isinstance(node, type):
-        held = {one.name: getattr(node, one.name) for one in fields(node) if one.init}
+        held = {field.name: getattr(node, field.name) for field in fields(node) if field.init}
         new = {name: _changed(value, kind, change) for name, value in held.items()}
         changed_fields = {name: value for name, value in new.items() if value is not held[name]}
         return replace(node, **changed_fields) if changed_fields else node
@@ -79,7 +79,7 @@ def with_index(symbol: Symbol, index: str) -> Symbol:
 
 def letters_of(quantities: Collection[Symbol], taken: Collection[Symbol], index: str) -> Letters:
     """The symbols of a part's quantities that are taken already, with the part's index."""
-    clash = {one for one in quantities if one in taken and one.value is None}
+    clash = {quantity for quantity in quantities if quantity in taken and quantity.value is None}
     # With s goes s′, which is its derivative.
-    derived = {one for one in quantities if replace(one, base=one.base.rstrip("′")) in clash}
-    return {one: with_index(one, index) for one in quantities if one in clash | derived}
+    derived = {quantity for quantity in quantities if replace(quantity, base=quantity.base.rstrip("′")) in clash}
+    return {quantity: with_index(quantity, index) for quantity in quantities if quantity in clash | derived}

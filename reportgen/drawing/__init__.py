@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
-from reportgen.formula import Expression
+from reportgen.drawing.diagram import Content as Content
+from reportgen.drawing.diagram import Diagram as Diagram
+from reportgen.drawing.diagram import PlottedCurve as PlottedCurve
 
-Content = Expression | str
-"""What a label prints: an expression, or plain text."""
 Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
 
 
@@ -128,3 +128,5 @@ class Scene:
     """Whether its labels want more room than so small a drawing has."""
     at: str = ""
     """The position that it shows, of several scenes of a figure; it is not printed."""
+    diagram: Diagram | None = field(default=None, compare=False, repr=False)
+    """What it is painted of, if it is a chart."""

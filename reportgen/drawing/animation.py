@@ -148,7 +148,7 @@ class Pane:
 
     @property
     def enlargement(self) -> float:
-        """How much larger letters, arrowheads and pens of arrows are than in figures."""
+        """By which factor letters, arrowheads and pens of arrows are larger than in figures."""
         size = self.high - self.low
         return min(max(size.real / MACHINE.real, size.imag / MACHINE.imag, 1.0), MOST)
 
@@ -160,7 +160,7 @@ TICK = 0.8
 
 
 def scale_bars(pane: Pane) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
-    """The lower left corner of a pane with its bars, and a bar for each scale, its value above it.
+    """The lower left corner (mm) of a pane with its bars, and a bar for each scale, its value above it.
 
     Bars of scales that are in use in turns are all in one place.
     """
@@ -307,7 +307,7 @@ def _neighbours(name: str, bones: Skeleton, places: dict[str, Track]) -> Iterabl
 
 
 def path_items(linkage: Linkage, motion: Motion, names: Sequence[str], scale: float) -> list[MovingItem]:
-    """The curves that points describe."""
+    """The curves that points (m) describe, `scale` mm of paper to a metre."""
     curves: list[MovingItem] = []
     for name in names:
         curve = motion.points[name].p[motion.reachable] * scale
@@ -382,7 +382,7 @@ def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int) -> Fitted:
 
 
 def extent(items: Iterable[MovingItem]) -> tuple[complex, complex]:
-    """Lower left and upper right corner of what the items, but for switched ones, ever cover, with room for labels."""
+    """Lower left and upper right corner (mm) of what items, but for switched ones, ever cover, with room for labels."""
     points: list[complex] = []
     for item in items:
         match item:

@@ -11,9 +11,25 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import box, clusters
-from reportgen.drawing.labels import LEFT_OUT, Canvas, Request, finish, joined, label
+from reportgen.drawing import (
+    Arc,
+    Circle,
+    Content,
+    Diagram,
+    Item,
+    Label,
+    Line,
+    Pen,
+    PlottedCurve,
+    Polyline,
+    Scene,
+    style,
+)
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.diagram import Inclination
+from reportgen.drawing.geometry import clusters
+from reportgen.drawing.label_size import box
+from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.formula import Chain, Number, Symbol
 
 WIDTH, HEIGHT = 128.0, 62.0
@@ -45,18 +61,8 @@ EDGE = Pen(0.25)
 MEAN = Pen(0.25, style.BLACK, (4.0, 1.0, 0.8, 1.0))
 BEYOND = 4.0
 """What the horizontal of an angle is longer than its arc, mm."""
-MARK = 0.75
-"""Radius of the circle at a marked point, mm."""
-
-COUNT_WIDTH = 148.0
-"""Of a figure of bars or a histogram with its text, mm."""
-LENGTH = 100.0
-"""Of the axis of bars at least, mm."""
-ROW, BAR = 6.0, 4.0
-"""From one horizontal bar to the next, and their thickness, mm."""
-COLUMN_HEIGHT = 55.0
-"""Of a histogram, mm."""
-OUTLINE = Pen(0.3, style.BLUE)
+MARK, DOT = 0.75, 0.45
+"""Radius of the circle at a marked point, and of one that was measured, mm."""
 TICKS = 6
 BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
@@ -69,32 +75,6 @@ TINY = 1e-12
 """Square of a length (mm²) that counts as none."""
 
 Vertices = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class PlottedCurve:
-    """One curve: x [K] and y [K], its label, and indices of the points that get a mark."""
-
-    label: Content
-    x: ArrayLike
-    y: ArrayLike
-    marks: tuple[int, ...] = ()
-    names: tuple[Content, ...] = ()
-    """Labels of the marks, if they have any."""
-
-
-@dataclass(frozen=True, slots=True)
-class Inclination:
-    """The angle of a straight line of this `slope` (in the units of the axes) at the point x, y of a chart.
-
-    Its arc has the `radius` (mm); the line it is counted from is drawn a little beyond.
-    """
-
-    label: Content
-    x: float
-    y: float
-    slope: float
-    radius: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +111,7 @@ class _Window:
         return np.column_stack((across, up))
 
     def at(self, x: float, y: float) -> complex:
+        """The place on paper (mm) of x and y in the units of the axes."""
         across, up = self.vertices([x], [y])[0]
         return complex(across, up)
 
@@ -146,37 +127,18 @@ class Plotted:
     y: tuple[float, float]
 
 
-def chart(
-    series: Sequence[PlottedCurve],
-    x_label: Content,
-    y_label: Content,
-    *,
-    turn: bool = True,
-    levels: Sequence[tuple[float, Content]] = (),
-    half: bool = False,
-    area: Area | None = None,
-) -> Scene:
-    """Curves in one frame, see `plotted`."""
-    return plotted(series, x_label, y_label, turn=turn, levels=levels, half=half, area=area).scene
+def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> Scene:
+    """The scene of a diagram, see `plotted`."""
+    return plotted(diagram, half=half, area=area).scene
 
 
-def plotted(
-    series: Sequence[PlottedCurve],
-    x_label: Content,
-    y_label: Content,
-    *,
-    turn: bool = True,
-    levels: Sequence[tuple[float, Content]] = (),
-    half: bool = False,
-    height: float = HEIGHT,
-    area: Area | None = None,
-    inclinations: Sequence[Inclination] = (),
-) -> Plotted:
-    """Curves in one frame.  With `turn` x is an angle in degrees with ticks at multiples of 45, 90 or 180.
+def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, area: Area | None = None) -> Plotted:
+    """A diagram on paper.  An angle has ticks at multiples of 45, 90 or 180 degrees.
 
-    `levels` are horizontal lines with a name, e.g. a mean; with `half` two charts stand side by side; with an `area`
-    both scales are round and printed.  Raises `ValueError` if no value is finite.
+    With `half` two charts stand side by side; with an `area` both scales are round and printed.  Raises `ValueError`
+    if no value is finite.
     """
+    series, turn, levels = diagram.curves, diagram.turn, diagram.levels
     window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area, height)
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
@@ -188,38 +150,34 @@ def plotted(
     for n, curve in enumerate(series):
         vertices = window.vertices(curve.x, curve.y)
         pen = PENS[n % len(PENS)]
-        items += [Polyline(points, pen) for points in _paths(vertices)]
+        if curve.dots:
+            items += [Circle(complex(*at), DOT, None, pen.colour) for at in vertices if np.isfinite(at).all()]
+        else:
+            items += [Polyline(points, pen) for points in _paths(vertices)]
         requests += _marked(curve, vertices, pen, items)
         if curve.label and len(series) > 1:
             requests.append(label(_places(vertices), curve.label))
-    for inclination in inclinations:
+    for inclination in diagram.inclinations:
         drawn, request = _inclined(window, inclination)
         items += drawn
         requests.append(request)
-    items += _titles(window, x_label, y_label, items, area is not None)
+    items += _titles(window, diagram.x, diagram.y, items, area is not None)
     notes: Sequence[Content] = ()
     if area is not None:
         across, up = window.width * area.enlarged, window.height * area.enlarged
-        notes = _scale(x_label, window.x, across, turn), _scale(y_label, window.y, up)
-    scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN)
+        notes = _scale(diagram.x, window.x, across, turn), _scale(diagram.y, window.y, up)
+    scene = replace(finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN), diagram=diagram)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
     return Plotted(scene, frame.points[0], frame.points[2], window.x, window.y)
 
 
-def polar(
-    series: PlottedCurve,
-    x_label: Content,
-    y_label: Content = "",
-    *,
-    title: str = "",
-    size: float = POLAR_SIZE,
-    area: Area | None = None,
-) -> Scene:
+def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = None) -> Scene:
     """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
 
     Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
     """
+    (series,) = diagram.curves
     x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
     x_ticks, y_ticks = (_around(min(0.0, float(np.nanmin(of))), max(0.0, float(np.nanmax(of))), step) for of in (x, y))
@@ -234,52 +192,10 @@ def polar(
     items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
     requests = _marked(series, vertices, PENS[0], items)
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
-    items += _titles(window, x_label, y_label, items, area is not None)
-    notes = () if area is None else (_scale(x_label, window.x, window.width * area.enlarged),)
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=title, margin=2.0)
-
-
-def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> Scene:
-    """One bar below the other, its name on the left and its count at its end; raises `ValueError` for none."""
-    if not counts:
-        raise ValueError("bars need something to count")
-    widest = max(box(name, style.SMALL).width for name in names)
-    length = max(COUNT_WIDTH - widest - 10.0, LENGTH)
-    step, most = _whole_steps(max(counts))
-    height = ROW * len(counts)
-    items: list[Item] = []
-    for tick in range(0, most + 1, step):
-        x = length * tick / most
-        items.append(Line(complex(x, 0), complex(x, height), GRID))
-        items.append(Label(complex(x, -3.0), Number(tick), size=style.SMALL))
-    for number, (name, count) in enumerate(zip(names, counts, strict=True)):
-        y = height - ROW * (number + 0.5)
-        items.append(_bar(complex(0, y - BAR / 2), complex(length * count / most, y + BAR / 2)))
-        items.append(Label(complex(-1.5, y), name, "right", style.SMALL))
-    items.append(Line(0j, complex(0, height), EDGE))
-    items.append(Label(complex(length / 2, -8.5), x_label))
-    return finish(Canvas(tuple(items)), margin=1.5)
-
-
-def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
-    """How many values lie between each two of the `edges` [K+1], which are evenly spaced; `counts` [K]."""
-    if len(edges) != len(counts) + 1 or not counts:
-        raise ValueError("a histogram has one more edge than counts")
-    step, most = _whole_steps(max(counts))
-    width = (COUNT_WIDTH - 20.0) / len(counts)
-    items: list[Item] = []
-    for tick in range(0, most + 1, step):
-        y = COLUMN_HEIGHT * tick / most
-        items.append(Line(complex(0, y), complex(width * len(counts), y), GRID))
-        items.append(Label(complex(-1.5, y), Number(tick), "right", style.SMALL))
-    for number, count in enumerate(counts):
-        if count:
-            items.append(_bar(complex(width * number, 0), complex(width * (number + 1), COLUMN_HEIGHT * count / most)))
-    items += [Label(complex(width * n, -3.0), Number(edge), size=style.SMALL) for n, edge in enumerate(edges)]
-    items.append(Line(0j, complex(width * len(counts), 0), EDGE))
-    items.append(Label(complex(width * len(counts) / 2, -8.5), x_label))
-    items.append(Label(complex(-9.0, COLUMN_HEIGHT / 2), y_label, turn=90))
-    return finish(Canvas(tuple(items)), margin=1.5)
+    items += _titles(window, diagram.x, diagram.y, items, area is not None)
+    notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged),)
+    scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=diagram.title, margin=2.0)
+    return replace(scene, diagram=diagram)
 
 
 # --- curves ---------------------------------------------------------------------------------------
@@ -361,7 +277,7 @@ def _frame(window: _Window, x_ticks: Sequence[float], y_ticks: Sequence[float], 
         zero = abs(tick) < 1e-12 * max(map(abs, window.y))
         items.append(Line(left, window.at(window.x[1], tick), EDGE if zero else GRID))
         items.append(Label(left - 1.5, _figure(tick, y_ticks, ""), "right", style.SMALL))
-    items.append(_box(window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1]), EDGE))
+    items.append(framed(window.at(window.x[0], window.y[0]), window.at(window.x[1], window.y[1]), EDGE))
     return items
 
 
@@ -374,7 +290,8 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
     return [tick for tick in ticks if round(tick / step) % stride == 0]
 
 
-def _box(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
+def framed(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:
+    """A rectangle between two corners (mm)."""
     corners = (low, complex(high.real, low.imag), high, complex(low.real, high.imag))
     return Polyline(corners, pen, closed=True, fill=fill)
 
@@ -476,16 +393,3 @@ def _places(vertices: Vertices) -> list[complex]:
     spread = finite[np.linspace(0, len(finite) - 1, 17).astype(int)]
     ends = finite[[int(finite[:, 1].argmax()), int(finite[:, 1].argmin())]]
     return [complex(*p) for p in np.concatenate((ends, spread[1:-1]))]
-
-
-# --- counts ---------------------------------------------------------------------------------------
-
-
-def _whole_steps(largest: int) -> tuple[int, int]:
-    """A whole step between ticks, and the last tick, at or above the largest count."""
-    step = max(round(nice_up(max(largest, 1) / TICKS, (1, 2, 5))), 1)
-    return step, step * max(math.ceil(largest / step), 1)
-
-
-def _bar(low: complex, high: complex) -> Polyline:
-    return _box(low, high, OUTLINE, style.TINT)

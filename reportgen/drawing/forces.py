@@ -13,8 +13,9 @@ from itertools import combinations
 from typing import Literal
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import clusters, on_one_line, polar, unit
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.plan import CROWDED, Plan, point_names
 from reportgen.drawing.scheme import Looks, mechanism, skeleton
 from reportgen.formula import Symbol, constructions
@@ -205,7 +206,7 @@ def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
 def draw_forces(
     forces: Sequence[Force], arms: Sequence[ArmOf] = (), bars: Sequence[tuple[complex, complex]] = ()
 ) -> Canvas:
-    """Arrows with their labels and the arms to their lines; forces without direction are left out.
+    """Arrows with their labels and the arms to their lines (mm); forces without direction are left out.
 
     A force that would lie along one of the `bars` from its end is drawn as a push from outside instead, one that
     would lie on another force beside it, a thin line from its point.
@@ -270,7 +271,7 @@ def draw_couples(couples: Sequence[Couple]) -> Canvas:
 
 
 def foot(about: complex, start: complex, end: complex) -> complex:
-    """The foot of the perpendicular from `about` on the line through two points."""
+    """The foot of the perpendicular from `about` on the line through two points, in one unit."""
     return complex(constructions.foot(about, start, unit(end - start)))
 
 

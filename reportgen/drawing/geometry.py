@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import cmath
-import json
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache, reduce
-from pathlib import Path
+from functools import lru_cache
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline
-from reportgen.formula import Symbol, setter, setting
-from reportgen.formula.vocabulary import numbered, runs
+from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
+from reportgen.drawing.label_size import box
 
 Complexes = NDArray[np.complex128]
 Floats = NDArray[np.float64]
@@ -29,7 +26,7 @@ CELL = 0.25
 
 
 def ends(item: Item) -> Sequence[complex] | Complexes:
-    """The item's strokes as segments: the start and the end of each, one after the other; a label has none."""
+    """The item's strokes as segments (mm) [2 × strokes]: start and end of each, in turn; a label has none."""
     match item:
         case Line(start, end):
             return start, end
@@ -92,7 +89,7 @@ def frame(label: Label) -> tuple[complex, complex]:
 
 
 def corners(item: Item) -> Sequence[complex] | Complexes:
-    """Points whose bounding box is the item's."""
+    """Points (mm) whose bounding box is the item's."""
     match item:
         case Label():
             centre, half = frame(item)
@@ -104,13 +101,13 @@ def corners(item: Item) -> Sequence[complex] | Complexes:
 
 
 def bounds(items: Iterable[Item]) -> tuple[complex, complex]:
-    """Lower left and upper right corner of the box around all items; (0, 0) for none."""
+    """Lower left and upper right corner (mm) of the box around all items; (0, 0) for none."""
     points = _stacked(map(corners, items))
     return corners_of(points) if points.size else (0j, 0j)
 
 
 def corners_of(points: Sequence[complex] | Complexes) -> tuple[complex, complex]:
-    """Lower left and upper right corner of the box around points."""
+    """Lower left and upper right corner of the box around points [N], in their unit."""
     p = np.asarray(points, dtype=np.complex128)
     return complex(p.real.min(), p.imag.min()), complex(p.real.max(), p.imag.max())
 
@@ -160,7 +157,7 @@ def _enlarged_pen(stroke: Pen, factor: float) -> Pen:
 
 
 def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[complex, complex] | None:
-    """The part of a segment inside the box low…high, or None (Liang–Barsky)."""
+    """The part of a segment inside the box low…high (mm), or None (Liang–Barsky)."""
     d = end - start
     enter, leave = 0.0, 1.0
     for speed, lower, upper in (
@@ -184,11 +181,12 @@ class HalfPlane:
     inward: complex
 
     def depth(self, point: complex) -> float:
+        """How deep a point lies in the half-plane (mm); negative outside."""
         return ((point - self.at) * self.inward.conjugate()).real
 
 
 def region(planes: Sequence[HalfPlane], box: Sequence[complex]) -> list[complex]:
-    """What of a convex polygon lies in all half-planes."""
+    """What of a convex polygon (mm) lies in all half-planes (Sutherland–Hodgman)."""
     corners = list(box)
     for plane in planes:
         kept: list[complex] = []
@@ -242,18 +240,18 @@ def on_one_line(longer: tuple[complex, complex], shorter: tuple[complex, complex
 
 
 def unit(vector: complex) -> complex:
-    """The direction of a vector; 1 for a vector of no length."""
+    """The direction of a vector, of length 1; 1 for a vector of no length."""
     size = abs(vector)
     return vector / size if size > 0 else 1 + 0j
 
 
 def polar(angle: float) -> complex:
-    """e^{iφ}."""
+    """The unit vector e^{iφ} at an angle φ (rad)."""
     return cmath.exp(1j * angle)
 
 
 def rectangle(centre: complex, length: float, width: float, angle: float = 0.0) -> tuple[complex, ...]:
-    """Corners of a rectangle, its length along `angle`."""
+    """Corners of a rectangle (mm), its length along `angle` (rad)."""
     u = polar(angle)
     a, b = complex(length, width) / 2, complex(length, -width) / 2
     return (centre - u * a, centre + u * b, centre + u * a, centre - u * b)
@@ -300,187 +298,13 @@ class Ink:
         self.inked = np.cumsum(inked, axis=0, out=inked)
 
     def touches(self, centres: Complexes, half: Complexes) -> Flags:
-        """Which boxes touch a stroke, to half a cell."""
+        """Which boxes [N], by centres and half sizes (mm), touch a stroke, to half a cell."""
         return np.asarray(self.covered(centres, half) != 0)
 
     def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
-        """How many inked cells each box covers."""
+        """How many inked cells each box covers [N], by centres and half sizes (mm)."""
         low, high = (centres - half - self.low) / CELL, (centres + half - self.low) / CELL
         x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
         y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))
         inked = self.inked
         return np.asarray(inked[x1, y1] - inked[x0, y1] - inked[x1, y0] + inked[x0, y0])
-
-
-# --- how much paper a label takes, from a table of glyph sizes ------------------------------------
-# The box of a label is the extent of its ink: advance widths, the tallest height above the baseline and the greatest
-# depth below it. Scripts are set at 0.7 of the size, as both typesetters do.
-
-POINT = 25.4 / 72.27
-"""One printer's point in mm."""
-SCRIPT = 0.7
-SMALL_CUT = 1.17
-"""Letters cut for 6 points, as LaTeX sets scripts, are so much wider than larger ones scaled down."""
-SUPER_SHIFT, SUB_SHIFT = 0.38, 0.18
-"""Shift of the scripts' baselines, in font sizes."""
-OVER = 0.25
-"""What an arrow or a bar above takes, in font sizes."""
-RELATION = 0.56
-"""Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
-GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
-"""Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
-THIN = 0.17
-"""Between a function and what it is applied to, in font sizes."""
-
-
-@dataclass(frozen=True, slots=True)
-class Box:
-    """Width, height above and depth below the baseline, in mm."""
-
-    width: float
-    height: float
-    depth: float
-
-    def beside(self, other: Box) -> Box:
-        """Both boxes on one baseline."""
-        return Box(self.width + other.width, max(self.height, other.height), max(self.depth, other.depth))
-
-
-NOTHING = Box(0.0, 0.0, 0.0)
-
-
-@lru_cache(maxsize=4096)
-def box(content: Content, size: float = 9.0, displayed: bool = False) -> Box:
-    """The box of a label's content at a font size in points; unknown letters count as one em.
-
-    The fractions of a `displayed` formula are in full size.
-    """
-    return Boxes(size * POINT, displayed).content(content)
-
-
-def _text(text: str, em: float, italic: bool = False) -> Box:
-    glyphs = [(italic and ITALIC.get(letter)) or ROMAN.get(letter) or _unknown(letter) for letter in text]
-    if not glyphs:
-        return NOTHING
-    k = em / 1000
-    advances, heights, depths = zip(*glyphs, strict=True)
-    return Box(k * sum(advances), k * max(heights), k * max(depths))
-
-
-def _unknown(letter: str) -> tuple[int, int, int]:
-    """A letter that the table lacks: one of an alphabet is as wide as a wide letter, any other as one em."""
-    if letter.isalpha() and letter < "\u2000":
-        return (700 if letter.isupper() else 600), 750, 200
-    return 1000, 750, 200
-
-
-def _gap(width: float) -> Box:
-    return Box(width, 0.0, 0.0)
-
-
-def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
-    height, depth = base.height, base.depth
-    if sup.width:
-        height = max(height, sup.height + SUPER_SHIFT * em)
-    if sub.width:
-        depth = max(depth, sub.depth + SUB_SHIFT * em)
-    return Box(base.width + cut * max(sub.width, sup.width), height, depth)
-
-
-def _symbol(symbol: Symbol, em: float) -> Box:
-    base = _letters(symbol.base, em)
-    if symbol.over:
-        base = Box(max(base.width, 0.5 * em), base.height + OVER * em, base.depth)
-    sub, sup = (_text(script, SCRIPT * em) for script in (symbol.sub, symbol.sup))
-    if any(number for _, number in numbered(symbol.sub)):
-        sub = Box(sub.width, sub.height, sub.depth + SUB_SHIFT * SCRIPT * em)
-    return _scripts(base, sub, sup, em, SMALL_CUT)
-
-
-def _letters(text: str, em: float) -> Box:
-    """Letters of formulas, digits that stand below them in the size of scripts."""
-    whole = NOTHING
-    for letters, digits in runs(text):
-        below = _text(digits, SCRIPT * em)
-        whole = whole.beside(_scripts(_text(letters, em, italic=True), below, NOTHING, em, SMALL_CUT))
-    return whole
-
-
-class Boxes(setter.Setter[Box]):
-    """Formulas as the boxes that both typesetters set for them; em is the font size (mm)."""
-
-    def __init__(self, em: float, displayed: bool = False) -> None:
-        super().__init__("en")
-        self.em = em
-        self.displayed = displayed
-
-    def text(self, text: str) -> Box:
-        return _text(text, self.em)
-
-    def part(self, part: setting.Part) -> Box:
-        em, of = self.em, self.part
-        match part:
-            case Symbol():
-                return _symbol(part, em)
-            case setting.Written(digits, unit):
-                return self.text(digits).beside(self.text(" " + unit)) if unit else self.text(digits)
-            case setting.Sign(sign, "prefix" | "slash"):
-                return self.text(sign)
-            case setting.Sign(_, role):
-                return _gap(GAPS.get(role, 0.78 + RELATION) * em)
-            case setting.MathRow(parts):
-                return _row(map(of, parts))
-            case setting.Raised(base, exponent):
-                return _scripts(of(base), NOTHING, self.script.part(exponent), em)
-            case setting.Quotient(top, bottom):
-                return self.quotient(top, bottom)
-            case setting.Radical(inner):
-                line = Box(0.85 * em, 0.2 * em, 0.0).beside(of(inner))
-                return Box(line.width, line.height + 0.1 * em, line.depth - 0.1 * em)
-            case setting.Fence("[", inner):
-                return of(inner).beside(_gap(em))
-            case setting.Fence(left, inner, right):
-                return self.text(left + right).beside(of(inner))
-            case setting.Function(name, exponent, to):
-                power = NOTHING if exponent is None else self.script.part(exponent)
-                function = _scripts(self.text(name), NOTHING, power, em)
-                return function.beside(of(to) if isinstance(to, setting.Fence) else _gap(THIN * em).beside(of(to)))
-            case setting.Grid(rows):
-                lines = [_row(map(of, row)).beside(_gap((len(row) - 1) * em)) for row in rows]
-                half = sum(line.height + line.depth for line in lines) / 2
-                width = max((line.width for line in lines), default=0.0)
-                return Box(width, half + 0.25 * em, half - 0.25 * em)
-            case setting.Parenthesis(mark, tall):
-                return self.text(mark).beside(_gap(0.35 * em * tall))
-            case setting.Note(text):
-                # Both typesetters set the note in parentheses, a quad away.
-                return _gap(em).beside(self.text(f"({text})"))
-
-    @property
-    def script(self) -> Boxes:
-        return Boxes(SCRIPT * self.em)
-
-    def quotient(self, top: setting.Part, bottom: setting.Part) -> Box:
-        """A fraction, whose parts are in the size of scripts and have white beside them within a line of text."""
-        em, size, white = self.em, self if self.displayed else self.script, 0.0 if self.displayed else 0.24
-        above, below = size.part(top), size.part(bottom)
-        axis, gap = 0.25 * em, 0.12 * em
-        width = max(above.width, below.width) + white * em
-        return Box(width, axis + gap + above.height + above.depth, below.height + below.depth + gap - axis)
-
-
-def _row(boxes: Iterable[Box]) -> Box:
-    return reduce(Box.beside, boxes, NOTHING)
-
-
-# --- sizes of glyphs ------------------------------------------------------------------------------
-
-# (advance, height above the baseline, depth below it) in thousandths of the font size.  Read once, with
-# fontTools, from the Latin Modern fonts that both typesetters set (New Computer Modern has the same widths):
-# the upright letters from lmroman10-regular, signs, Greek and the mathematical italic from latinmodern-math;
-# an advance is never less than the right edge of the glyph.
-_GLYPHS = json.loads(Path(__file__).with_name("glyphs.json").read_text(encoding="utf-8"))
-ROMAN: dict[str, tuple[int, int, int]] = {letter: tuple(sizes) for letter, sizes in _GLYPHS["roman"].items()}
-"""Upright letters, digits and signs."""
-ITALIC: dict[str, tuple[int, int, int]] = {letter: tuple(sizes) for letter, sizes in _GLYPHS["italic"].items()}
-"""Letters of formulas."""

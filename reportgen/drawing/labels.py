@@ -18,21 +18,9 @@ from functools import cached_property, lru_cache, reduce
 
 import numpy as np
 
-from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import (
-    Box,
-    Complexes,
-    Flags,
-    Floats,
-    Ink,
-    bounds,
-    box,
-    corners_of,
-    frame,
-    moved,
-    overlap,
-    segments,
-)
+from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
+from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, frame, overlap, segments
+from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.spots import (
     CLEAR,
     FINE,
@@ -114,8 +102,8 @@ def joined(contents: Iterable[Content], by: str = ", ") -> list[Content]:
     return parts[1:]
 
 
-def _row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
-    """Labels side by side on one baseline, their common box centred on `at`; `over` lines they stand on paper."""
+def label_row(at: complex, parts: Sequence[Content], size: float, over: bool = False) -> tuple[Label, ...]:
+    """Labels side by side on a baseline, their common box centred on `at` (mm); `over` lines they stand on paper."""
     boxes = [box(part, size) for part in parts]
     total = reduce(Box.beside, boxes)
     x = at.real - total.width / 2
@@ -141,20 +129,23 @@ class _Taken:
 
     @property
     def centres(self) -> Complexes:
+        """The middles of all labels and leaders that stand (mm) [N]."""
         return self._centres[: self.count]
 
     @property
     def halves(self) -> Complexes:
+        """Half their sizes (mm) [N]."""
         return self._halves[: self.count]
 
     def add(self, centre: complex, half: complex, leader: Segment | None) -> None:
+        """Enter a label by its middle and half its size (mm), with its leader."""
         self._centres[self.count], self._halves[self.count] = centre, half
         self.count += 1
         if leader:
             self.leaders.append(leader)
 
     def clear(self, centres: Complexes, half: complex) -> Flags:
-        """Which of the boxes keep apart from every label and leader."""
+        """Which of the boxes [N] (mm) keep apart from every label and leader."""
         apart, room = centres[:, None] - self.centres, self.halves + (half + APART * (1 + 1j))
         free: Flags = np.asarray(((np.abs(apart.real) >= room.real) | (np.abs(apart.imag) >= room.imag)).all(axis=1))
         if self.leaders:
@@ -162,7 +153,7 @@ class _Taken:
         return free
 
     def crossed(self, leaders: Complexes) -> Flags:
-        """Which leaders run through a label or another leader."""
+        """Which leaders [K, 2] (mm) run through a label or another leader."""
         through: Flags = np.asarray(overlap(self.centres, self.halves, leaders, 0.2).any(axis=0))
         if self.leaders:
             through |= crossings(leaders, np.array(self.leaders)) > 0
@@ -228,7 +219,7 @@ class _Spots:
         return int(np.count_nonzero(self.first))
 
     def best(self, taken: _Taken) -> complex | None:
-        """The first spot free of strokes, labels and leaders; None where there is none."""
+        """The first spot (mm) free of strokes, labels and leaders; None where there is none."""
         for start in range(0, len(self.centres), FIRST):
             free = self.first if start == 0 else self.free(self.centres[start : start + FIRST])
             centres = self.centres[start : start + FIRST][free]
@@ -237,14 +228,14 @@ class _Spots:
         return None
 
     def free(self, centres: Complexes, nearest: bool = True) -> Flags:
-        """Which spots are free of strokes and nearest to their own point."""
+        """Which spots [N] (mm) are free of strokes and nearest to their own point."""
         free: Flags = ~self.field.ink.touches(centres, np.array(self.half + CLEAR * (1 + 1j)))
         if nearest:
             free[free] = self.nearest(centres[free])
         return free
 
     def nearest(self, centres: Complexes) -> Flags:
-        """Where the label is nearer to its own point than to any that another label names."""
+        """Where [N] the label is nearer to its own point (mm) than to any that another label names."""
         return self.field.nearest(centres, np.array([self.half]), np.array([self.number]))
 
     def beyond(self, at: complex) -> tuple[Complexes, Complexes]:
@@ -259,7 +250,7 @@ class _Spots:
         return self.far[at]
 
     def breaking(self, taken: _Taken, led: bool) -> tuple[complex, Segment | None] | None:
-        """The best spot, clear of labels, that hides gray lines, and the leader if it is far; None if there is none."""
+        """The best spot (mm), clear of labels, that hides gray lines, and the leader if it is far; None if none is."""
         if led not in self.over:
             self.over[led] = self._over(led)
         centres, leaders, near = self.over[led]
@@ -385,7 +376,7 @@ def _place_in(
             if labelled is None:
                 crowded.append(i)
             centre, leader = labelled or _least_touched(spot, taken)
-        labels: tuple[Item, ...] = _row(centre, request.parts, request.size, over)
+        labels: tuple[Item, ...] = label_row(centre, request.parts, request.size, over)
         if request.ring:
             labels = (Circle(centre, spot.half.real, style.THIN), *labels)
         if leader:
@@ -426,65 +417,3 @@ def _least_touched(spot: _Spots, taken: _Taken) -> tuple[complex, Segment]:
     best = int(np.argmin(cost + len(cost) * (touches + 2.0 * ~apart)))
     first, last = at + ways[best]
     return complex(centres[best]), (complex(first), complex(last))
-
-
-# --- from drafts to finished scenes ---------------------------------------------------------------
-# Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added. `finish` places the
-# labels, crops to the content and gives the `Scene`.
-
-MARGIN = 6.0
-
-
-@dataclass(frozen=True, slots=True)
-class Canvas:
-    """Items in the order of painting and the labels still to be placed."""
-
-    items: tuple[Item, ...] = ()
-    requests: tuple[Request, ...] = ()
-
-    def __add__(self, other: Canvas) -> Canvas:
-        return Canvas(self.items + other.items, self.requests + other.requests)
-
-    def moved(self, by: complex) -> Canvas:
-        """The draft shifted by a vector; its labels must have been placed before."""
-        return Canvas(tuple(moved(item, by) for item in self.items))
-
-
-def settle(draft: Canvas) -> Canvas:
-    """The draft with its labels placed."""
-    return Canvas(draft.items + place(draft.items, draft.requests).items)
-
-
-def finish(
-    draft: Canvas,
-    *,
-    notes: Sequence[Content] = (),
-    title: str = "",
-    margin: float = MARGIN,
-    frame: tuple[complex, complex] | None = None,
-) -> Scene:
-    """The scene: labels placed, `notes` (the figure's scale) below, cropped with `margin` mm around.
-
-    `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
-    the same paper.
-    """
-    labels = place(draft.items, draft.requests)
-    done = Canvas(draft.items + labels.items)
-    low, high = corners_of((*bounds(done.items), *(frame or ())))
-    below = _notes([*labels.key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
-    low, high = corners_of((low, high, *(bounds(below) if below else ())))
-    white = complex(margin, margin)
-    size = high + white - (low - white)
-    items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
-    return Scene(size.real, size.imag, items, title, margin, labels.crowded)
-
-
-def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:
-    """Lines of text, each of several parts, centred on x, the first below y."""
-    lines: list[Item] = []
-    for note in notes:
-        extent = reduce(Box.beside, (box(part, style.LABEL) for part in note))
-        height = extent.height + extent.depth
-        lines += _row(complex(x, y - height / 2), note, style.LABEL)
-        y -= height + 1.5
-    return tuple(lines)

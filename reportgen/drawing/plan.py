@@ -16,8 +16,9 @@ from typing import Generic, Literal, TypeVar
 
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing.canvas import MARGIN, Canvas, finish, settle
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
-from reportgen.drawing.labels import KEY, MARGIN, Canvas, Request, finish, label, settle
+from reportgen.drawing.labels import KEY, Request, label
 
 Style = Literal["known", "relative", "found"]
 Titles = Callable[[range, int], str]
@@ -68,10 +69,12 @@ class PlanVector(Generic[Corner]):
 
     @property
     def middle(self: PlanVector[complex]) -> complex:
+        """The middle of the vector (mm)."""
         return (self.start + self.end) / 2
 
     @property
     def length(self: PlanVector[complex]) -> float:
+        """Its length (mm)."""
         return abs(self.end - self.start)
 
 
@@ -138,7 +141,7 @@ class Construction(Generic[Corner]):
         )
 
     def drawn(self: Plan) -> tuple[PlanVector[complex], ...]:
-        """The vectors that can be seen."""
+        """The vectors that can be seen: those of some length (mm)."""
         return tuple(v for v in self.vectors if v.length > INVISIBLE)
 
     @property
@@ -332,7 +335,7 @@ def _labels(
 
 
 def point_names(points: Sequence[PlanPoint[complex]]) -> list[Content]:
-    """The parts of one label for several points: a ≡ b where they coincide, else a, b."""
+    """The parts of one label for several points (mm): a ≡ b where they coincide, else a, b."""
     parts: list[Content] = []
     for n, point in enumerate(points):
         if any(point.label == earlier.label for earlier in points[:n]):

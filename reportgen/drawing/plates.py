@@ -83,7 +83,7 @@ class DrawingPlate:
         return Arranged(width, self.top.height + sum(heights) + GAP * (len(rows) - 1), tuple(map(tuple, rows)))
 
     def within(self, width: float) -> int:
-        """How many of the arrangements are not wider; the last of them is the lowest."""
+        """How many of the arrangements are not wider (mm); the last of them is the lowest."""
         return bisect_right(self.arrangements, width + DUST, key=lambda one: one.width)
 
     def divided(self, count: int) -> tuple[DrawingPlate, DrawingPlate]:
@@ -93,7 +93,7 @@ class DrawingPlate:
         return replace(self, scenes=self.scenes[:count]), rest
 
     def placed(self, how: Arranged, corner: complex) -> Iterator[PlacedScene]:
-        """Its parts, the upper left corner of its box at a place: the head, then the rows, each spread evenly."""
+        """Its parts, the upper left corner of its box at a place (mm): the head, then the rows, each spread evenly."""
         top = corner - 1j * self.top.height
         yield PlacedScene(f"{self.number}", self.layer, self.top, top + (how.width - self.top.width) / 2)
         for row in how.rows:

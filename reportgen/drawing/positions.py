@@ -14,8 +14,10 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import Complexes, box, clusters, coincident, polar, unit
-from reportgen.drawing.labels import LEFT_OUT, Canvas, Request, finish, joined, label
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.geometry import Complexes, clusters, coincident, polar, unit
+from reportgen.drawing.label_size import box
+from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Symbol, vocabulary
@@ -146,7 +148,7 @@ def centre_plan(
     looks: Looks,
     moving: Sequence[PlaneMotion] = (),
 ) -> Scene:
-    """The mechanism at position `index` of `motion` with its links' instant centres and the normals to them.
+    """The mechanism at position `index`, `scale` mm to a metre, with its links' instant centres and normals to them.
 
     Of links that are `moving` the velocities are drawn, not to scale, with their angles.
     """
@@ -210,7 +212,7 @@ class SwingMarks:
 
 
 def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
-    """Arcs of the radii to both ends about the crank's centre, the lines to them and the angles between these."""
+    """Arcs of the radii to both ends about the crank's centre (m, `scale` mm to a metre), lines and angles between."""
     centre, pivot = marks.centre * scale, marks.pivot * scale
     ends = [end * scale for end in marks.ends]
     items: list[Item] = []
@@ -369,7 +371,7 @@ class Frame:
 def beside(
     top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
 ) -> tuple[complex, complex, float]:
-    """The ends of the diagram's axis beside the cylinder, and the round μ_p that makes it fit.
+    """The ends (mm) of the diagram's axis beside the cylinder, and the round μ_p (Pa per mm) that makes it fit.
 
     μ_p is that of the drawing once it is `enlarged` so many times.
     """

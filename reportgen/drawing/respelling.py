@@ -1,20 +1,25 @@
-"""Other letters in a finished drawing: a label that they make wider goes on to where the paper is white."""
+"""Other letters in a finished drawing: labels that they make wider go on to where the paper is white."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from reportgen.drawing import Content, Item, Label, Scene
-from reportgen.drawing.geometry import Complexes, frame, moved, overlap, segments
+from reportgen.drawing.geometry import Complexes, corners_of, frame, moved, overlap, segments
+from reportgen.drawing.label_size import box
 from reportgen.drawing.spots import CLEAR
 
 Frame = tuple[complex, complex]
 """Centre and half size of a label (mm)."""
-STEPS = tuple(complex(along, up) for up in (0, 1, -1) for along in (0, 1, -1))
-"""Where a label may go, in shares of what half of it has grown by: along its line first."""
+STEPS = sorted(
+    (complex(along, up) for up in range(-3, 4) for along in range(-3, 4)), key=lambda step: (abs(step), step.imag)
+)
+"""Where a row may go, in shares of half of what it has grown by: not far, along its line first."""
+TOUCHING = 1e-6
+"""Labels no farther apart (mm) are parts of one row."""
 WHITE = 0.5
 """What remains at least between a label and the edge of its drawing (mm)."""
 
@@ -22,46 +27,83 @@ WHITE = 0.5
 def respelled(scene: Scene, spell: Callable[[Content], Content]) -> Scene:
     """A scene whose labels say `spell` of what they said.
 
-    A label that grows keeps its middle or one of its ends, or goes as far up or down, whichever touches least of the
-    strokes and other labels; where it leaves the drawing, that grows with it.
+    A row of labels that grows keeps its middle or one of its ends, or goes as far up or down, whichever touches least
+    of the strokes and other labels; where it leaves the drawing, that grows with it.
     """
-    items = [replace(item, content=spell(item.content)) if isinstance(item, Label) else item for item in scene.items]
-    if items == list(scene.items):
-        return scene
-    frames = {n: frame(item) for n, item in enumerate(items) if isinstance(item, Label)}
+    items = list(scene.items)
     strokes = segments(item for item in items if not isinstance(item, Label))
-    for n, (centre, half) in frames.items():
-        if items[n] == scene.items[n]:
+    for row in _rows(scene.items):
+        labels = [label for _, label in row]
+        spelled = [replace(label, content=spell(label.content)) for label in labels]
+        if spelled == labels:
             continue
-        way = _growth(scene.items[n], items[n])
-        others = [one for k, one in frames.items() if k != n]
-        by = min((way * step for step in STEPS), key=lambda by: _touched((centre + by, half), strokes, others))
-        items[n], frames[n] = moved(items[n], by), (centre + by, half)
-    return _widened(replace(scene, items=tuple(items)), list(frames.values()))
+        own = {n for n, _ in row}
+        others = [frame(item) for n, item in enumerate(items) if isinstance(item, Label) and n not in own]
+        placed, growth = _side_by_side(labels, spelled)
+        frames = [frame(label) for label in placed]
+        by = min((growth * step for step in STEPS), key=lambda by: _touched(frames, by, strokes, others))
+        for n, label in zip(sorted(own), placed, strict=True):
+            items[n] = moved(label, by)
+    return scene if items == list(scene.items) else _widened(replace(scene, items=tuple(items)))
 
 
-def _growth(old: Item, new: Item) -> complex:
-    """From the middle of a label to where it is if one of its ends stays as it was (mm)."""
-    assert isinstance(old, Label)
-    assert isinstance(new, Label)
-    more = frame(new)[1] - frame(old)[1]
-    return 1j * more.imag if new.turn == 90 else complex(more.real)
+def _rows(items: Iterable[Item]) -> Iterator[list[tuple[int, Label]]]:
+    """Labels with their places among the items, those together that stand side by side as parts of one text."""
+    row: list[tuple[int, Label]] = []
+    for n, item in enumerate(items):
+        if isinstance(item, Label):
+            if row and not _goes_on(row[-1][1], item):
+                yield row
+                row = []
+            row.append((n, item))
+    if row:
+        yield row
 
 
-def _touched(label: Frame, strokes: Complexes, others: Sequence[Frame]) -> int:
-    """How many strokes and labels a label comes too close to."""
-    centre, half = label
-    met = int(overlap(np.array([centre]), np.array([half]), strokes, CLEAR).sum())
+def _goes_on(label: Label, following: Label) -> bool:
+    (centre, half), (middle, reach) = frame(label), frame(following)
+    return label.turn == following.turn == 0 and abs((middle - centre - half - reach).real) < TOUCHING
+
+
+def _side_by_side(old: Sequence[Label], new: Sequence[Label]) -> tuple[list[Label], complex]:
+    """The labels of a row as they were, about its middle and on its line, and half of what it has grown by (mm)."""
+    before, after = (2 * sum(frame(label)[1] for label in labels) for labels in (old, new))
+    if new[0].turn == 90:
+        return list(new), 1j * (after - before).imag / 2
+    growth = complex((after - before).real / 2)
+    first, half = frame(old[0])
+    x, placed = (first - half - growth).real, []
+    for label, spelled in zip(old, new, strict=True):
+        was, extent = box(label.content, label.size), box(spelled.content, spelled.size)
+        line = frame(label)[0].imag - (was.height - was.depth) / 2
+        width = 2 * frame(spelled)[1].real
+        centre = complex(x + width / 2, line + (extent.height - extent.depth) / 2)
+        placed.append(replace(spelled, at=centre, anchor="center"))
+        x += width
+    return placed, growth
+
+
+def _touched(labels: Sequence[Frame], by: complex, strokes: Complexes, others: Sequence[Frame]) -> int:
+    """How many strokes and other labels those of a row come too close to, moved by so much."""
+    centres, halves = (np.array(parts) for parts in zip(*labels, strict=True))
+    met = int(overlap(centres + by, halves, strokes, CLEAR).sum())
     for middle, reach in others:
-        gap, room = centre - middle, half + reach
-        met += abs(gap.real) < room.real and abs(gap.imag) < room.imag
+        gaps, rooms = centres + by - middle, halves + reach
+        met += int(((np.abs(gaps.real) < rooms.real) & (np.abs(gaps.imag) < rooms.imag)).sum())
     return met
 
 
-def _widened(scene: Scene, frames: Sequence[Frame]) -> Scene:
-    """The scene, wider on both sides where labels ask for it."""
-    before = max(0.0, *(WHITE + half.real - centre.real for centre, half in frames))
-    width = max(scene.width, *(centre.real + half.real + WHITE for centre, half in frames)) + before
-    return replace(
-        scene, width=width, items=tuple(moved(item, before) for item in scene.items) if before else scene.items
-    )
+def _widened(scene: Scene) -> Scene:
+    """The scene, larger on all sides where labels ask for it."""
+    centres, halves = (np.array(parts) for parts in zip(*_frames(scene), strict=True))
+    white = complex(WHITE, WHITE)
+    low, high = corners_of((0j, *(centres - halves - white)))[0], complex(scene.width, scene.height)
+    high = corners_of((high, *(centres + halves + white)))[1]
+    if (low, high) == (0j, complex(scene.width, scene.height)):
+        return scene
+    size = high - low
+    return replace(scene, width=size.real, height=size.imag, items=tuple(moved(item, -low) for item in scene.items))
+
+
+def _frames(scene: Scene) -> list[Frame]:
+    return [frame(item) for item in scene.items if isinstance(item, Label)]

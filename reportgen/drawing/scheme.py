@@ -12,8 +12,9 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
+from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label, settle
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
 from reportgen.machine.motion import Motion
@@ -164,6 +165,7 @@ class Looks:
         return () if self.scale is None else (self.scale,)
 
     def block(self, link: int) -> tuple[float, float]:
+        """Length and width of a block (mm)."""
         return self.blocks.get(link, style.BLOCK)
 
 
@@ -177,7 +179,7 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
 def groups(
     linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, titles: Sequence[str] = ()
 ) -> tuple[Scene, ...]:
-    """The driver with the ground, then each Assur group alone, a scene each."""
+    """The driver with the ground, then each Assur group alone, a scene each, `scale` mm to a metre."""
     bones = skeleton(linkage, motion, index, scale)
     parts = [mechanism(bones, (GROUND, DRIVER), looks) + driver_marks(linkage, motion, bones)]
     parts += [mechanism(bones, dyad.links, looks) for dyad in linkage.dyads]

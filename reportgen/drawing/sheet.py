@@ -11,7 +11,8 @@ from functools import lru_cache
 from typing import TypeVar
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import POINT, SCRIPT, box, enlarged, moved
+from reportgen.drawing.geometry import enlarged, moved
+from reportgen.drawing.label_size import POINT, SCRIPT, box
 
 GAP = 5.0
 """White between plates, and between them and the frame, mm."""
@@ -28,7 +29,7 @@ class PlacedScene:
 
     @property
     def box(self) -> tuple[complex, complex]:
-        """Its lower left and upper right corner on the sheet."""
+        """Its lower left and upper right corner on the sheet (mm)."""
         return self.at, self.at + complex(self.scene.width, self.scene.height)
 
 
@@ -155,7 +156,7 @@ EDGE, RULE = Pen(0.35), Pen(0.15)
 
 
 def widths(rows: Sequence[Sequence[Content]]) -> list[float]:
-    """The widths of columns: of each its widest cell with the white beside it."""
+    """The widths (mm) of columns: of each its widest cell with the white beside it."""
     columns = zip(*rows, strict=True)
     return [max(box(cell, style.SMALL).width for cell in column) + 2 * PADDING for column in columns]
 

@@ -44,14 +44,14 @@ def nearby(half: complex, gap: float) -> Complexes:
 
 @lru_cache(maxsize=KEPT)
 def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
-    """The order [72 × anchors] of nearby spots: the first point and the preferred directions first."""
+    """The order [72 × anchors] of nearby spots: the first point and preferred directions (rad) first."""
     cost = (np.asarray(NEAR)[:, None] * 0.45 + turned(prefer)).ravel()
     total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
     return np.argsort(total, kind="stable")
 
 
 def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Floats:
-    """How far each direction is from the nearest preferred one: 0 … 2."""
+    """How far each direction [N] is from the nearest preferred one: 1 − cos of the angle (rad) between them."""
     if not prefer:
         # Free choice: up and to the right reads best.
         return np.asarray(0.35 * (1 - (directions * np.exp(-0.25j * np.pi)).real))
@@ -79,7 +79,7 @@ def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Comple
 
 
 def touched(centres: Complexes, half: complex, strokes: Complexes) -> Flags:
-    """Which boxes come too close to any stroke."""
+    """Which boxes [N] (mm) come too close to any stroke."""
     return np.asarray(overlap(centres, np.array([half]), strokes, CLEAR).any(axis=1), dtype=np.bool_)
 
 
@@ -93,7 +93,7 @@ def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
 
 
 def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
-    """How many strokes each leader crosses."""
+    """How many strokes each leader [K] crosses; ends in mm."""
 
     def side(a: Complexes, b: Complexes, p: Complexes) -> Floats:
         return np.asarray(((b - a).conj() * (p - a)).imag)
@@ -112,6 +112,6 @@ def distances(leaders: Complexes, points: Complexes) -> Floats:
 
 
 def inked(ink: Ink, leaders: Complexes) -> Floats:
-    """At how many of `PLACES` each leader meets strokes: where it crosses one, or lies on it like a part of it."""
+    """At how many of `PLACES` each leader [K] meets strokes: where it crosses one, or lies on it like a part of it."""
     places = leaders[:, :1] + (leaders[:, 1:] - leaders[:, :1]) * PLACES
     return np.asarray(ink.touches(places, np.array(0.25 + 0.25j)).sum(axis=1), dtype=np.float64)

@@ -56,7 +56,7 @@ class Moment:
     sample: int
 
     def of(self, track: Track) -> complex:
-        """The value of a track: of one that stands still, of one that repeats from turn to turn, or of the cycle."""
+        """A track's value (mm, rad): of one that stands still, that repeats from turn to turn, or of the cycle."""
         turn = self.animation.knots.size - 1
         if track.values.size == 1:
             return complex(track.values[0])
@@ -153,9 +153,9 @@ def _sized(content: Content, size: float) -> tuple[Label, complex]:
     return label, frame(label)[1]
 
 
-def _reach(half: complex, way: complex) -> float:
+def _reach(half: complex, direction: complex) -> float:
     """From the middle of a box to its edge, along a unit vector."""
-    return min(half.real / max(abs(way.real), 1e-9), half.imag / max(abs(way.imag), 1e-9))
+    return min(half.real / max(abs(direction.real), 1e-9), half.imag / max(abs(direction.imag), 1e-9))
 
 
 def _away(place: complex, others: Sequence[complex]) -> complex:
@@ -179,8 +179,8 @@ class _Labels:
     def placed(self, drawn: Sequence[Item]) -> Iterator[Label]:
         strokes = segments(drawn)
         middles, halves = np.empty(0, complex), np.empty(0, complex)
-        for number, one in sorted(self.requests.items(), key=lambda pair: not pair[1].first):
-            half, places = frame(one.label)[1], np.array(one.places)
+        for number, request in sorted(self.requests.items(), key=lambda pair: not pair[1].first):
+            half, places = frame(request.label)[1], np.array(request.places)
             lines = overlap(places, np.full(places.shape, half), strokes, 0.0).sum(axis=1)
             cost = lines + RANK * np.arange(places.size)
             if (before := self.last.get(number)) is not None:
@@ -193,22 +193,22 @@ class _Labels:
             if cost[best] < np.inf:
                 self.last[number] = best
                 middles, halves = np.append(middles, places[best]), np.append(halves, half)
-                yield replace(one.label, at=complex(places[best]))
+                yield replace(request.label, at=complex(places[best]))
 
 
 def _turned(item: Item, by: float) -> Item:
     """The item turned about the origin by an angle (radians); labels stay upright."""
-    way = cmath.rect(1.0, by)
+    turning = cmath.rect(1.0, by)
     match item:
         case Line(start, end) | Arrow(start, end):
-            return replace(item, start=start * way, end=end * way)
+            return replace(item, start=start * turning, end=end * turning)
         case Circle(centre):
-            return replace(item, centre=centre * way)
+            return replace(item, centre=centre * turning)
         case Arc(centre, _, start, stop):
-            return replace(item, centre=centre * way, start=start + by, stop=stop + by)
+            return replace(item, centre=centre * turning, start=start + by, stop=stop + by)
         case Polyline(points):
-            return replace(item, points=tuple(point * way for point in points))
+            return replace(item, points=tuple(point * turning for point in points))
         case Hatch(points, turn=turn):
-            return replace(item, points=tuple(point * way for point in points), turn=turn + by)
+            return replace(item, points=tuple(point * turning for point in points), turn=turn + by)
         case Label(at):
-            return replace(item, at=at * way)
+            return replace(item, at=at * turning)

@@ -77,17 +77,17 @@ CENTRE = 1.2
 
 
 def joint(at: complex) -> Item:
-    """A revolute joint between two moving links."""
+    """A revolute joint between two moving links, at a place (mm)."""
     return Circle(at, JOINT, VISIBLE, PAPER)
 
 
 def point(at: complex) -> Item:
-    """A named point of a link that is no joint."""
+    """A named point of a link that is no joint, at a place (mm)."""
     return Circle(at, POINT, None, BLACK)
 
 
 def pivot(at: complex) -> tuple[Item, ...]:
-    """A revolute joint on the ground: two legs on a hatched strip."""
+    """A revolute joint on the ground, at a place (mm): two legs on a hatched strip."""
     left, right = at + complex(-2.6, -5), at + complex(2.6, -5)
     return (
         Polyline((at, left, right), VISIBLE, closed=True, fill=PAPER),
@@ -97,7 +97,7 @@ def pivot(at: complex) -> tuple[Item, ...]:
 
 
 def small_pivot(at: complex) -> tuple[Item, ...]:
-    """A revolute joint on the ground in a small sketch."""
+    """A revolute joint on the ground in a small sketch, at a place (mm)."""
     left, right = at + complex(-1.3, -2.4), at + complex(1.3, -2.4)
     return (
         Polyline((at, left, right), THIN, closed=True, fill=PAPER),
@@ -117,7 +117,7 @@ def ground(start: complex, end: complex, side: int) -> tuple[Item, ...]:
 def guide(
     low: complex, high: complex, size: tuple[float, float], bars: Sequence[tuple[complex, complex]] = ()
 ) -> tuple[Item, ...]:
-    """Walls on both sides of the way of a block, half a block longer than the way, open where `bars` cross them."""
+    """Walls (mm) on both sides of a block's way, half a block longer than it, open where `bars` cross them."""
     u = unit(high - low)
     away = u * 1j * (size[1] / 2 + PLAY)
     on = u * (size[0] / 2 + 2.0)
@@ -151,11 +151,12 @@ def _uncrossed(
 
 
 def block(at: complex, angle: float, size: tuple[float, float]) -> Item:
+    """A block of a size (mm) at a place (mm), turned by an angle (rad)."""
     return Polyline(rectangle(at, *size, angle), VISIBLE, closed=True, fill=TINT)
 
 
 def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -> tuple[Item, ...]:
-    """A link through its joints: a bar where they are in line, else the triangle or polygon around them."""
+    """A link through its joints (mm): a bar where they are in line, else the triangle or polygon around them."""
     if len(points) < 2:
         return ()
     p = np.asarray(points)
@@ -182,7 +183,7 @@ def _around(points: Sequence[complex]) -> list[complex]:
 
 
 def mass_centre(at: complex) -> tuple[Item, ...]:
-    """A circle with two black quarters."""
+    """A circle with two black quarters, at a place (mm)."""
     quarters = []
     for start in (0.0, math.pi):
         rim = (at + CENTRE * polar(start + k * math.pi / 8) for k in range(5))
@@ -203,7 +204,7 @@ HEAD_SHARE = 0.75
 
 
 def arrow_head(start: complex, end: complex, length: float) -> tuple[complex, Triangle | None]:
-    """(where the shaft ends, the head's triangle tip first) of an arrow whose tip lies on `end`.
+    """(where the shaft ends, the head's triangle tip first) of an arrow (mm) whose tip lies on `end`.
 
     The shaft ends inside the head, so that no square pen end shows beside the tip; the head shrinks
     on an arrow shorter than itself.  An arrow of no length has no head.
@@ -276,6 +277,6 @@ def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> 
 
 
 def decimal(value: float) -> str:
-    """A length to a thousandth of a millimetre, without trailing zeros and without a negative zero."""
+    """A length (mm) to a thousandth of it, without trailing zeros and without a negative zero."""
     text = f"{value:.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text

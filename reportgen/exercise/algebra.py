@@ -142,17 +142,17 @@ def solve(rows: Sequence[Sequence[Algebraic]], values: Sequence[Algebraic]) -> l
 def _field(entries: Sequence[Algebraic]) -> Any:
     """The field of fractions in the symbols over the rationals and the square roots that stand in the entries."""
     sp = _sympy()
-    symbols = sorted({one for entry in entries for one in entry.free_symbols}, key=str)
+    symbols = sorted({symbol for entry in entries for symbol in entry.free_symbols}, key=str)
     powers = {one for entry in entries for one in entry.atoms(sp.Pow) if one.exp.is_Rational and not one.exp.is_Integer}
-    if any(not one.base.is_Integer or abs(one.exp) != sp.Rational(1, 2) for one in powers):
+    if any(not power.base.is_Integer or abs(power.exp) != sp.Rational(1, 2) for power in powers):
         return sp.EX
-    primes = sorted({prime for one in powers for prime in sp.primefactors(one.base)})
+    primes = sorted({prime for power in powers for prime in sp.primefactors(power.base)})
     numbers = sp.QQ.algebraic_field(*(sp.sqrt(prime) for prime in primes)) if primes else sp.QQ
     return numbers.frac_field(*symbols) if symbols else numbers
 
 
 def size(of: Algebraic, at: Mapping[str, float]) -> Algebraic:
-    """The size of a number or a vector, simplified; `at` are values of the symbols, which tell signs."""
+    """The size of a number or a vector (SI), simplified; `at` are values (SI) of the symbols, which tell signs."""
     sp = _sympy()
     if isinstance(of, Plane):
         parts = [simplified(part) for part in (of.real, of.imag)]
@@ -180,7 +180,7 @@ def simplified(of: Algebraic) -> Algebraic:
 
 
 def value(of: Algebraic, at: Mapping[str, float]) -> float:
-    """What an expression comes to at values of its symbols.
+    """What an expression comes to (SI) at values (SI) of its symbols.
 
     It is worked out by floats alone: sympy would ask of every root what it is, which may take it minutes.
     """
@@ -211,8 +211,8 @@ def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebr
     sp = _sympy()
 
     def each(nodes: Sequence[Expression]) -> list[Algebraic] | None:
-        parts = [algebraic(one, of) for one in nodes]
-        return None if any(one is None for one in parts) else parts
+        parts = [algebraic(node, of) for node in nodes]
+        return None if any(part is None for part in parts) else parts
 
     match node:
         case Number(unit="°"):
@@ -269,11 +269,19 @@ def expression(of: Algebraic, at: Mapping[str, float]) -> Expression:
     return Negative(whole) if sign < 0 else whole
 
 
+NUMBER, ROOT_OF_NUMBER, SINGLE_SYMBOL, LONGER = range(4)
+"""The factors of a product in the order in which they are written."""
+
+
 def _rank(factor: Algebraic, order: Sequence[str]) -> tuple[int, int]:
     """Numbers first, their roots, single symbols in the order of the file, then whatever is longer."""
     names = sorted(order.index(one.name) if one.name in order else len(order) for one in factor.free_symbols)
+    if factor.is_Number:
+        return NUMBER, 0
+    if not names:
+        return ROOT_OF_NUMBER, 0
     plain = factor.is_Symbol or (factor.is_Pow and factor.base.is_Symbol)
-    return (0 if factor.is_Number else 1 if not names else 2 if plain else 3), names[0] if names else 0
+    return SINGLE_SYMBOL if plain else LONGER, names[0]
 
 
 def _factors(factors: Sequence[Algebraic], at: Mapping[str, float]) -> Iterator[Expression]:

@@ -71,7 +71,7 @@ class Layout:
         return Geometry(self.given, self.points)
 
     def point_at(self, at: complex, letter: str) -> str:
-        """The name of the point at a place, a new one if none is declared there."""
+        """The name of the point at a place (m), a new one if none is declared there."""
         for name, place in self.points.items():
             if abs(place - at) < SAME_PLACE:
                 return name
@@ -106,6 +106,7 @@ class Layout:
         return True
 
     def arm(self, centre: InstantCentre, point: str) -> complex:
+        """From the instant centre to a point (m)."""
         return self.points[point] - centre.at
 
     def is_centre(self, centre: InstantCentre, point: str) -> bool:
@@ -222,7 +223,7 @@ def _by_normals(layout: Layout, body: int, first: str, second: str) -> InstantCe
 
 
 def name_of_centre(layout: Layout, body: int, at: complex) -> str:
-    """The name of the point that an instant centre is, or one of its own."""
+    """The name of the point that an instant centre at a place (m) is, or one of its own."""
     letter = next(one for one in LETTERS if not any(name[0] == one for name in layout.given.points))
     return next((name for name, place in layout.points.items() if abs(place - at) < SAME_PLACE), f"{letter}{body}")
 

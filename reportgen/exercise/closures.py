@@ -182,7 +182,7 @@ class Linked:
         self.turning |= {body: least for body, leader in self.turning.items() if leader == most}
 
     def direction(self, body: int, of: complex) -> tuple[Direction, int]:
-        """A direction as it turns with a body, the sense first taken along φ itself: +1, or −1 against it."""
+        """A direction (of length 1) as it turns with a body, and its sense along φ itself: +1, or −1 against it."""
         leader, now = self.turning.get(body, body), cmath.phase(of)
         if leader == GROUND:
             return Direction(GROUND, now), 1
@@ -436,5 +436,5 @@ def legs_of(closure: Closure) -> Iterator[LoopVector]:
 
 
 def given_direction(degrees: float, size: float) -> Direction:
-    """The direction of a given vector, whose size may be negative."""
+    """The direction of a given vector at an angle (degrees) from +x, whose size (SI) may be negative."""
     return Direction(GROUND, cmath.phase(unit(degrees) * (1 if size >= 0 else -1)))

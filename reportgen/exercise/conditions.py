@@ -36,10 +36,11 @@ class Velocities:
         return STILL if body == GROUND else self.bodies[body]
 
     def omega(self, body: int) -> float:
+        """ω of a body (rad/s)."""
         return self.of(body).turn
 
     def at(self, body: int, point: complex) -> complex:
-        """The velocity of a point that moves with a body."""
+        """v(p) = v₀ + iω p (m/s), the velocity of a point (m) that moves with a body."""
         rates = self.of(body)
         return rates.origin + rates.turn * (1j * point)
 
@@ -48,7 +49,7 @@ Drift = Callable[[Velocities], float]
 
 
 def no_drift(_: Velocities) -> float:
-    """Components that keep their value as the bodies move on."""
+    """Components that keep their value (SI) as the bodies move on."""
     return 0.0
 
 
@@ -91,12 +92,12 @@ def _between(
 
 
 def pin(name: str, point: complex, body: int, partner: int) -> tuple[Condition, ...]:
-    """Two bodies turn about a common point."""
+    """Two bodies turn about a common point (m)."""
     return tuple(_between(name, axis, point, body, partner) for axis in (1 + 0j, 1j))
 
 
 def slot(name: str, point: complex, body: int, carrier: int, angle: complex) -> tuple[Condition, ...]:
-    """A point of a body moves along a straight line of the carrier, which has the direction `angle` (of length 1).
+    """A point (m) of a body moves along a straight line of the carrier, which has the direction `angle` (of length 1).
 
     Across the line the acceleration relative to the carrier's own point is Coriolis', 2 ω v_r.
     """
@@ -114,7 +115,7 @@ def no_turning(name: str, body: int, partner: int = GROUND) -> tuple[Condition, 
 
 
 def distance(name: str, first: complex, body: int, second: complex, partner: int) -> tuple[Condition, ...]:
-    """Two points, each of its own body, keep their distance: a rod between them, or a taut cord."""
+    """Two points (m), each of its own body, keep their distance: a rod between them, or a taut cord."""
     span = first - second
     line = span / abs(span)
 
@@ -128,7 +129,7 @@ def distance(name: str, first: complex, body: int, second: complex, partner: int
 def rolling_on_line(
     name: str, disc: int, centre: complex, radius: float, contact: complex, carrier: int
 ) -> tuple[Condition, ...]:
-    """A disc rolls without slip on a straight line of the carrier, which it touches at `contact`.
+    """A disc rolls without slip on a straight line of the carrier, which it touches at `contact` (lengths in m).
 
     Its centre stays at the same distance from the line; along the line neither the points in contact part, nor
     do their accelerations: where they touch moves along the line, and the relative acceleration across it.
@@ -140,7 +141,7 @@ def rolling_on_line(
 def rolling_on_circle(
     name: str, disc: int, centre: complex, partner: int, other_centre: complex, contact: complex
 ) -> tuple[Condition, ...]:
-    """A disc rolls without slip on the outside or the inside of a circle of another body."""
+    """A disc rolls without slip on the outside or the inside of a circle of another body (points in m)."""
     return (
         *distance(name, centre, disc, other_centre, partner),
         *meshing(name, disc, centre, partner, other_centre, contact),
@@ -150,7 +151,7 @@ def rolling_on_circle(
 def meshing(
     name: str, disc: int, centre: complex, partner: int, other_centre: complex, contact: complex
 ) -> tuple[Condition, ...]:
-    """Two gears whose pitch circles touch at `contact`; something else keeps their centres apart."""
+    """Two gears whose pitch circles touch at `contact` (m); something else keeps their centres apart."""
     along = 1j * (centre - other_centre) / abs(centre - other_centre)
     return (_between(name, along, contact, disc, partner),)
 
@@ -158,7 +159,7 @@ def meshing(
 def belt(
     name: str, ends: tuple[complex, complex], centres: tuple[complex, complex], driving: int, driven: int
 ) -> tuple[Condition, ...]:
-    """A belt runs straight from a point of one disc to one of another without slip, and keeps its length.
+    """A belt runs without slip from a point (m) of one disc straight to one of another, and keeps its length.
 
     The centres stay at the same distance, so that the belt turns as their line does.
     """
@@ -180,18 +181,20 @@ GivenComponent = Callable[[str, complex, int, complex, float], Condition]
 
 
 def given_velocity(name: str, point: complex, body: int, direction: complex, size: float) -> Condition:
-    """The component of a point's velocity along a direction."""
+    """The component of a point's velocity (m/s) along a direction of length 1."""
     return Condition(name, (Component(body, point, direction),), velocity=size, drift=None)
 
 
 def given_acceleration(name: str, point: complex, body: int, direction: complex, size: float) -> Condition:
-    """The component of a point's acceleration along a direction."""
+    """The component of a point's acceleration (m/s²) along a direction of length 1."""
     return Condition(name, (Component(body, point, direction),), velocity=None, drift=lambda _: size)
 
 
 def given_omega(name: str, body: int, omega: float) -> Condition:
+    """ω of a body (rad/s)."""
     return Condition(name, turns=((body, 1.0),), velocity=omega, drift=None)
 
 
 def given_epsilon(name: str, body: int, epsilon: float) -> Condition:
+    """ε of a body (rad/s²)."""
     return Condition(name, turns=((body, 1.0),), velocity=None, drift=lambda _: epsilon)

@@ -50,7 +50,7 @@ class Axis:
 
     @property
     def along(self) -> complex:
-        """The direction of ξ, of which η is the other axis."""
+        """The direction of ξ, of length 1, of which η is the other axis."""
         return self.direction if self.letter == "ξ" else self.direction / 1j
 
 
@@ -110,6 +110,7 @@ class Quantities(Sheet):
         return super().enter(replace(family, scale=family.scale or self.scales.get(family.kind, 0.0)))
 
     def si(self, quantity: str | Ref) -> float:
+        """A quantity's value (SI)."""
         return float(self.families[quantity if isinstance(quantity, str) else quantity.id].at(None))
 
 
@@ -128,7 +129,7 @@ class Derivation:
         return self.layout.motion
 
     def length(self, start_name: str, end_name: str, one_at: complex | None = None) -> Ref:
-        """The distance of two points, by the name l.OA."""
+        """The distance of two points (m), by the name l.OA."""
         id = ids.length(start_name, end_name)
         if known := self.q.find(id) or self.q.find(ids.length(end_name, start_name)):
             return known
@@ -137,7 +138,7 @@ class Derivation:
         return self.q.give(id, value, exact=is_short(value))
 
     def given(self, id: str, value: float) -> Ref:
-        """A size that the file gives, entered once."""
+        """A size (SI) that the file gives, entered once."""
         return self.q.find(id) or self.q.give(id, abs(value), exact=is_short(abs(value)))
 
     def knows(self, id: str) -> bool:
@@ -154,14 +155,14 @@ class Derivation:
 
     def nonzero(self, *vectors: Vector) -> tuple[Vector, ...]:
         """Those of the vectors that are in the derivation and are not nothing."""
-        return tuple(one for one in vectors if self.knows(one.id) and self.q.si(one.id))
+        return tuple(vector for vector in vectors if self.knows(vector.id) and self.q.si(vector.id))
 
     def velocity(self, point: str) -> Vector:
         """The velocity of a point that is in the derivation."""
         return Vector(ids.velocity(point), direction_of(self.at(point)))
 
     def at(self, point: str, body: int | None = None) -> complex:
-        """The velocity of a point, a point of contact among them, as it moves with its own body or with another."""
+        """The velocity of a point (m/s), one of contact among them, as it moves with its own body or with another."""
         own = self.home(point) if body is None else body
         motion = self.motion
         v = motion.velocities.at(own, self.layout.points[point])
@@ -190,7 +191,7 @@ def along(q: Sheet, vector: Vector, axis: complex) -> Expression | None:
 
 
 def components(q: Sheet, vectors: Iterable[Vector], axis: complex) -> list[Expression]:
-    """The components along an axis of those vectors that have one."""
+    """The components (SI) along an axis of length 1 of those vectors that have one."""
     projected = (along(q, vector, axis) for vector in vectors)
     return [one for one in projected if one is not None]
 
@@ -198,7 +199,7 @@ def components(q: Sheet, vectors: Iterable[Vector], axis: complex) -> list[Expre
 def solved_for(
     q: Sheet, unknown: complex, axis: complex, known: Sequence[Vector], opposite: Sequence[Vector]
 ) -> Expression:
-    """The size of a vector of direction `unknown` from Σ opposite + unknown = Σ known, projected on an axis.
+    """The size (SI) of a vector of direction `unknown` from Σ opposite + unknown = Σ known, projected on an axis.
 
     The axis points so that the unknown's component is positive.
     """
@@ -216,11 +217,11 @@ def size_of(q: Sheet, sides: Sequence[Ref]) -> Expression:
     """The size of a vector from its components along axes at right angles; one alone is the size but for its sign."""
     if len(sides) == 1:
         return sides[0] if q.si(sides[0]) >= 0 else Negative(sides[0])
-    return sqrt(total([one**2 for one in sides]))
+    return sqrt(total([side**2 for side in sides]))
 
 
 def towards(axis: complex, direction: complex) -> complex:
-    """The axis, or its opposite, along which a vector of that direction has a positive component."""
+    """The axis, or its opposite, along which a vector of that direction, both of length 1, is positive."""
     return axis if (axis.conjugate() * direction).real > 0 else -axis
 
 
@@ -256,7 +257,7 @@ class Projected:
         self.lines, self.axes = lines, tuple[Axis, ...]()
 
     def find(self, vector: Vector, axis: complex, letter: Letter, point: str, symbol: Symbol | str = "") -> Ref:
-        """Enters the size of a vector by projection on an axis through a point, to which any other unknown is normal.
+        """Enters a vector's size (SI) by projection on an axis through a point, to which any other unknown is normal.
 
         ξ is drawn as it is given, η towards what is found.
         """

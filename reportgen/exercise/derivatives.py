@@ -72,7 +72,7 @@ class RateFormulas:
     # --- rates
 
     def value(self, rate: CoordinateRate) -> float:
-        """A rate as the whole system gives it."""
+        """A rate as the whole system gives it: rad/s or m/s, of accelerations rad/s² or m/s²."""
         motion, points = self.derivation.motion, self.derivation.layout.points
         of = motion.v if rate.order == VELOCITY else motion.a
         match rate.of:
@@ -121,10 +121,10 @@ class RateFormulas:
     def product(self, rates: Sequence[CoordinateRate], by_symbol: bool = False) -> Expression:
         if len(rates) == 2 and rates[0] == rates[1]:
             return square(self.symbol(rates[0]) if by_symbol else self.expression(rates[0]))
-        return times(*(self.symbol(one) if by_symbol else self.expression(one) for one in rates)) if rates else ONE
+        return times(*(self.symbol(rate) if by_symbol else self.expression(rate) for rate in rates)) if rates else ONE
 
     def vector(self, vector: LoopVector) -> complex:
-        """A vector without its rates."""
+        """A vector (m) without its rates."""
         return vector.value * cmath.exp(1j * self.linked.heading(vector.direction)) * 1j**vector.quarters
 
     # --- products of vectors, as they are written

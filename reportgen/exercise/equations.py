@@ -73,12 +73,12 @@ class EquationsOfMotion(RateFormulas):
     # --- what is to be solved
 
     def unknown(self, vectors: Iterable[LoopVector]) -> list[CoordinateRate]:
-        rates = (one for vector in vectors for one in vector.rates if one.order == self.order)
+        rates = (rate for vector in vectors for rate in vector.rates if rate.order == self.order)
         return [one for one in dict.fromkeys(rates) if one not in self.known]
 
     def part(self, vectors: Iterable[LoopVector], rate: CoordinateRate) -> list[LoopVector]:
         """The factors of an unknown rate, which is taken out."""
-        return [replace(one, rates=()) for one in vectors if one.rates == (rate,)]
+        return [replace(vector, rates=()) for vector in vectors if vector.rates == (rate,)]
 
     def resolved(self, vectors: Sequence[LoopVector]) -> list[LoopVector]:
         """Spokes with the unknown rates put in that relations give by others."""
@@ -98,7 +98,7 @@ class EquationsOfMotion(RateFormulas):
         eliminated: dict[CoordinateRate, dict[CoordinateRate, tuple[Expression, float]]] = {}
         for relation in self.linked.relations:
             rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
-            unknown = [one for one in rates if one not in self.known]
+            unknown = [rate for rate in rates if rate not in self.known]
             if len(unknown) < 2:
                 continue
             free = [one for one in unknown if one not in eliminated]
@@ -118,7 +118,7 @@ class EquationsOfMotion(RateFormulas):
     def _by_relation(self) -> bool:
         for relation in self.linked.relations:
             rates = {CoordinateRate(of, self.order): told for of, told in relation.items()}
-            unknown = [one for one in rates if one not in self.known]
+            unknown = [rate for rate in rates if rate not in self.known]
             if len(unknown) == 1:
                 factor, _ = rates.pop(unknown[0])
                 rest = plus(*(times(self.expression(one), by) for one, (by, _) in rates.items()))
@@ -158,7 +158,7 @@ class EquationsOfMotion(RateFormulas):
         named = {axis: ids.right_side(RATES[self.order], f"{point}{axis}") for axis in "xy"}
         if any(id in self.derivation.q for id in named.values()):
             return vectors
-        gathered = [one for one in vectors if one not in rest]
+        gathered = [vector for vector in vectors if vector not in rest]
         for number, (axis, id) in enumerate(named.items()):
             right = minus(self.component(rest, axis))
             if right != NOTHING:
@@ -215,7 +215,7 @@ class EquationsOfMotion(RateFormulas):
         return replace(vector, length=ONE, value=1.0)
 
     def _rest(self, vectors: Sequence[LoopVector], unknown: Sequence[CoordinateRate]) -> list[LoopVector]:
-        kept = (one for one in vectors if not (len(one.rates) == 1 and one.rates[0] in unknown))
+        kept = (vector for vector in vectors if not (len(vector.rates) == 1 and vector.rates[0] in unknown))
         return [one for one in kept if self.product(one.rates) != NOTHING]
 
     def _together(self, waiting: list[VectorSum]) -> bool:
@@ -298,8 +298,8 @@ class EquationsOfMotion(RateFormulas):
     def rows(self, vectors: Sequence[LoopVector]) -> tuple[Chain, ...]:
         """A sum along x and y, the unknown rates to the left."""
         unknown = {*self.unknown(vectors)}
-        left = [one for one in vectors if {*one.rates} & unknown]
-        right = [replace(one, length=minus(one.length)) for one in vectors if one not in left]
+        left = [vector for vector in vectors if {*vector.rates} & unknown]
+        right = [replace(vector, length=minus(vector.length)) for vector in vectors if vector not in left]
         right = [one for one in right if self.product(one.rates) != NOTHING]
         return self.chains(left, right)
 
@@ -353,5 +353,5 @@ class EquationsOfMotion(RateFormulas):
                 sides.append(q.define(id, rate, Symbol(what, f"{name}{axis}")))
         size = ids.POINT_RATE[what](name)
         whole = q.define(size, size_of(q, sides)) if sides else q.give(size, 0.0)
-        lines += [*(one.id for one in sides), whole.id]
+        lines += [*(side.id for side in sides), whole.id]
         self._step("point", tuple(lines), read=self._read(vectors), body=body, point=name)

@@ -11,8 +11,9 @@ import numpy as np
 
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
+from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.geometry import bounds, clusters
-from reportgen.drawing.labels import Canvas, Request, finish, joined, label, settle
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.exercise import file
 from reportgen.exercise.conditions import GROUND
 from reportgen.exercise.solved import SolvedExercise
@@ -179,12 +180,12 @@ def _names(points: Mapping[str, complex]) -> list[Request]:
 
 
 def system_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
-    """The system alone, with no rates on it."""
+    """The system alone, with no rates on it, its scale multiplied by the factor `enlarged`."""
     return _draw(case, enlarged, {}, "", {}, [])
 
 
 def velocity_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
-    """The system with the velocities of its points and the normals through the instant centres."""
+    """The system with its points' velocities and the normals through instant centres, by a factor `enlarged`."""
     motion, layout = case.exercise.motion, case.worked.layout
     vectors = {
         name: (motion.v(name), vocabulary.symbol(id))
@@ -193,18 +194,18 @@ def velocity_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene,
     }
     if not vectors:
         return None
-    centres = [one for one in layout.centres.values() if one.rule in ("normals", "rate")]
+    centres = [centre for centre in layout.centres.values() if centre.rule in ("normals", "rate")]
     bodies = {step.body for step in case.worked.steps}
-    centres = [one for one in centres if one.body in bodies]
+    centres = [centre for centre in centres if centre.body in bodies]
     contacts = {step.point for step in case.worked.steps} - set(motion.system.points)
     extra = {name: at for name, at in layout.points.items() if name in contacts}
-    extra |= {one.name: one.at for one in centres}
-    normals = [(layout.points[name], one.at) for one in centres for name in one.points]
+    extra |= {centre.name: centre.at for centre in centres}
+    normals = [(layout.points[name], centre.at) for centre in centres for name in centre.points]
     return _draw(case, enlarged, vectors, "v", extra, normals)
 
 
 def acceleration_figure(case: SolvedExercise, enlarged: float = 1.0) -> tuple[Scene, Chain | None] | None:
-    """The system with the accelerations that are asked or used; None where there are none."""
+    """The system with accelerations that are asked or used, by a factor `enlarged`; None where there are none."""
     motion, ledger = case.exercise.motion, case.worked.ledger
     # A part is that of the first of its points: a.BA.n is one of B.
     used = {ids.points(found["point"])[0] for found in map(ids.acceleration.read, ledger.families) if found}

@@ -65,7 +65,7 @@ class MotionLaw:
         return MotionLaw(self.way, 0j, 1j * self.forward, -1j * self.backward)
 
     def components(self, φ: Ref, constant: Callable[[float], Expression]) -> Pair:
-        """Its components along x and y: c₀ + c₁φ + c₂ cos φ + c₃ sin φ, with the letter that a `constant` has."""
+        """c₀ + c₁φ + c₂ cos φ + c₃ sin φ along x and y (m), with the letter that a `constant` (m) has."""
         both, apart = self.forward + self.backward, 1j * (self.forward - self.backward)
         terms: tuple[tuple[complex, Expression], ...]
         terms = (self.fixed, ONE), (self.way, φ), (both, cos(φ)), (apart, sin(φ))
@@ -109,7 +109,7 @@ def by_equations(derivation: Derivation) -> bool:
 
 
 def as_number(value: float) -> Expression:
-    """A constant as a number; what is no length is nothing."""
+    """A constant (m) as a number; what is no length is nothing."""
     return NOTHING if abs(value) < SAME_PLACE else Number(float(f"{value:.10g}"))
 
 

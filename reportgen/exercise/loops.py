@@ -54,6 +54,7 @@ class Reached:
     unknown: Mapping[int, complex]
 
     def plus(self, reached: Reached, factor: float = 1.0) -> Reached:
+        """Both rates, the other one times a factor."""
         known, unknown = dict(self.known), dict(self.unknown)
         for quantity, vector in reached.known.items():
             known[quantity] = known.get(quantity, 0j) + factor * vector
@@ -104,7 +105,7 @@ class Loops:
                 yield body, [*pivot, *(name for name in names if name not in pivot)]
 
     def across_slots(self) -> Iterator[tuple[Reached, complex]]:
-        """What a point on a line of a moving body does across that line, against the body's own point there."""
+        """What a point on a moving line does across it (of length 1), against the body's own point there."""
         members = dict(self.bodies())
         for joint in self.derivation.layout.given.slots:
             if joint.point in self.points:
@@ -144,9 +145,9 @@ def solve_accelerations_together(parts: Parts) -> bool:
     """The angular accelerations of all bodies that are reached; whether there were any."""
     derivation = parts.derivation
     start = {
-        name: Reached({(one.id, 1): one.direction for one in vectors}, {})
+        name: Reached({(vector.id, 1): vector.direction for vector in vectors}, {})
         for name, vectors in parts.of.items()
-        if all(derivation.knows(one.id) for one in vectors)
+        if all(derivation.knows(vector.id) for vector in vectors)
     }
     loops = Loops(derivation, "eps", dict(start))
     loops.lead_on()

@@ -42,17 +42,17 @@ def unit(angle: float) -> complex:
 
 
 def direction_of(vector: complex) -> complex:
-    """The direction of a vector; 0 for none."""
+    """The direction of a vector, of length 1; 0 for none."""
     return vector / abs(vector) if vector else 0j
 
 
 def perpendicular(u: complex, w: complex) -> bool:
-    """Whether two directions are at a right angle."""
+    """Whether two directions of length 1 are at a right angle."""
     return abs((u.conjugate() * w).real) < SAME_DIRECTION
 
 
 def parallel(u: complex, w: complex) -> bool:
-    """Whether two directions are one or opposite."""
+    """Whether two directions of length 1 are the same or opposite."""
     return abs((u.conjugate() * w).imag) < SAME_DIRECTION
 
 

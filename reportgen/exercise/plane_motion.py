@@ -70,7 +70,7 @@ class _Names:
                 continue
             kind = "omega" if shown.base == "ω" else "epsilon"
             rates = [one for one in self.given.given if isinstance(one, file.OmegaOf | file.EpsilonOf)]
-            stated = [one.value for one in rates if one.type == kind and one.body == int(shown.sub)]
+            stated = [rate.value for rate in rates if rate.type == kind and rate.body == int(shown.sub)]
             formulas = [one.formula for one in stated if isinstance(one, symbols.Literal)]
             if not any(formula in (Ref(name), Negative(Ref(name))) for formula in formulas):
                 yield Finding("symbol-of-body", (*TOP, "symbols", name), {"text": name, "body": shown.sub}, at="key")

@@ -119,7 +119,7 @@ def work_out(
 
 def _named(exercise: Exercise, ledger: Ledger) -> frozenset[str]:
     """What is worked out and comes to the value of a symbol."""
-    values = [one.given.si for one in exercise.given.symbols.values()]
+    values = [symbol.given.si for symbol in exercise.given.symbols.values()]
     return frozenset(
         id
         for id, family in ledger.families.items()

@@ -35,7 +35,7 @@ MOST = 100
 """One of more operations is not even simplified, which may take minutes; published examples have 73 at most."""
 
 
-def told(given: Given) -> Algebraic:
+def symbolic(given: Given) -> Algebraic:
     """A quantity of the file, by its formula or as the number that was typed."""
     if isinstance(given, Literal):
         return algebra.algebraic(given.formula, algebra.symbol)
@@ -52,8 +52,8 @@ class LiteralGeometry(Geometry):
         for name, point in exercise.given.points.items():
             points[name] = self.place(point)
 
-    def size(self, told_of: Given) -> Algebraic:
-        return told(told_of)
+    def size(self, given: Given) -> Algebraic:
+        return symbolic(given)
 
     def unit(self, angle: Given) -> Plane:
         return algebra.exact_unit(math.degrees(angle.si))

@@ -59,6 +59,7 @@ class Solved:
         return self._fixed(self.unknowns.row(Condition("", turns=((body, 1.0),))))
 
     def determines_point(self, body: int, point: complex) -> bool:
+        """Whether the velocity of a body's point (m) is determined."""
         axes = (Condition("", (Component(body, point, axis),)) for axis in (1 + 0j, 1j))
         return all(self._fixed(self.unknowns.row(axis)) for axis in axes)
 
@@ -84,6 +85,7 @@ class Unknowns:
         return 3 * len(self.bodies) + len(self.squared)
 
     def place(self, point: complex) -> complex:
+        """From the middle of the system to a point, as a share of the system's size."""
         return (point - self.middle) / self.size
 
     def row(self, condition: Condition) -> Row:
@@ -108,6 +110,7 @@ class Unknowns:
         return value * self.size if condition.turns else value
 
     def rates(self, values: np.ndarray) -> dict[int, Rates]:
+        """The rates (rad/s, m/s) of the bodies from the unknowns [3 × bodies + squared]."""
         rates_of: dict[int, Rates] = {}
         for index, body in enumerate(self.bodies):
             turn, x, y = values[3 * index : 3 * index + 3]
@@ -115,7 +118,7 @@ class Unknowns:
         return rates_of
 
     def squares(self, values: np.ndarray) -> dict[int, float]:
-        """ω² of the bodies in `squared`."""
+        """ω² (rad²/s²) of the bodies in `squared` from the unknowns [3 × bodies + squared]."""
         last = values[3 * len(self.bodies) :]
         return {body: float(value) / self.size for body, value in zip(self.squared, last, strict=True)}
 
@@ -130,7 +133,7 @@ def unknowns_of(system: System) -> Unknowns:
 def solve_velocities(system: System) -> Solved:
     """The angular velocities and velocities of all bodies, with what stays open and what contradicts itself."""
     unknowns = unknowns_of(system)
-    driven = [(one, one.velocity) for one in system.conditions if one.velocity is not None]
+    driven = [(condition, condition.velocity) for condition in system.conditions if condition.velocity is not None]
     return _solve(unknowns, driven)[0]
 
 
@@ -285,40 +288,42 @@ class InstantMotion:
     # --- rates: what is nothing beside the others is 0
 
     def omega(self, body: int) -> float:
+        """ω of a body (rad/s)."""
         return _without_dust(self.velocities.omega(body), self.fastest / self.size).real
 
     def epsilon(self, body: int) -> float:
+        """ε of a body (rad/s²)."""
         return _without_dust(self._acceleration_of(body).turn, self.steepest / self.size).real
 
     def turn(self, rate: str, body: int) -> float:
-        """ω or ε of a body, which the rate is called by: omega or eps."""
+        """ω (rad/s) or ε (rad/s²) of a body, by its name: omega or eps."""
         return self.omega(body) if rate == "omega" else self.epsilon(body)
 
     def v(self, point: str, body: int | None = None) -> complex:
-        """The velocity of a point, as it moves with its own body or with another."""
+        """The velocity of a point (m/s), as it moves with its own body or with another."""
         own = self.system.body_of(point) if body is None else body
         return _without_dust(self.velocities.at(own, self.system.points[point]), self.fastest)
 
     def a(self, point: str, body: int | None = None) -> complex:
-        """The acceleration of a point, as it moves with its own body or with another."""
+        """The acceleration of a point (m/s²), as it moves with its own body or with another."""
         own = self.system.body_of(point) if body is None else body
         return _without_dust(self._acceleration_at(own, self.system.points[point]), self.steepest)
 
     @property
     def size(self) -> float:
-        """How far the points lie from their middle."""
+        """How far the points lie from their middle (m)."""
         return self._first.unknowns.size
 
     @cached_property
     def fastest(self) -> float:
-        """The scale of the velocities."""
+        """The scale of the velocities (m/s)."""
         middle = self._first.unknowns.middle
         each = ((abs(self.velocities.at(body, middle)), self.velocities.omega(body)) for body in self.system.bodies)
         return max((speed + abs(turn) * self.size for speed, turn in each), default=0.0)
 
     @cached_property
     def steepest(self) -> float:
-        """The scale of the accelerations."""
+        """The scale of the accelerations (m/s²)."""
         middle, bodies = self._first.unknowns.middle, self.system.bodies
         each = (
             abs(self._acceleration_at(body, middle)) + abs(self._acceleration_of(body).turn) * self.size
@@ -334,7 +339,7 @@ class InstantMotion:
         return STILL if body == GROUND else self._second.solved.rates[body]
 
     def centre(self, body: int) -> complex | None:
-        """The instant centre of a body; None where it is in translation, whose centre is infinitely far."""
+        """The instant centre of a body (m); None where it is in translation, whose centre is infinitely far."""
         rates = self.velocities.of(body)
         if self.omega(body) == 0:
             return None

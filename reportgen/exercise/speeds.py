@@ -39,7 +39,7 @@ def derive(derivation: Derivation) -> bool:
 
 def about_joints(derivation: Derivation) -> bool:
     """The same of a body that a joint makes turn about a fixed point or move in translation, by no method."""
-    return _about(derivation, (one for one in derivation.layout.centres.values() if one.by_joint)) or _by_belt(
+    return _about(derivation, (centre for centre in derivation.layout.centres.values() if centre.by_joint)) or _by_belt(
         derivation
     )
 

@@ -232,7 +232,7 @@ class Solution:
     @property
     def put_in(self) -> bool:
         """Whether numbers are put in, at the end of each line: also where the file wants none but an answer has one."""
-        wanted = all(one.put_in for one in self.case.exercise.given.symbols.values())
+        wanted = all(symbol.put_in for symbol in self.case.exercise.given.symbols.values())
         return wanted or any(shown is None for _, shown in self._by_symbols())
 
     def _by_symbols(self) -> list[tuple[str, Expression | None]]:
@@ -264,7 +264,7 @@ class Solution:
     def _is_declared_length(self, id: str) -> bool:
         """Whether it is the distance of declared points, rather than of an instant centre."""
         names = ids.length.read(id)
-        centres = {one.name for one in self.worked.layout.centres.values() if one.rule in ("normals", "rate")}
+        centres = {centre.name for centre in self.worked.layout.centres.values() if centre.rule in ("normals", "rate")}
         centres -= set(self.case.exercise.given.points)
         return names is not None and centres.isdisjoint(ids.points(names["line"]))
 
@@ -375,7 +375,7 @@ class Axes:
         """One axis of each line of ξ."""
         lines: list[Axis] = []
         for _, axis in self._of():
-            if axis.letter not in COORDINATES and not any(self._same(axis, one) for one in lines):
+            if axis.letter not in COORDINATES and not any(self._same(axis, line) for line in lines):
                 lines.append(axis)
         return lines
 
@@ -385,7 +385,7 @@ class Axes:
         return parallel(first.along, second.along) and abs((first.along.conjugate() * apart).imag) < SAME_PLACE
 
     def _first(self, axis: Axis) -> Axis:
-        return next((one for one in self._lines() if self._same(axis, one)), axis)
+        return next((line for line in self._lines() if self._same(axis, line)), axis)
 
     def _symbol(self, axis: Axis, letter: str) -> Symbol:
         lines = self._lines()

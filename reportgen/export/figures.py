@@ -107,7 +107,7 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
     _check_layers(query, movable, language)
     files: dict[str, bytes] = {}
     if still:
-        scenes = dict(_drawings(case, query, movable))
+        scenes = dict(drawings(named_figures(case.document()), query, movable, language))
         found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
         files |= {f"{name}.{format}": one for format in still for name, one in zip(scenes, found[format], strict=True)}
     for one in _wanted(case, query, movable) if moved else ():
@@ -146,9 +146,13 @@ def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int 
     return {"gif": video.gif, "mp4": video.mp4}[format](scenes, language, dpi or MOVING_DPI)
 
 
-def _drawings(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> Iterator[tuple[str, Scene]]:
-    """The drawings of what is wanted that stand still, by the names of their files."""
-    language, figures = case.assignment.language, named_figures(case.document())
+def drawings(
+    figures: Sequence[NamedFigure], query: FigureQuery, movable: Sequence[MovingFigure], language: Language
+) -> Iterator[tuple[str, Scene]]:
+    """The drawings of what is wanted that stand still, by the names of their files.
+
+    Raises `UnknownNameError`, `NotOfferedError` where nothing shows the position that is wanted.
+    """
     if not query.names:
         shown = [one.shown_at(query.labels) for one in figures] if query.labels else figures
         if not any(shown):

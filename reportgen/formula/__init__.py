@@ -94,7 +94,7 @@ class Number(_Algebra):
 
     @property
     def shown(self) -> float:
-        """The value a reader of the page sees."""
+        """The value a reader of the page sees, in the number's unit."""
         return self.value if self.decimals is None else rounded(self.value, self.decimals)
 
     @property
@@ -358,12 +358,12 @@ def meet(p: Operand, u: Operand, q: Operand, w: Operand) -> Call:
 
 
 def circle_line(centre: Operand, radius: Operand, p: Operand, u: Operand, sign: float) -> Call:
-    """Where a circle meets the line through p along u: the farther end along u for sign +1."""
+    """Where a circle meets the line through p along u, all in one unit: the farther end along u for sign +1."""
     return call("circle_line", centre, radius, p, u, sign)
 
 
 def circle_circle(c1: Operand, r1: Operand, c2: Operand, r2: Operand, sign: float) -> Call:
-    """Where two circles meet: to the left of the way from c1 to c2 for sign +1."""
+    """Where two circles meet, all in one unit: to the left of the way from c1 to c2 for sign +1."""
     return call("circle_circle", c1, r1, c2, r2, sign)
 
 

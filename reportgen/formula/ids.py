@@ -285,9 +285,9 @@ def linked(joint: str) -> tuple[str, str]:
 
 def links_of(reaction: str) -> tuple[int, int]:
     """The two links of a reaction by its name, the acting one first: R12.t is of 1 on 2."""
-    found = reaction_force.read(reaction)
-    assert found is not None, f"{reaction} is no reaction"
-    acting, on = linked(found["joint"])
+    names = reaction_force.read(reaction)
+    assert names is not None, f"{reaction} is no reaction"
+    acting, on = linked(names["joint"])
     return int(acting), int(on)
 
 

@@ -346,7 +346,7 @@ def _comes_to(numbers: Expression, result: Number) -> bool:
 def follow(
     ledger: Ledger, changes: Mapping[str, Any], *, entered: Entered | None = None, only: Container[str] | None = None
 ) -> dict[str, np.ndarray]:
-    """As `Ledger.evaluate`, with each vector as long as the size says that was measured of it or laid off."""
+    """As `Ledger.evaluate` (SI), with each vector as long as the size says that was measured of it or laid off."""
     vectors = {size: one for size, one in ledger.vectors.items() if only is None or size in only}
     sizes: dict[str, list[str]] = {}
     for size, vector in vectors.items():

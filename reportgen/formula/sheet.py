@@ -149,12 +149,12 @@ class Sheet:
 
         A quantity may be entered later; one that never is, is left out.
         """
-        ids = (one if isinstance(one, str) else one.id for one in quantities)
+        ids = (quantity if isinstance(quantity, str) else quantity.id for quantity in quantities)
         self.lines[name] = (*self.lines.get(name, ()), *ids)
 
     def worked(self, *quantities: Ref) -> tuple[Ref, ...]:
         """Those of the quantities that have a formula, rather than being given."""
-        return tuple(one for one in quantities if self.families[one.id].definition is not None)
+        return tuple(quantity for quantity in quantities if self.families[quantity.id].definition is not None)
 
     @contextmanager
     def within(self, chapter: Chapter) -> Iterator[None]:

@@ -14,7 +14,7 @@ from reportgen.assignment.common import Part, of_parameters
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM, Given
-from reportgen.gears.involute import Rack
+from reportgen.gears.formulas import Rack
 from reportgen.gears.pair import Chosen, GearPair, NoPairError, PairLimits, choose
 
 if TYPE_CHECKING:
@@ -85,6 +85,20 @@ class Parameters(Part):
     limits: LimitsOfPair = Field(default_factory=LimitsOfPair)
 
     @property
+    def rack(self) -> Rack:
+        return Rack(self.alpha.si, self.ha, self.c)
+
+    @property
+    def unshifted(self) -> GearPair:
+        """The pair without profile shifts."""
+        return GearPair(self.rack, self.m.si, (self.z1, self.z2), np.zeros(2))
+
+    @property
+    def base(self) -> float:
+        """The sum of the base radii (m), which the centre distance passes."""
+        return float(self.unshifted["d_b"].sum()) / 2
+
+    @property
     def chosen(self) -> Chosen:
         """The pair, its shifts found; raises `NoPairError` where there are none."""
         return _chosen(self)
@@ -93,11 +107,10 @@ class Parameters(Part):
 @lru_cache(maxsize=64)
 def _chosen(given: Parameters) -> Chosen:
     shifts = given.shifts if isinstance(given.shifts, Shifts) else None
-    blank = GearPair(Rack(given.alpha.si, given.ha, given.c), given.m.si, (given.z1, given.z2), np.zeros(2))
     limits = PairLimits(given.limits.epsilon, given.limits.tip, given.limits.sliding)
     rule = "given" if shifts else given.by
     a_w = None if given.a_w is None else given.a_w.si
-    return choose(blank, limits, rule, a_w, None if shifts is None else (shifts.x1, shifts.x2))
+    return choose(given.unshifted, limits, rule, a_w, None if shifts is None else (shifts.x1, shifts.x2))
 
 
 # --- what cannot be -------------------------------------------------------------------------------
@@ -112,7 +125,7 @@ def _keys(given: Parameters) -> Iterator[Finding]:
             yield Finding("gear-twice", (*TOP, "shifts", "x2"), at="key")
         if "by" in given.model_fields_set:
             yield Finding("gear-idle-by", (*TOP, "by"), at="key")
-    rack = Rack(given.alpha.si, given.ha, given.c)
+    rack = given.rack
     if rack.land < 0:
         # The rounding may be as large as what is left of the tip.
         room = math.pi / 4 - given.ha * math.tan(rack.alpha)
@@ -129,29 +142,23 @@ def _mesh(given: Parameters) -> Iterator[Finding]:
         pair = given.chosen.pair
     except NoPairError as error:
         at = (*TOP, "a_w") if given.a_w is not None else where
-        base = f"{pair_base(given) * MM:.3f}"
+        base = f"{given.base * MM:.3f}"
         yield Finding(
             error.code, at, {"base": base, "epsilon": f"{given.limits.epsilon:g}", "tip": f"{given.limits.tip:g}"}
         )
         return
-    if not np.isfinite(pair.alpha_w) or pair.alpha_w <= 0:
+    if not np.isfinite(pair["alpha_w"]) or pair["alpha_w"] <= 0:
         yield Finding("gear-no-mesh", where, {"sum": f"{pair.x.sum():g}"})
         return
     for i in (0, 1):
         wheel_shift = {"wheel": str(i + 1), "x": f"{pair.x[i]:.4g}"}
-        if pair.d_f[i] <= 0 or pair.d_a[i] <= pair.d_f[i]:
+        if pair["d_f"][i] <= 0 or pair["d_a"][i] <= pair["d_f"][i]:
             yield Finding("gear-no-teeth", where, wheel_shift)
-        elif not pair.s_a[i] >= 0:
+        elif not pair["tip"][i] >= 0:
             yield Finding("gear-beyond-point", where, wheel_shift)
-        elif pair.rho_p[i] <= 0:
-            yield Finding(
-                "gear-beyond-line", where, wheel_shift | {"mate": str(2 - i), "x_min": f"{pair.x_min[i]:.3f}"}
-            )
-
-
-def pair_base(given: Parameters) -> float:
-    """The sum of the base radii (m), which the centre distance passes."""
-    return given.m.si * (given.z1 + given.z2) / 2 * math.cos(given.alpha.si)
+        elif pair["rho_p"][i] <= 0:
+            least = float(pair["x_min"][i])
+            yield Finding("gear-beyond-line", where, wheel_shift | {"mate": str(2 - i), "x_min": f"{least:.3f}"})
 
 
 def check(given: Parameters) -> Iterator[Finding]:

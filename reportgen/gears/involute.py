@@ -14,7 +14,10 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula.evaluation import inv
+from reportgen.formula.constructions import Value
+from reportgen.formula.model import model
+from reportgen.gears import gears_ids
+from reportgen.gears.formulas import Rack, pair_sheet
 
 Floats = np.ndarray
 Complexes = np.ndarray
@@ -26,29 +29,10 @@ SPREAD, CURVED = 1.5, 6.0
 
 
 def crossing(function: Callable[[float], float], low: float, high: float) -> float:
-    """Where a function that is below 0 at `low` and above at `high` is 0, to the last bit: the interval is halved."""
+    """Where (in its unit) a function below 0 at `low` and above at `high` is 0, to the last bit: by bisection."""
     while low != (middle := (low + high) / 2) and middle != high:
         low, high = (middle, high) if function(middle) < 0 else (low, middle)
     return middle
-
-
-@dataclass(frozen=True)
-class Rack:
-    """The basic rack: profile angle (rad), addendum and bottom clearance as multiples of the module."""
-
-    alpha: float
-    ha: float = 1.0
-    c: float = 0.25
-
-    @property
-    def rounding(self) -> float:
-        """The radius of its tip's rounding ρ_f* = c*/(1 − sin α), which ends where the addendum does."""
-        return self.c / (1 - math.sin(self.alpha))
-
-    @property
-    def land(self) -> float:
-        """Half the flat of its tip; negative where the rounding has no room."""
-        return math.pi / 4 - self.ha * math.tan(self.alpha) - self.rounding * math.cos(self.alpha)
 
 
 @dataclass(frozen=True)
@@ -61,31 +45,46 @@ class Wheel:
     x: float
     r_a: float
 
+    def _of(self, *wanted: str, d_a: Value) -> list[Value]:
+        """Quantities of a wheel by the formulas of a pair, with tips turned to the diameter `d_a` (m)."""
+        sheet = pair_sheet(self.rack, self.m, (self.z, self.z))
+        names = [gears_ids.of_wheel(one, 1) for one in wanted]
+        found = model(sheet, names, **{gears_ids.of_wheel("x", 1): self.x, gears_ids.of_wheel("d_a", 1): d_a})
+        return [found[name] for name in names]
+
+    @cached_property
+    def _blank(self) -> tuple[float, ...]:
+        """The radii of the reference, base and root circles, and of curvature where the involute begins (m)."""
+        d, d_b, d_f, rho_f = self._of("d", "d_b", "d_f", "rho_f", d_a=2 * self.r_a)
+        return float(d) / 2, float(d_b) / 2, float(d_f) / 2, float(rho_f)
+
     @property
     def r(self) -> float:
-        return self.m * self.z / 2
+        """The reference radius (m)."""
+        return self._blank[0]
 
     @property
     def r_b(self) -> float:
-        return self.r * math.cos(self.rack.alpha)
+        """The base radius (m)."""
+        return self._blank[1]
 
     @property
     def r_f(self) -> float:
-        return self.r - self.m * (self.rack.ha + self.rack.c - self.x)
+        """The root radius (m)."""
+        return self._blank[2]
 
     @property
     def pitch(self) -> float:
-        """The angle of a tooth with its space."""
+        """The angle of a tooth with its space (rad)."""
         return 2 * math.pi / self.z
 
     # --- the flank
 
     def half_angle(self, r: Floats) -> Floats:
-        """Half the angle of a tooth at radii [...]: s/d + inv α − inv α_r."""
-        α, x = self.rack.alpha, self.x
-        reference = (math.pi / 2 + 2 * x * math.tan(α)) / self.z
-        at = np.arccos(np.minimum(self.r_b / np.asarray(r), 1.0))
-        return np.asarray(reference + inv(α) - inv(at))
+        """Half the angle of a tooth at radii [...]: s_a/d_a of a wheel that is turned to them."""
+        turned_to = np.maximum(2 * np.asarray(r), 2 * self.r_b)
+        (thickness,) = self._of("s_a", d_a=turned_to)
+        return np.asarray(thickness / turned_to)
 
     def flank(self, r: Floats) -> Complexes:
         """Points of the flank on the left of the tooth at radii [...]."""
@@ -94,7 +93,7 @@ class Wheel:
     # --- the fillet
 
     def fillet(self, ψ: Floats) -> Complexes:
-        """Points that the rack's rounding cuts where its outward normal has the direction ψ, from −π/2 to −α.
+        """Points (m) [N] that the rack's rounding cuts where its outward normal has the direction ψ, −π/2 to −α (rad).
 
         The normal through the centre of the rounding, y below the pitch line, passes through the pitch point:
         their distance is y/sin ψ.
@@ -109,11 +108,10 @@ class Wheel:
 
     @cached_property
     def join(self) -> tuple[float, float]:
-        """Where fillet and flank meet: the direction ψ and the radius; they touch unless the tooth is undercut."""
-        α, m = self.rack.alpha, self.m
-        along = self.r * math.sin(α) - (self.rack.ha - self.x) * m / math.sin(α)
-        if along >= 0:
-            return -α, math.hypot(self.r_b, along)
+        """Where fillet and flank meet: direction ψ (rad) and radius (m); they touch unless the tooth is undercut."""
+        α, begun = self.rack.alpha, self._blank[3]
+        if begun >= 0:
+            return -α, math.hypot(self.r_b, begun)
 
         def beyond(ψ: float) -> float:
             cut = complex(self.fillet(np.array(ψ)))
@@ -130,7 +128,7 @@ class Wheel:
     # --- a tooth, the wheel
 
     def side(self, chord: float = CHORD) -> tuple[Complexes, Complexes]:
-        """The fillet from the root circle, and the flank from there to the tip, no chord farther than `chord` off."""
+        """The fillet from the root circle, the flank on to the tip (m) [N], no chord farther off than `chord` (m)."""
         ψ, start = self.join
         steps = math.ceil(SPREAD * math.sqrt(CURVED * self.m / (8 * chord)))
         fillet = self.fillet(np.linspace(-math.pi / 2, ψ, steps + 1))
@@ -140,7 +138,7 @@ class Wheel:
         return fillet, self.flank(self.r_b * np.hypot(1.0, np.linspace(low, high, steps + 1)))
 
     def tooth(self, chord: float = CHORD) -> Complexes:
-        """A tooth clockwise, from the middle of the space on its left to that on its right."""
+        """A tooth clockwise (m) [N], from the middle of the space on its left to that on its right."""
         fillet, flank = self.side(chord)
         steps = max(math.ceil(self.pitch * math.sqrt(self.r_a / (8 * chord)) / 2), 2)
         root = self.r_f * np.exp(1j * np.linspace(self.pitch / 2, np.angle(fillet[0]), steps))
@@ -149,6 +147,6 @@ class Wheel:
         return np.concatenate((left, left[-2::-1].conjugate()))
 
     def outline(self, chord: float = CHORD) -> Complexes:
-        """All teeth, clockwise, as a closed polyline."""
+        """All teeth, clockwise, as a closed polyline (m) [N]."""
         turns = np.exp(-1j * self.pitch * np.arange(self.z))
         return np.asarray((turns[:, None] * self.tooth(chord)[:-1]).ravel())

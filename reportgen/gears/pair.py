@@ -1,4 +1,4 @@
-"""A pair of external spur gears by formulas of ISO 21771, vectorised over profile shifts, and how shifts are chosen.
+"""A pair of external spur gears over its profile shifts, by the formulas of its report, and how shifts are chosen.
 
 What both wheels have is an array whose first axis is the wheel; `[::-1]` is the mate.
 """
@@ -12,11 +12,24 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula.evaluation import arcinv, inv
-from reportgen.gears.involute import Floats, Rack, Wheel, crossing
+from reportgen.formula.constructions import Value
+from reportgen.formula.model import model
+from reportgen.formula.sheet import Sheet
+from reportgen.gears import gears_ids
+from reportgen.gears.formulas import WHEELS, Rack, pair_sheet, sum_of_shifts
+from reportgen.gears.involute import Floats, Wheel, crossing
 
 HUNDREDTH = 0.01
 """Shifts are chosen in hundredths of the module."""
+ROUNDING = 1e-9
+"""A condition that is missed by so little (modules, or 1) is kept."""
+COMMON = (
+    "gears.alpha_w",
+    "gears.dy",
+    "gears.g",
+    *(gears_ids.of_wheel(one, wheel) for one in ("alpha_a", "rho_p") for wheel in WHEELS),
+)
+"""What nearly all quantities of a pair stand on."""
 LARGEST = 1.5
 """The greatest shift that is chosen."""
 
@@ -39,8 +52,27 @@ class PairLimits:
 
 
 @dataclass(frozen=True)
+class PairCondition:
+    """What is asked of a wheel (1, 2), or of the pair (0): `actual` [...] is no less than `least` [...].
+
+    Lengths are compared by a `unit`, the module.
+    """
+
+    name: str
+    wheel: int
+    actual: Floats
+    least: Floats
+    unit: float = 1.0
+
+    @property
+    def margin(self) -> Floats:
+        """Not negative where it is kept."""
+        return np.asarray((self.actual - self.least) / self.unit)
+
+
+@dataclass(frozen=True)
 class GearPair:
-    """A pair by its rack, its module (m), its numbers of teeth and its shifts [2, ...]; lengths [2, ...] in metres."""
+    """A pair by its rack, its module (m), its numbers of teeth and its shifts [2, ...]."""
 
     rack: Rack
     m: float
@@ -49,127 +81,71 @@ class GearPair:
 
     @cached_property
     def x(self) -> Floats:
+        """The shifts x (modules) [2, ...]."""
         return np.asarray(self.shifts, float)
 
     @cached_property
-    def z(self) -> Floats:
-        return np.reshape(np.array(self.teeth, float), (2,) + (1,) * (self.x.ndim - 1))
+    def _known(self) -> dict[str, Value]:
+        """What has been worked out so far, by its id; from the beginning what nearly all the rest stands on."""
+        shifts = {gears_ids.of_wheel("x", wheel): x for wheel, x in zip(WHEELS, self.x, strict=True)}
+        return shifts | model(self.sheet, COMMON, **shifts)
 
-    # --- the pair in mesh
+    @property
+    def sheet(self) -> Sheet:
+        """The formulas of its report, with shifts that are given."""
+        return pair_sheet(self.rack, self.m, self.teeth)
+
+    def __getitem__(self, quantity: str) -> Floats:
+        """A quantity of the report by its name there, SI: [...] of the pair, [2, ...] of its wheels.
+
+        Raises `KeyError` for one that the sheet does not have.
+        """
+        return self.at(quantity)
+
+    def at(self, quantity: str, **at: float) -> Floats:
+        """A quantity (SI) [...] or [2, ...] with others in place of the sheet's own."""
+        sheet, of_pair = self.sheet, f"gears.{quantity}"
+        wanted = (
+            (of_pair,) if of_pair in sheet.families else tuple(gears_ids.of_wheel(quantity, wheel) for wheel in WHEELS)
+        )
+        taken = {f"gears.{name}": value for name, value in at.items()}
+        found = model(sheet, wanted, **self._known, **taken)
+        if not at:
+            self._known.update(found)
+        values = [np.broadcast_to(np.asarray(found[id], float), self.x.shape[1:]) for id in wanted]
+        return np.stack(values) if len(values) > 1 else values[0]
 
     @cached_property
-    def alpha_w(self) -> Floats:
-        """The working pressure angle: inv α_w = inv α + 2 (x₁ + x₂) tan α/(z₁ + z₂)."""
-        α = self.rack.alpha
-        return np.asarray(arcinv(inv(α) + 2 * self.x.sum(axis=0) * math.tan(α) / sum(self.teeth)))
-
-    @property
-    def a(self) -> float:
-        return self.m * sum(self.teeth) / 2
-
-    @property
-    def a_w(self) -> Floats:
-        return np.asarray(self.a * math.cos(self.rack.alpha) / np.cos(self.alpha_w))
-
-    @property
-    def y(self) -> Floats:
-        return np.asarray((self.a_w - self.a) / self.m)
-
-    @property
-    def dy(self) -> Floats:
-        """What tips are shortened by for the clearance c* m (modules)."""
-        return np.asarray(self.x.sum(axis=0) - self.y)
-
-    # --- the wheels
-
-    @property
-    def d(self) -> Floats:
-        return np.asarray(self.m * self.z)
-
-    @property
-    def d_b(self) -> Floats:
-        return np.asarray(self.d * math.cos(self.rack.alpha))
-
-    @property
-    def d_w(self) -> Floats:
-        return np.asarray(self.d_b / np.cos(self.alpha_w))
-
-    @property
-    def d_a(self) -> Floats:
-        return np.asarray(self.d + 2 * self.m * (self.rack.ha + self.x - self.dy))
-
-    @property
-    def d_f(self) -> Floats:
-        return np.asarray(self.d - 2 * self.m * (self.rack.ha + self.rack.c - self.x))
-
-    @property
-    def s(self) -> Floats:
-        return np.asarray(self.m * (math.pi / 2 + 2 * self.x * math.tan(self.rack.alpha)))
-
-    @property
-    def alpha_a(self) -> Floats:
-        """The pressure angle at the tips."""
-        with np.errstate(invalid="ignore"):
-            return np.asarray(np.arccos(self.d_b / self.d_a))
-
-    @property
-    def s_a(self) -> Floats:
-        """The thickness at the tips; negative beyond a pointed tooth."""
-        return np.asarray(self.d_a * (self.s / self.d + inv(self.rack.alpha) - inv(self.alpha_a)))
-
-    @property
-    def x_min(self) -> Floats:
-        """The least shifts without undercut."""
-        return np.asarray(self.rack.ha - self.z * math.sin(self.rack.alpha) ** 2 / 2)
-
-    # --- contact
-
-    @property
-    def epsilon(self) -> Floats:
-        return np.asarray((self.z * (np.tan(self.alpha_a) - np.tan(self.alpha_w))).sum(axis=0) / (2 * math.pi))
-
-    @property
-    def p_b(self) -> float:
-        return math.pi * self.m * math.cos(self.rack.alpha)
-
-    @property
-    def path(self) -> Floats:
-        """N₁N₂, the line of action between the base circles."""
-        return np.asarray(self.a_w * np.sin(self.alpha_w))
-
-    @property
-    def rho_a(self) -> Floats:
-        """The radii of curvature of the flanks at the tips."""
-        return np.asarray(self.d_b / 2 * np.tan(self.alpha_a))
-
-    @property
-    def rho_p(self) -> Floats:
-        """The radii of curvature where each flank's active part begins: there the mate's tip touches."""
-        return np.asarray(self.path - self.rho_a[::-1])
-
-    @property
-    def rho_f(self) -> Floats:
-        """The radii of curvature where each involute begins; negative on undercut teeth."""
-        α = self.rack.alpha
-        return np.asarray(self.d / 2 * math.sin(α) - (self.rack.ha - self.x) * self.m / math.sin(α))
-
-    @property
     def sliding(self) -> Floats:
-        """The specific sliding λ at the feet of both wheels, where it is worst: below 0."""
-        return np.asarray(1 - self.z / self.z[::-1] * self.rho_a[::-1] / self.rho_p)
+        """The specific sliding λ [2, ...] at the feet of both wheels, where it is worst: below 0.
+
+        Wheel 1 touches with its foot where the active path begins, wheel 2 where it ends.
+        """
+        return np.stack([self.at("lambda", t=0.0)[0], self.at("lambda", t=1.0)[1]])
+
+    @property
+    def to_pitch_point(self) -> float:
+        """How far (m) the pitch point lies from N₁ on the line of action, r_b1 tan α_w."""
+        return float(self["d_b"][0]) / 2 * math.tan(float(self["alpha_w"]))
 
     # --- what is asked of it
 
-    def margins(self, limits: PairLimits) -> Iterator[Floats]:
-        """Not negative where the pair keeps its limits: undercut, pointing, interference, contact ratio."""
-        yield from self.x - self.x_min
-        yield from self.s_a / self.m - limits.tip
-        yield from (self.rho_p - np.maximum(self.rho_f, 0.0)) / self.m
-        yield self.epsilon - limits.epsilon
+    def conditions(self, limits: PairLimits) -> Iterator[PairCondition]:
+        """Of each wheel undercut, thickness of the tip and interference, then the contact ratio."""
+        begun = np.maximum(self["rho_f"], 0.0)
+        for i, wheel in enumerate(WHEELS):
+            yield PairCondition("undercut", wheel, self.x[i], self["x_min"][i])
+            yield PairCondition("tip", wheel, self["tip"][i], np.asarray(limits.tip))
+            yield PairCondition("interference", wheel, self["rho_p"][i], begun[i], self.m)
+        yield PairCondition("epsilon", 0, self["epsilon"], np.asarray(limits.epsilon))
+
+    def keeps(self, limits: PairLimits) -> np.ndarray:
+        """Where [...] the pair keeps all conditions."""
+        return np.asarray(np.all([condition.margin >= -ROUNDING for condition in self.conditions(limits)], axis=0))
 
     def wheel(self, number: int) -> Wheel:
         """The wheel 0 or 1."""
-        tip = float(self.d_a[number]) / 2
+        tip = float(self["d_a"][number]) / 2
         return Wheel(self.rack, self.m, self.teeth[number], float(self.x[number]), tip)
 
 
@@ -177,29 +153,29 @@ class GearPair:
 
 
 def sum_for(rack: Rack, m: float, teeth: tuple[int, int], a_w: float) -> float:
-    """The sum of the shifts at a centre distance (m): cos α_w = a cos α/a_w.
+    """The sum of the shifts at a centre distance (m).
 
     Raises `NoPairError` for one at which the base circles overlap.
     """
-    cosine = m * sum(teeth) / 2 * math.cos(rack.alpha) / a_w
-    if cosine >= 1:
+    total = sum_of_shifts(rack, m, teeth, a_w)
+    if math.isnan(total):
         raise NoPairError("gear-too-near")
-    return float(inv(math.acos(cosine)) - inv(rack.alpha)) * sum(teeth) / (2 * math.tan(rack.alpha))
+    return total
 
 
 def least_shifts(pair: GearPair) -> Floats:
-    """x_min in hundredths upwards, and no shift where none is needed."""
-    return np.maximum(np.ceil(np.round(pair.x_min / HUNDREDTH, 9)) * HUNDREDTH, 0.0).round(2)
+    """x_min [2] in hundredths upwards, and no shift where none is needed (modules)."""
+    return np.maximum(np.ceil(np.round(pair["x_min"] / HUNDREDTH, 9)) * HUNDREDTH, 0.0).round(2)
 
 
 def balanced(pair: GearPair, total: float) -> Floats:
-    """The shifts of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
+    """The shifts (modules) of a sum at which both feet slide alike: λ₁ = λ₂.  Raises `NoPairError` where none are."""
     first = np.linspace(total / 2 - LARGEST, total / 2 + LARGEST, 601)
 
     def unlike(x1: Floats) -> Floats:
         shifted = GearPair(pair.rack, pair.m, pair.teeth, np.stack((x1, total - x1)))
         # Only where both involutes begin outside the base circles is there a foot that slides.
-        λ1, λ2 = np.where(shifted.rho_p > 0, shifted.sliding, np.nan)
+        λ1, λ2 = np.where(shifted["rho_p"] > 0, shifted.sliding, np.nan)
         return np.asarray(λ1 - λ2)
 
     differences = unlike(first)
@@ -212,18 +188,17 @@ def balanced(pair: GearPair, total: float) -> Floats:
 
 
 def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
-    """Of all shifts in hundredths within the limits those with the least greater |λ|: there the two are nearly equal.
+    """Of shifts [2] in hundredths of the module within limits those of the least greater |λ|, λ₁ ≈ λ₂.
 
     Raises `NoPairError` where none keep the limits.
     """
-    low = np.maximum(np.ceil(np.round(pair.x_min / HUNDREDTH, 9)), -1 / HUNDREDTH)
+    low = np.maximum(np.ceil(np.round(pair["x_min"] / HUNDREDTH, 9)), -1 / HUNDREDTH)
     axes = [np.arange(start, LARGEST / HUNDREDTH + 0.5) * HUNDREDTH for start in low]
     if not all(axis.size for axis in axes):
         raise NoPairError("gear-no-shifts")
     grid = GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(*axes, indexing="ij")))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        kept = np.all([margin >= -1e-12 for margin in grid.margins(limits)], axis=0)
-        worst = np.where(kept, -grid.sliding.min(axis=0), np.inf)
+    kept = grid.keeps(limits)
+    worst = np.where(kept, -grid.sliding.min(axis=0), np.inf)
     if not kept.any():
         raise NoPairError("gear-no-shifts")
     place = np.unravel_index(int(worst.argmin()), worst.shape)
@@ -247,21 +222,14 @@ class Chosen:
         return self.a_w is not None
 
     def broken(self) -> Iterator[tuple[str, int, float, float]]:
-        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, and its limit."""
-        pair, limits = self.pair, self.limits
-        for i in (0, 1):
-            checks = (
-                ("undercut", pair.x, pair.x_min),
-                ("tip", pair.s_a / pair.m, np.full(2, limits.tip)),
-                ("interference", pair.rho_p, np.maximum(pair.rho_f, 0.0)),
-            )
-            for name, actual, least in checks:
-                if actual[i] < least[i] - 1e-9 * pair.m:
-                    yield name, i + 1, float(actual[i]), float(least[i])
-            if limits.sliding is not None and -pair.sliding[i] > limits.sliding:
-                yield "sliding", i + 1, float(-pair.sliding[i]), limits.sliding
-        if pair.epsilon < limits.epsilon - 1e-12:
-            yield "epsilon", 0, float(pair.epsilon), limits.epsilon
+        """What does not hold: its name, the wheel (1, 2, or 0 for both), what it is, its limit (ratios, or modules)."""
+        pair, most = self.pair, self.limits.sliding
+        for wheel in (*WHEELS, 0):
+            for one in pair.conditions(self.limits):
+                if one.wheel == wheel and one.margin < -ROUNDING:
+                    yield one.name, wheel, float(one.actual), float(one.least)
+            if wheel and most is not None and -pair.sliding[wheel - 1] > most:
+                yield "sliding", wheel, float(-pair.sliding[wheel - 1]), most
 
 
 def choose(

@@ -31,6 +31,7 @@ from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
 from reportgen.formula import Symbol
 from reportgen.gears import gears_ids
 from reportgen.gears import pair_views as views
+from reportgen.gears.formulas import WHEELS
 from reportgen.gears.involute import Floats
 from reportgen.gears.pair import GearPair
 from reportgen.gears.pair_drawings import (
@@ -45,7 +46,7 @@ from reportgen.gears.pair_drawings import (
     tooth,
     turned,
 )
-from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.gears.pair_solution import SolvedPair
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
 from reportgen.sheets.plates import drawn, on_sheet
@@ -111,7 +112,7 @@ def _animation(case: PairCase) -> Animation:
     """Both wheels through a turn of wheel 1, from contact at the pitch point, and their mesh from near."""
     pair = case.gears
     φ = np.linspace(0, 2 * math.pi, SAMPLES + 1)
-    size = complex(pair.d_a.max(), float(pair.a_w) + pair.d_a.sum() / 2) * MM
+    size = complex(pair["d_a"].max(), float(pair["a_w"]) + pair["d_a"].sum() / 2) * MM
     at = MM / max(size.real / FILM_ROOM.real, size.imag / FILM_ROOM.imag)
     whole, touching = _moving(pair, φ, at)
     low, high = extent(whole)
@@ -136,13 +137,13 @@ def _animation(case: PairCase) -> Animation:
             MomentValue(str(case.words["pair"]["touching"]), "", Track(touching), 0),
         ),
         # Angles and the way along the line of action are straight over a turn: nothing is lost between samples.
-        errors=Errors(SHARP, float(pair.d_w[0]) / 2 * at, 0.0),
+        errors=Errors(SHARP, float(pair["d_w"][0]) / 2 * at, 0.0),
     )
 
 
 def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Floats]:
     """Wheels, line of action and points of contact, so many mm of paper a metre; and how many pairs touch."""
-    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    at_pitch = pair.to_pitch_point
     ratio = pair.teeth[0] / pair.teeth[1]
     items: list[MovingItem] = []
     for number, turns in ((0, φ), (1, -ratio * φ)):
@@ -152,17 +153,17 @@ def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Fl
         place = Track(np.array([o]))
         items += [
             MovingBody((body, mark), place, Track(turned(pair, number, at_pitch) + turns)),
-            Still((Circle(o, float(pair.d_w[number]) / 2 * at, style.THIN), *style.pivot(o))),
+            Still((Circle(o, float(pair["d_w"][number]) / 2 * at, style.THIN), *style.pivot(o))),
             MovingName(Symbol("O", str(number + 1)), place, (Track(np.array([o - 5j])),), 1.6),
         ]
-    ends = [on_line(pair, rolled) * at for rolled in (0.0, float(pair.path))]
+    ends = [on_line(pair, rolled) * at for rolled in (0.0, float(pair["g"]))]
     items.append(Still((Line(ends[0], ends[1], style.NORMAL),)))
-    start, end = float(pair.rho_p[0]), float(pair.rho_a[0])
-    slots = math.ceil(float(pair.epsilon))
+    start, end = float(pair["rho_p"][0]), float(pair["rho_a"][0])
+    slots = math.ceil(float(pair["epsilon"]))
     touching = np.zeros(φ.size)
     for slot in range(slots):
         # Each of so many teeth is in contact on the active path, and out of it for the rest of its period.
-        along = np.mod(float(pair.d_b[0]) / 2 * φ + at_pitch - start + slot * pair.p_b, slots * pair.p_b)
+        along = np.mod(float(pair["d_b"][0]) / 2 * φ + at_pitch - start + slot * pair["p_b"], slots * pair["p_b"])
         touching += along <= end - start
         places = np.array([on_line(pair, start + one) * at for one in along])
         shown = Track(np.where(along <= end - start, places, complex(np.nan, np.nan)))

@@ -8,16 +8,33 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import MM, nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.charts import Area, Plotted, PlottedCurve, plotted
+from reportgen.drawing import (
+    Arc,
+    Arrow,
+    Circle,
+    Content,
+    Diagram,
+    Item,
+    Label,
+    Line,
+    Pen,
+    PlottedCurve,
+    Polyline,
+    Scene,
+    style,
+)
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.charts import Area, Plotted, plotted
 from reportgen.drawing.geometry import clipped
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.formula import Chain, Number, Symbol
+from reportgen.formula.model import model
 from reportgen.gears import gears_ids
+from reportgen.gears.formulas import WHEELS
 from reportgen.gears.involute import Complexes, Floats
-from reportgen.gears.pair import GearPair
-from reportgen.gears.pair_solution import WHEELS, SolvedPair
+from reportgen.gears.pair import GearPair, PairLimits
+from reportgen.gears.pair_solution import SolvedPair
 
 MESH_ROOM = 150 + 168j
 """What the drawing of the mesh may fill on a page (mm)."""
@@ -41,6 +58,8 @@ CIRCLES = (
     ("d_b", Pen(0.18, style.GRAY, style.DASHED)),
     ("d_f", style.THIN),
 )
+CIRCLE_PITCHES = 1.375
+"""The circles are drawn so many pitches to either side of the line of centres: past the outer of the three teeth."""
 LETTERS = {"d_a": "a", "d_w": "w", "d": "", "d_b": "b", "d_f": "f"}
 
 
@@ -54,27 +73,27 @@ def turned(pair: GearPair, number: int, rolled: float) -> float:
     """
     first, second = pair.wheel(0), pair.wheel(1)
     base = float(first.half_angle(np.array(first.r_b)))
-    angle = rolled / first.r_b - float(pair.alpha_w) - base
+    angle = rolled / first.r_b - float(pair["alpha_w"]) - base
     if number == 0:
         return math.pi / 2 + angle
     return -math.pi / 2 - second.pitch / 2 - angle * first.z / second.z
 
 
 def centre(pair: GearPair, number: int) -> complex:
-    """The centre of a wheel, the pitch point at 0."""
-    return (-1j, 1j)[number] * float(pair.d_w[number]) / 2
+    """The centre of a wheel (m), the pitch point at 0."""
+    return (-1j, 1j)[number] * float(pair["d_w"][number]) / 2
 
 
 def on_line(pair: GearPair, rolled: float) -> complex:
     """The point of the line of action so far (m) from N₁, the pitch point at 0."""
-    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
-    return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair.alpha_w))))
+    at_pitch = pair.to_pitch_point
+    return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair["alpha_w"]))))
 
 
 def mesh_scale(case: SolvedPair) -> tuple[float, bool]:
     """The scale of the mesh in a report (mm/mm), and whether both ends of the line of action are shown."""
     pair = case.gears
-    paper = [point * MM for point in (*_shown(pair)[1], on_line(pair, 0.0), on_line(pair, float(pair.path)))]
+    paper = [point * MM for point in (*_shown(pair)[1], on_line(pair, 0.0), on_line(pair, float(pair["g"])))]
     usual, _ = IN_REPORT.fitting(paper, MESH_ROOM)
     with_ends = tooth(case) / usual >= LEAST_WITH_ENDS
     if not with_ends:
@@ -89,7 +108,7 @@ def tooth(case: SolvedPair) -> float:
 
 def _shown(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
     """The teeth of each wheel that are drawn, and all their points (m)."""
-    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    at_pitch = pair.to_pitch_point
     outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
     return outlines, np.concatenate([points for teeth in outlines for points in teeth])
 
@@ -97,8 +116,8 @@ def _shown(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
 def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
     """Three teeth of each wheel touching at the pitch point, built as by hand."""
     pair = case.gears
-    ends = [on_line(pair, 0.0), on_line(pair, float(pair.path))]
-    at_pitch = float(pair.d_b[0]) / 2 * math.tan(float(pair.alpha_w))
+    ends = [on_line(pair, 0.0), on_line(pair, float(pair["g"]))]
+    at_pitch = pair.to_pitch_point
     outlines, drawn = _shown(pair)
     usual, with_ends = mesh_scale(case)
     at = size.per_unit(usual) * MM
@@ -146,11 +165,13 @@ def _circles(
     half = max(abs(box[0].real), abs(box[1].real)) + 3.0
     taken: list[float] = []
     for name, pen in CIRCLES:
-        radius = float(getattr(pair, name)[number]) / 2 * at
+        radius = float(pair[name][number]) / 2 * at
         if any(abs(radius - other) < 0.01 for other in taken):
             continue
         taken.append(radius)
-        reach = min(math.asin(min(half / radius, 1.0)), 2.2 * math.pi / pair.teeth[number] * 1.25)
+        to_edge = math.asin(min(half / radius, 1.0))
+        beyond_teeth = CIRCLE_PITCHES * 2 * math.pi / pair.teeth[number]
+        reach = min(to_edge, beyond_teeth)
         items.append(Arc(o, radius, middle - reach, middle + reach, pen))
         places = [
             o + radius * np.exp(1j * (middle + side * reach * share)) for share in (1.0, 0.97) for side in (-1, 1)
@@ -168,11 +189,11 @@ def _construction(
     Of a large wheel no more than lies in the box of the teeth.
     """
     low, high = box[0] - BEYOND * (1 + 1j), box[1] + BEYOND * (1 + 1j)
-    o, r_b = centre(pair, number), float(pair.d_b[number]) / 2
-    α_w = float(pair.alpha_w)
+    o, r_b = centre(pair, number), float(pair["d_b"][number]) / 2
+    α_w = float(pair["alpha_w"])
     to_n = (1j, -1j)[number] * np.exp(-1j * α_w)
     whole = r_b * math.tan(α_w)
-    reach = math.sqrt(float(pair.d_a[number]) ** 2 / 4 - r_b**2)
+    reach = math.sqrt(float(pair["d_a"][number]) ** 2 / 4 - r_b**2)
     for step in range(math.floor(reach / whole * STEPS) + 1):
         rolled = whole * step / STEPS
         foot = to_n * np.exp(1j * (whole - rolled) / r_b) * r_b
@@ -191,18 +212,18 @@ def _construction(
 def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Iterator[Item]:
     """The part of the touching flank that is in use, and the arc of contact on the working circle."""
     wheel, o = pair.wheel(number), centre(pair, number)
-    r = np.hypot(wheel.r_b, np.linspace(float(pair.rho_p[number]), float(pair.rho_a[number]), 60))
+    r = np.hypot(wheel.r_b, np.linspace(float(pair["rho_p"][number]), float(pair["rho_a"][number]), 60))
     flank = wheel.flank(r) * np.exp(1j * turned(pair, number, rolled))
     yield Polyline(tuple((o + flank) * at), WORKING)
     pitch_point = float(np.angle(-o))
-    rolled_here = wheel.r_b * math.tan(float(pair.alpha_w))
-    before, after = ((rolled_here - float(rho[number])) / wheel.r_b for rho in (pair.rho_a, pair.rho_p))
-    radius = float(pair.d_w[number]) / 2 * at
+    rolled_here = wheel.r_b * math.tan(float(pair["alpha_w"]))
+    before, after = ((rolled_here - float(rho[number])) / wheel.r_b for rho in (pair["rho_a"], pair["rho_p"]))
+    radius = float(pair["d_w"][number]) / 2 * at
     yield Arc(o * at, radius, pitch_point - before, pitch_point - after, Pen(0.6, style.BLUE))
 
 
 def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item], requests: list[Request]) -> None:
-    starts = {"N1": 0.0, "B2": float(pair.rho_p[0]), "B1": float(pair.rho_a[0]), "N2": float(pair.path)}
+    starts = {"N1": 0.0, "B2": float(pair["rho_p"][0]), "B1": float(pair["rho_a"][0]), "N2": float(pair["g"])}
     points = {name: on_line(pair, rolled) * at for name, rolled in starts.items()}
     way = points["B1"] - points["B2"]
     way /= abs(way)
@@ -227,7 +248,7 @@ def _line_of_action(pair: GearPair, at: float, with_ends: bool, items: list[Item
     items.append(Circle(0j, 0.7, None, style.BLACK))
     requests.append(label(0j, Symbol("P"), gap=1.2))
     items.append(Line(-22 + 0j, 22 + 0j, style.CONSTRUCTION))
-    angle = math.pi - float(pair.alpha_w)
+    angle = math.pi - float(pair["alpha_w"])
     items.append(Arc(0j, 20.0, angle, math.pi, style.DIMENSION))
     requests.append(label(complex(20.0 * np.exp(1j * (angle + math.pi) / 2)), Symbol("α", "w"), gap=0.6))
 
@@ -245,6 +266,8 @@ AROUND = 0.15
 """White around the region (modules)."""
 OUTER = (-1.5, 3.0)
 """Shifts beyond are not looked at."""
+HARD_LIMITS = PairLimits(epsilon=1.0, tip=0.0)
+"""What any pair must keep: without undercut, not pointed, no interference, ε ≥ 1."""
 HARD, SOFT = Pen(0.45), Pen(0.25, style.BLUE, style.DASHED)
 ALIKE = Pen(0.25, style.RED, style.CHAIN)
 
@@ -276,24 +299,19 @@ def region(case: SolvedPair, area: Area | None = None) -> Scene:
 
     items: list[Item] = []
     requests: list[Request] = []
-    with np.errstate(invalid="ignore", divide="ignore"):
-        undercut, tips, meet = (
-            grid.x - grid.x_min,
-            grid.s_a / grid.m,
-            (grid.rho_p - np.maximum(grid.rho_f, 0.0)) / grid.m,
-        )
-        balance = np.where((grid.rho_p > 0).all(axis=0), grid.sliding[0] - grid.sliding[1], np.nan)
-        ε = grid.epsilon
+    balance = np.where((grid["rho_p"] > 0).all(axis=0), grid.sliding[0] - grid.sliding[1], np.nan)
+    ε = grid["epsilon"]
     lines: list[tuple[Floats, float, Pen, tuple[Content, ...]]] = []
+    hard = {(one.name, one.wheel): one.margin for one in grid.conditions(HARD_LIMITS)}
     for i in WHEELS:
         tip = Symbol("s", f"a{i}")
         lines += [
-            (undercut[i - 1], 0.0, HARD, (Symbol("x", f"min{i}"),)),
-            (tips[i - 1], 0.0, HARD, (tip, " = 0")),
-            (meet[i - 1], 0.0, HARD, (Symbol("ρ", f"p{i}"), " = ", Symbol("ρ", f"f{i}"))),
+            (hard["undercut", i], 0.0, HARD, (Symbol("x", f"min{i}"),)),
+            (hard["tip", i], 0.0, HARD, (tip, " = 0")),
+            (hard["interference", i], 0.0, HARD, (Symbol("ρ", f"p{i}"), " = ", Symbol("ρ", f"f{i}"))),
         ]
         if limits.tip:
-            lines.append((tips[i - 1], limits.tip, SOFT, (tip, " = ", Number(limits.tip, None), " ", Symbol("m"))))
+            lines.append((hard["tip", i], limits.tip, SOFT, (tip, " = ", Number(limits.tip, None), " ", Symbol("m"))))
     lines.append((ε, 1.0, HARD, (Symbol("ε", "α"), " = 1")))
     if limits.epsilon > 1:
         lines.append((ε, limits.epsilon, SOFT, (Symbol("ε", "α"), " = ", Number(limits.epsilon, None))))
@@ -329,14 +347,8 @@ def _at(pair: GearPair, x1: Floats, x2: Floats) -> GearPair:
 
 
 def _bounds(grid: GearPair) -> Floats:
-    """The hard limits over a grid: without undercut, not pointed, no interference, ε ≥ 1; −1 where there is no pair."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        found = [
-            *(grid.x - grid.x_min),
-            *(grid.s_a / grid.m),
-            *((grid.rho_p - np.maximum(grid.rho_f, 0.0)) / grid.m),
-            grid.epsilon - 1,
-        ]
+    """By how much the hard limits are kept over a grid; −1 where there is no pair."""
+    found = [condition.margin for condition in grid.conditions(HARD_LIMITS)]
     return np.asarray(np.nan_to_num(np.array(found), nan=-1.0))
 
 
@@ -361,14 +373,16 @@ DEEPEST = 4.0
 def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
     """λ₁ and λ₂ over the distance from N₁; the marks are the ends of the active path."""
     pair = case.gears
-    g, start, end = float(pair.path), float(pair.rho_p[0]), float(pair.rho_a[0])
+    g, start, end = float(pair["g"]), float(pair["rho_p"][0]), float(pair["rho_a"][0])
     ρ1 = np.unique(np.concatenate((np.linspace(0, g, 801)[1:-1], [start, end])))
-    u = pair.teeth[1] / pair.teeth[0]
+    along = model(
+        case.sheet, [gears_ids.of_wheel("lambda", wheel) for wheel in WHEELS], **{gears_ids.of_wheel("rho", 1): ρ1}
+    )
     curves = []
-    for wheel, λ in zip(WHEELS, (1 - (g - ρ1) / (u * ρ1), 1 - u * ρ1 / (g - ρ1)), strict=True):
+    for wheel, λ in zip(WHEELS, along.values(), strict=True):
         least = max(DEEPEST, 1.2 * float(-pair.sliding.min()))
         shown = np.where(λ >= -least, λ, np.nan)
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
         curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, shown, marks))
     across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), "mm")
-    return plotted(curves, across, Chain((Symbol("λ"),), ""), turn=False, area=area)
+    return plotted(Diagram(tuple(curves), across, Chain((Symbol("λ"),), ""), turn=False), area=area)

@@ -11,18 +11,17 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.formula import PI, Expression, Operand, Ref, acos, arcinv, cos, refs, sin, tan
+from reportgen.formula import PI, Expression, Operand, Ref, refs, tan
 from reportgen.formula.sheet import Sheet
-from reportgen.formula.vocabulary import Chapter, row
+from reportgen.formula.vocabulary import Chapter
 from reportgen.gears import gears_ids
-from reportgen.gears.gears_ids import LENGTH
-from reportgen.gears.pair import Chosen, GearPair
+from reportgen.gears.formulas import WHEELS, PairFormulas, named
+from reportgen.gears.pair import Chosen, GearPair, PairLimits
 from reportgen.report.case import Misconceptions, with_another
 from reportgen.report.design import DesignCase
 
 POINTS = 9
 """Sliding is worked out at so many points, evenly from one end of the active path to the other."""
-WHEELS = (1, 2)
 MESH = ("u", "a", "inv", "inv_w", "alpha_w", "x_sum", "x.2", "a_w", "y", "dy", "h", "p", "p_b")
 """What the report sets out of the pair in mesh,"""
 DIMENSIONS = ("d", "d_b", "d_w", "h_a", "d_a", "d_f", "s", "s_w", "alpha_a", "inv_a", "s_a", "tip")
@@ -62,123 +61,29 @@ class SolvedPair(DesignCase):
         return Misconceptions(changed=_changed(self.sheet), ways=_ways(self.chosen.follows))
 
 
-class PairSheet:
+class PairSheet(PairFormulas):
     """The sheet of a pair while it is written."""
 
     def __init__(self, chosen: Chosen) -> None:
-        self.chosen, self.pair = chosen, chosen.pair
-        self.q = Sheet(POINTS)
+        pair, limits = chosen.pair, chosen.limits
+        super().__init__(Sheet(POINTS), pair.m, chosen.follows)
         with self.q.within(Chapter.data):
-            self.enter_given()
+            self.enter_data(pair.rack, pair.teeth)
+            self.enter_limits(limits)
+            self.enter_shifts((float(pair.x[0]), float(pair.x[1])), chosen.a_w)
         with self.q.within(Chapter.geometry):
-            self.enter_mesh()
-            for wheel in WHEELS:
-                self.enter_wheel(wheel)
+            self.enter_pair()
         with self.q.within(Chapter.velocity):
             self.enter_contact()
         with self.q.within(Chapter.acceleration):
-            self.enter_sliding()
+            self.enter_sliding(np.arange(POINTS) / (POINTS - 1))
         self.set_out()
 
-    def __getitem__(self, quantity: str) -> Ref:
-        return self.q[f"gears.{quantity}"]
-
-    def of(self, quantity: str, wheel: int) -> Ref:
-        return self.q[gears_ids.of_wheel(quantity, wheel)]
-
-    def both(self, quantity: str) -> tuple[Ref, Ref]:
-        return self.of(quantity, 1), self.of(quantity, 2)
-
-    def give(self, quantity: str, value: object, wheel: int = 0) -> Ref:
-        return self.q.give(named(quantity, wheel), value)
-
-    def define(self, quantity: str, definition: Operand, wheel: int = 0) -> Ref:
-        """Enter a quantity; below 1e-9 of a module, or of 1, it is nothing."""
-        id = named(quantity, wheel)
-        return self.q.define(id, definition, scale=self.pair.m if row(id).kind == LENGTH else 1.0)
-
-    def enter_given(self) -> None:
-        pair, limits = self.pair, self.chosen.limits
-        self.give("m", pair.m)
-        for wheel, z in zip(WHEELS, pair.teeth, strict=True):
-            self.give("z", float(z), wheel)
-        self.give("alpha", pair.rack.alpha)
-        self.give("ha", pair.rack.ha)
-        self.give("c", pair.rack.c)
+    def enter_limits(self, limits: PairLimits) -> None:
         self.give("limit.epsilon", limits.epsilon)
         self.give("limit.tip", limits.tip)
         if limits.sliding is not None:
             self.give("limit.sliding", limits.sliding)
-        for wheel in WHEELS[: 1 if self.chosen.follows else 2]:
-            self.give("x", float(pair.x[wheel - 1]), wheel)
-        if self.chosen.a_w is not None:
-            self.give("a_w", self.chosen.a_w)
-
-    def enter_mesh(self) -> None:
-        """The working pressure angle from the shifts, or the shifts from the centre distance."""
-        m, α = self["m"], self["alpha"]
-        z1, z2 = self.both("z")
-        self.define("u", z2 / z1)
-        a = self.define("a", m * (z1 + z2) / 2)
-        inv_α = self.define("inv", tan(α) - α)
-        if self.chosen.follows:
-            α_w = self.define("alpha_w", acos(a * cos(α) / self["a_w"]))
-            inv_w = self.define("inv_w", tan(α_w) - α_w)
-            total = self.define("x_sum", (inv_w - inv_α) * (z1 + z2) / (2 * tan(α)))
-            self.define("x", total - self.of("x", 1), 2)
-            y = self.define("y", (self["a_w"] - a) / m)
-        else:
-            x1, x2 = self.both("x")
-            total = self.define("x_sum", x1 + x2)
-            inv_w = self.define("inv_w", inv_α + 2 * total * tan(α) / (z1 + z2))
-            α_w = self.define("alpha_w", arcinv(inv_w))
-            self.define("a_w", a * cos(α) / cos(α_w))
-            # Of a centre distance in four figures too little would be left after subtracting a.
-            y = self.define("y", (z1 + z2) / 2 * (cos(α) / cos(α_w) - 1))
-        self.define("dy", total - y)
-        self.define("h", m * (2 * self["ha"] + self["c"] - self["dy"]))
-        p = self.define("p", PI * m)
-        self.define("p_b", p * cos(α))
-
-    def enter_wheel(self, wheel: int) -> None:
-        m, α, ha = self["m"], self["alpha"], self["ha"]
-        z, x = self.of("z", wheel), self.of("x", wheel)
-        self.define("x_min", ha - z * sin(α) ** 2 / 2, wheel)
-        d = self.define("d", m * z, wheel)
-        d_b = self.define("d_b", d * cos(α), wheel)
-        d_w = self.define("d_w", d_b / cos(self["alpha_w"]), wheel)
-        h_a = self.define("h_a", m * (ha + x - self["dy"]), wheel)
-        d_a = self.define("d_a", d + 2 * h_a, wheel)
-        self.define("d_f", d - 2 * m * (ha + self["c"] - x), wheel)
-        s = self.define("s", m * (PI / 2 + 2 * x * tan(α)), wheel)
-        self.define("s_w", d_w * (s / d + self["inv"] - self["inv_w"]), wheel)
-        α_a = self.define("alpha_a", acos(d_b / d_a), wheel)
-        inv_a = self.define("inv_a", tan(α_a) - α_a, wheel)
-        s_a = self.define("s_a", d_a * (s / d + self["inv"] - inv_a), wheel)
-        self.define("tip", s_a / m, wheel)
-
-    def enter_contact(self) -> None:
-        """Contact ratio, line of action, and how much of each flank is in use."""
-        α, m, α_w = self["alpha"], self["m"], self["alpha_w"]
-        z1, z2 = self.both("z")
-        over = [tan(one) - tan(α_w) for one in self.both("alpha_a")]
-        ε = self.define("epsilon", (z1 * over[0] + z2 * over[1]) / (2 * PI))
-        g = self.define("g", self["a_w"] * sin(α_w))
-        self.define("g_a", ε * self["p_b"])
-        for wheel in WHEELS:
-            self.define("rho_a", self.of("d_b", wheel) * tan(self.of("alpha_a", wheel)) / 2, wheel)
-        for wheel in WHEELS:
-            self.define("rho_p", g - self.of("rho_a", 3 - wheel), wheel)
-            begun = self.of("d", wheel) * sin(α) / 2 - (self["ha"] - self.of("x", wheel)) * m / sin(α)
-            self.define("rho_f", begun, wheel)
-
-    def enter_sliding(self) -> None:
-        t, u = self.give("t", np.arange(POINTS) / (POINTS - 1)), self["u"]
-        start, end = self.of("rho_p", 1), self.of("rho_a", 1)
-        ρ1 = self.define("rho", start + t * (end - start), 1)
-        ρ2 = self.define("rho", self["g"] - ρ1, 2)
-        self.define("lambda", 1 - ρ2 / (u * ρ1), 1)
-        self.define("lambda", 1 - u * ρ1 / ρ2, 2)
 
     def set_out(self) -> None:
         self.q.set_out("mesh", *(f"gears.{one}" for one in MESH))
@@ -187,11 +92,6 @@ class PairSheet:
         self.q.set_out("contact", "gears.epsilon", "gears.g", "gears.g_a")
         for name, among in OF_BOTH.items():
             self.q.set_out(name, *(gears_ids.of_wheel(one, wheel) for one in among for wheel in WHEELS))
-
-
-def named(quantity: str, wheel: int) -> str:
-    """The id of a quantity of the pair (0) or of a wheel."""
-    return gears_ids.of_wheel(quantity, wheel) if wheel else f"gears.{quantity}"
 
 
 # --- what is often done in place of it --------------------------------------------------------------

@@ -10,13 +10,13 @@ from typing import Any
 from reportgen.drawing import Scene
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.gears import gears_ids
+from reportgen.gears.formulas import WHEELS
 from reportgen.gears.pair_drawings import mesh, region, sliding
-from reportgen.gears.pair_solution import WHEELS, SolvedPair
-from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
+from reportgen.gears.pair_solution import SolvedPair
+from reportgen.report import Block, Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.report.design import DesignPage
 from reportgen.report.wording import phrase
 
-DATA = (95.0, 25.0, 40.0)
 PAIR = (68.0, 22.0, 35.0, 35.0)
 CHECKS = (70.0, 18.0, 28.0, 26.0, 18.0)
 SLIDING = (16.0, 28.0, 28.0, 28.0, 28.0, 28.0)
@@ -55,7 +55,7 @@ class PairPage(DesignPage[SolvedPair]):
             "sliding_table": self.sliding_table,
             "checks": self.checks,
             "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
-            "value": lambda id, k=None: Value(case.printed.result(id, k)),
+            "value": self.value,
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
@@ -69,22 +69,12 @@ class PairPage(DesignPage[SolvedPair]):
 
     # --- symbols and lines
 
-    def math(self, text: str) -> Symbol:
-        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
-        if text in self.case.printed:
-            return self.case.printed.symbol(text)
-        base, _, sub = text.partition("_")
-        return vocabulary.in_language(Symbol(base, sub), self.case.words["symbols"])
-
-    def quantity(self, id: str, k: int | None = None) -> Inlines:
-        return InlineMath(self.case.printed.symbol(id)), Text(" = "), Value(self.case.printed.number(id, k))
-
-    def lines(self, quantities: Iterable[str], k: int | None = None) -> Equation:
+    def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Block, ...]:
         """Worked lines of those of the quantities that follow from others, as they follow from one another."""
         ledger = self.case.printed
         wanted = set(quantities)
         defined = [id for id, family in ledger.families.items() if id in wanted and family.definition is not None]
-        return Equation(tuple(ledger.chain(id, k) for id in defined))
+        return super().lines(defined, k)
 
     # --- tables
 
@@ -102,14 +92,8 @@ class PairPage(DesignPage[SolvedPair]):
     @property
     def data(self) -> Table:
         """The data with their names, symbols and values; shifts that were found are left out."""
-        ledger, heads = self.case.printed, self.case.words["table"]
         sought = {gears_ids.of_wheel("x", wheel) for wheel in WHEELS} if self.sought else set()
-        rows = [
-            ((Text(str(name)),), (InlineMath(ledger.symbol(id)),), (Value(ledger.number(id)),))
-            for id, name in self.case.words["given"].items()
-            if id in ledger and id not in sought and ledger[id].definition is None
-        ]
-        return self._table("data", DATA, ((Text(heads[key]),) for key in ("quantity", "symbol", "value")), rows)
+        return self.data_table(self.given_rows(sought))
 
     @property
     def pair_table(self) -> Table:

@@ -33,7 +33,7 @@ def case(assignment: Assignment) -> TrainCase:
 # --- what cannot be -------------------------------------------------------------------------------
 
 
-def told(train: Train) -> str:
+def teeth_of(train: Train) -> str:
     """Tooth numbers as a message names them."""
     z = train.teeth
     return f"{z.one}/{z.two}/{z.three}" if SCHEMES[train.scheme].single else "/".join(map(str, z))
@@ -65,7 +65,7 @@ def check(given: Parameters) -> Iterator[Finding]:
             return
         nearest = given.of_input(float(choice.nearest.ratio)) if choice.nearest.ratio else math.inf
         off = float(choice.demand.off(float(choice.nearest.ratio)))
-        about |= {"nearest": f"{nearest:.6g}", "teeth": told(choice.nearest), "tolerance": given.tolerance.text}
+        about |= {"nearest": f"{nearest:.6g}", "teeth": teeth_of(choice.nearest), "tolerance": given.tolerance.text}
         if off < 1:
             about |= {"enough": f"{math.ceil(off * 1e5) / 1e5:g}"}
         yield Finding("train-ratio", (*TOP, *key), about)
@@ -91,7 +91,7 @@ def physics(assignment: Assignment) -> Iterator[Finding]:
         met = {"u": f"{given.wanted:.6g}", "reached": f"{given.of_input(reached):.6g}"}
         yield Finding("train-off", (*TOP, key), met)
     if not choice.free[choice.first]:
-        yield Finding("train-shift", (*TOP, "z"), {"teeth": told(choice.chosen)})
+        yield Finding("train-shift", (*TOP, "z"), {"teeth": teeth_of(choice.chosen)})
 
 
 WARNINGS = (physics,)

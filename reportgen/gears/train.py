@@ -19,6 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.shown import shown
+from reportgen.gears import train_formulas as formulas
+from reportgen.gears.train_formulas import TrainScheme, over_teeth
 
 Wholes = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -36,26 +38,6 @@ FITS = 1e-6
 """Teeth that stand so near to their gap (teeth) are in it."""
 CONDITIONS = ("ratio", "interference", "neighbours", "assembly")
 """What coaxial tooth numbers must fulfil, in the order in which it is asked."""
-
-
-@dataclass(frozen=True, slots=True)
-class TrainScheme:
-    """Which of the two wheels that mesh with satellites are inner ones; a `single` satellite meshes with both."""
-
-    inner: tuple[bool, bool]
-    single: bool = False
-
-    @property
-    def signs(self) -> tuple[int, int]:
-        """+1 for a mesh of an inner wheel, whose satellite turns as it does against the carrier, else −1."""
-        first, second = self.inner
-        return 1 if first else -1, 1 if second else -1
-
-    @property
-    def sign(self) -> int:
-        """Of z₂z₃/(z₁z₂′) in u₁H = 1 ± z₂z₃/(z₁z₂′)."""
-        first, second = self.signs
-        return -first * second
 
 
 SCHEMES: Mapping[str, TrainScheme] = {
@@ -113,9 +95,10 @@ class Train:
 
     @property
     def ratio(self) -> Fraction:
-        """u₁H with wheel 3 at rest."""
+        """u₁H with wheel 3 at rest, exactly: no other fraction over z₁z₂′ lies within the rounding of its value."""
         z = self.teeth
-        return 1 + SCHEMES[self.scheme].sign * Fraction(z.two * z.three, z.one * z.other)
+        (found,) = ratios(SCHEMES[self.scheme], np.array([z]).T)
+        return Fraction(float(found)).limit_denominator(z.one * z.other)
 
     @property
     def size(self) -> float:
@@ -144,16 +127,13 @@ class Train:
 
 
 def ratios(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
-    z1, z2, z2p, z3 = z
-    u1H: NDArray[np.float64] = 1 + scheme.sign * (z2 * z3) / (z1 * z2p)
-    return u1H
+    """u₁H = 1 ± z₂z₃/(z₁z₂′) of tooth numbers [4, N], Willis's equation with ω₃ = 0."""
+    return over_teeth(formulas.ratio, scheme, z)
 
 
-def axis(scheme: TrainScheme, z: Wholes) -> Wholes:
+def axis(scheme: TrainScheme, z: Wholes) -> NDArray[np.float64]:
     """Twice the distance between the axes of wheel 1 and satellite 2, in modules."""
-    first, _ = scheme.signs
-    distance: Wholes = np.abs(z[0] - first * z[1])
-    return distance
+    return over_teeth(formulas.first_axes, scheme, z)
 
 
 def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
@@ -167,7 +147,9 @@ def _interference(scheme: TrainScheme, z: Wholes) -> Flags:
 def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Flags:
     """The tips of satellites beside each other leave a gap: (z + 2)/(z₁ ± z₂) < sin(π/k) of both wheels of them."""
     room = math.sin(math.pi / k) * axis(scheme, z)
-    holds: Flags = (z[1] + 2 < room) & ((z[2] + 2) / float(modules) < room)
+    tip = over_teeth(formulas.tip_of_satellite, scheme, z)
+    other_tip = over_teeth(formulas.tip_of_other_satellite, scheme, z)
+    holds: Flags = (tip < room) & (other_tip / float(modules) < room)
     return holds
 
 
@@ -326,7 +308,7 @@ def mended(demand: Demand) -> tuple[int, ...]:
 
 
 def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ...]]:
-    """The angle of wheel 3, and of each satellite when the carrier is at 0, with a tooth of wheel 1 at 0.
+    """The angles (rad) of wheel 3 and of each satellite, the carrier at 0, a tooth of wheel 1 at 0.
 
     A tooth of every wheel lies at its angle 0.  Where two wheels meet, a tooth of one stands in a gap of the other.
     An angle is None where no position of the satellite fits both wheels.
@@ -361,7 +343,7 @@ def turned(train: Train, satellites: int) -> tuple[float, tuple[float | None, ..
 
 
 def power_way(ratio: float, carrier_drives: bool) -> int:
-    """+1 where, seen from the carrier, power goes from wheel 1 to wheel 3, else −1.
+    """+1 where, by the ratio u₁H, power goes from wheel 1 to wheel 3 seen from the carrier, else −1.
 
     Its sense is that of M₁(ω₁ − ω_H) = M₁ω₁ (1 − 1/u), where M₁ω₁ is positive for a driving wheel 1.
     """

@@ -14,11 +14,12 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
 from reportgen.drawing.plates import DrawingPlate
-from reportgen.formula import Chain, Number, Symbol, signed, vocabulary
+from reportgen.formula import Chain, Number, Symbol, signed
 from reportgen.gears import train_drawings, train_ids
 from reportgen.gears.train import DUST, LEAST_DIFFERENCE, LEAST_OUTER, Train
 from reportgen.gears.train_drawings import scheme_views, velocity_triangles
-from reportgen.gears.train_solution import FIRST_ROW_WHEEL, OTHER, SolvedTrain, term_of
+from reportgen.gears.train_formulas import OTHER, term_of
+from reportgen.gears.train_solution import FIRST_ROW_WHEEL, SolvedTrain
 from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value, listed
 from reportgen.report.design import DesignPage
 from reportgen.report.result_entries import ResultEntries
@@ -74,9 +75,9 @@ class TrainPage(DesignPage[SolvedTrain]):
             "checks": self.checks,
             "rates_table": self.rates_table,
             "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
-            "value": lambda id: Value(written.number(id)),
-            "quantity": lambda id: said((written.symbol(id), " = ", written.number(id))),
-            "lines": lambda quantities: Equation(tuple(written.chain(id) for id in quantities)),
+            "value": self.value,
+            "quantity": self.quantity,
+            "lines": self.lines,
             "formulas": lambda quantities: Equation(tuple(Chain(written.chain(id).parts[:2]) for id in quantities)),
             "math": self.math,
             "figure": self.figure,
@@ -93,11 +94,7 @@ class TrainPage(DesignPage[SolvedTrain]):
     # --- symbols and lines
 
     def math(self, text: str) -> Symbol:
-        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
-        if text in self.case.printed:
-            return self.case.printed.symbol(text)
-        base, _, sub = text.partition("_")
-        return vocabulary.in_language(Symbol(base, sub.replace("2p", OTHER)), self.case.words["symbols"])
+        return super().math(text.replace("2p", OTHER))
 
     @property
     def relation(self) -> Equation:

@@ -24,15 +24,18 @@ from reportgen.drawing.animation import (
     Track,
     extent,
 )
-from reportgen.drawing.labels import Canvas, Request, finish, label
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
-from reportgen.formula import Symbol
+from reportgen.formula import Ref, Symbol
+from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears import train_ids
 from reportgen.gears.train import ALPHA, turned
-from reportgen.gears.train_solution import OTHER, SolvedTrain, pole_distance
+from reportgen.gears.train_formulas import OTHER, reference_radius
+from reportgen.gears.train_solution import SolvedTrain, pole_distance
 from reportgen.sheets.plates import on_sheet
 
 FRONT = 80.0
@@ -51,6 +54,7 @@ BEYOND = 6.0
 APART = 16.0
 """White between the triangles and the plan of angular velocities (mm)."""
 SAMPLES = 360
+RADIUS = reference_radius(Ref("m"), Ref("z"))
 FILMED = 110.0
 """What the wheels may fill on a page (mm)."""
 
@@ -59,13 +63,13 @@ def radii(case: SolvedTrain) -> dict[str, float]:
     """Reference radii of the wheels, and of the circle of the satellites' axes as H (m)."""
     given, z = case.given, case.train.teeth
     m, m2 = given.m.si, given.second_module.si
-    first, _ = case.scheme.signs
-    sizes = {"1": m * z.one, "2": m * z.two, OTHER: m2 * z.other, "3": m2 * z.three, "H": m * (z.one - first * z.two)}
-    return {wheel: size / 2 for wheel, size in sizes.items()}
+    wheels = {"1": (m, z.one), "2": (m, z.two), OTHER: (m2, z.other), "3": (m2, z.three)}
+    found = {wheel: float(evaluate(RADIUS, {"m": module, "z": teeth})) for wheel, (module, teeth) in wheels.items()}
+    return found | {"H": float(case.ledger["train.a.1"].values[0])}
 
 
 def outermost(r: dict[str, float]) -> float:
-    """How far wheels reach from the axis, by their reference circles."""
+    """How far wheels reach from the axis, by their reference circles, in the unit of the radii."""
     return max(r["1"], r["3"], r["H"] + max(r["2"], r[OTHER]))
 
 
@@ -280,7 +284,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
     z, (inner1, inner3) = train.teeth, case.scheme.inner
     ω1, ω2, ωH = (float(case.ledger[train_ids.omega(wheel)].at(1)) for wheel in ("1", "2", "H"))
     θ = math.copysign(1, ωH) * knots
-    one, satellite = ω1 / ωH, ω2 / ωH
+    wheel1, satellite = ω1 / ωH, ω2 / ωH
     still, placed = turned(train, case.given.k)
     centre, red = Track(np.zeros(1, complex)), Pen(0.35, style.RED)
 
@@ -294,7 +298,7 @@ def _pane(case: SolvedTrain, knots: np.ndarray) -> Pane:
 
     items: list[MovingItem] = [
         MovingBody(marked("3", z.three, inner3), centre, Track(np.array([still]))),
-        MovingBody(marked("1", z.one, inner1), centre, Track(one * θ)),
+        MovingBody(marked("1", z.one, inner1), centre, Track(wheel1 * θ)),
     ]
     arm: list[Item] = [style.joint(0j)]
     for number, ψ in enumerate(placed):

@@ -67,7 +67,7 @@ class Parameters(Part):
 
     @property
     def row_ratio(self) -> float:
-        """By how much the rows of ordinary wheels slow down, by its size."""
+        """By which factor the rows of ordinary wheels slow down, by its size."""
         return math.prod(driven / driver for driver, driven in (*self.before, *self.behind))
 
     @property

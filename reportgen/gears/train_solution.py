@@ -14,14 +14,14 @@ from reportgen.base.units import MM, SERIES, nice_up
 from reportgen.formula import PI, Expression, Operand, Product, Ref, Symbol, as_expression, signed, sin
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
+from reportgen.gears import train_formulas as formulas
 from reportgen.gears import train_ids
-from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, TrainScheme, power_way
+from reportgen.gears.train import CONDITIONS, SCHEMES, Train, TrainChoice, power_way
 from reportgen.gears.train_file import Parameters
+from reportgen.gears.train_formulas import OTHER, TrainScheme, term_of
 from reportgen.report.case import Misconceptions
 from reportgen.report.design import DesignCase
 
-OTHER = "2′"
-"""The second wheel of a double satellite."""
 FIRST_ROW_WHEEL = 4
 """Wheels of ordinary rows are numbered from here."""
 PLAN_HEIGHT, PLAN_WIDTH, RATES_WIDTH = 85.0, 60.0, 110.0
@@ -50,8 +50,8 @@ class SolvedTrain(DesignCase):
 
     @property
     def given(self) -> Parameters:
-        found: Parameters = self.assignment.parameters
-        return found
+        parameters: Parameters = self.assignment.parameters
+        return parameters
 
     @property
     def scheme(self) -> TrainScheme:
@@ -78,13 +78,13 @@ class SolvedTrain(DesignCase):
     def misconceptions(self) -> Misconceptions:
         """Tooth numbers that miss one condition, and definitions that are often used in place of the right ones."""
         z = {wheel: Ref(train_ids.teeth(wheel)) for wheel in ("1", "2", OTHER, "3")}
-        term, sign, one = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
+        term, sign, unity = term_of(self.scheme, z), self.scheme.sign, as_expression(1.0)
         ω1, ωH = (Ref(train_ids.omega(wheel)) for wheel in ("1", "H"))
         driven, inverse = (ω1, ωH * Ref("train.uH1")) if self.given.by_carrier else (ωH, ω1 * Ref("train.u1H"))
         side, turned = self.scheme.signs[0], z["1"] / z["2"]
         module, wheel = larger_satellite(self.train)
         changed: Mapping[str, list[tuple[str, Expression]]] = {
-            "train.u1H": [("train-without-one", signed(sign, term)), ("train-ratio-sign", one + signed(-sign, term))],
+            "train.u1H": [("train-without-one", signed(sign, term)), ("train-ratio-sign", unity + signed(-sign, term))],
             driven.id: [("train-inverse", inverse)],
             train_ids.omega("2"): [
                 ("train-carrier-still", signed(side, ω1 * turned)),
@@ -99,11 +99,6 @@ class SolvedTrain(DesignCase):
                     if teeth.id in self.ledger:
                         readings.setdefault(teeth.id, []).append((f"train-{name}", np.array([number])))
         return Misconceptions(readings=readings, changed=changed)
-
-
-def term_of(scheme: TrainScheme, z: Mapping[str, Ref | Symbol]) -> Expression:
-    """z₂z₃/(z₁z₂′), of a single satellite z₃/z₁."""
-    return z["3"] / z["1"] if scheme.single else Product((z["2"], z["3"])) / Product((z["1"], z[OTHER]))
 
 
 def larger_satellite(train: Train) -> tuple[str, str]:
@@ -140,10 +135,10 @@ class TrainSheet:
         n = q.give("train.n.in", given.n_in.value, Symbol("n", "in"), "speed of rotation")
         self.rows: list[tuple[str, Expression]] = []
         for i, row in enumerate((*given.before, *given.behind)):
-            one, other = str(FIRST_ROW_WHEEL + 2 * i), str(FIRST_ROW_WHEEL + 2 * i + 1)
-            for wheel, teeth in zip((one, other), row, strict=True):
+            first_wheel, second_wheel = str(FIRST_ROW_WHEEL + 2 * i), str(FIRST_ROW_WHEEL + 2 * i + 1)
+            for wheel, teeth in zip((first_wheel, second_wheel), row, strict=True):
                 self.z[wheel] = q.give(train_ids.teeth(wheel), float(teeth))
-            self.rows.append((one, self.z[other] / self.z[one]))
+            self.rows.append((first_wheel, self.z[second_wheel] / self.z[first_wheel]))
         wanted = Symbol("u", "H1" if given.by_carrier else "1H", "*")
         if given.u is not None:
             q.give("train.u", given.wanted, wanted, "ratio")
@@ -200,16 +195,14 @@ class TrainSheet:
 
     def _enter_ratio(self) -> None:
         q, given = self.q, self.given
-        u = q.define(
-            "train.u1H", 1 + signed(self.scheme.sign, term_of(self.scheme, self.z)), Symbol("u", "1H"), "ratio"
-        )
+        u = q.define("train.u1H", formulas.ratio(self.scheme, self.z), Symbol("u", "1H"), "ratio")
         if given.by_carrier:
             u = q.define("train.uH1", 1 / u, Symbol("u", "H1"), "ratio")
         self.u = u
         q.define("train.off", (u - q["train.u"]) / q["train.u"], "Δu", "share", scale=1.0, optional=True)
         of_rows = [
-            q.define(train_ids.row_ratio(one), -slower, Symbol("u", f"{one},{int(one) + 1}"))
-            for one, slower in self.rows
+            q.define(train_ids.row_ratio(wheel), -slower, Symbol("u", f"{wheel},{int(wheel) + 1}"))
+            for wheel, slower in self.rows
         ]
         if of_rows:
             ratios = *of_rows[: len(given.before)], u, *of_rows[len(given.before) :]
@@ -220,12 +213,12 @@ class TrainSheet:
     # --- conditions
 
     def _enter_conditions(self) -> None:
-        q, z, (side1, side2) = self.q, self.z, self.scheme.signs
-        a = self._length("train.a.1", self.m * (z["1"] + signed(-side1, z["2"])) / 2, Symbol("a", "12"))
+        q, z = self.q, self.z
+        a = self._length("train.a.1", self.m * formulas.first_axes(self.scheme, z) / 2, Symbol("a", "12"))
         far = Symbol("a", "23" if self.scheme.single else f"{OTHER}3")
-        self._length("train.a.2", self.m2 * (z["3"] + signed(-side2, z[OTHER])) / 2, far)
+        self._length("train.a.2", self.m2 * formulas.second_axes(self.scheme, z) / 2, far)
         module, wheel = larger_satellite(self.train)
-        tip = self._length("train.tip", q[module] * (z[wheel] + 2), Symbol("d", f"a{wheel}"))
+        tip = self._length("train.tip", formulas.tip_diameter(q[module], z[wheel]), Symbol("d", f"a{wheel}"))
         q.define("train.gap", tip / (2 * a), "q", "ratio")
         k = q["train.k"]
         q.define("train.room", sin(PI / k), Symbol("q", "max"), "ratio")
@@ -251,11 +244,11 @@ class TrainSheet:
         pairs = [(one, str(int(one) + 1), q[train_ids.row_ratio(one)]) for one, _ in self.rows]
         pairs.insert(len(given.before), (driver, driven, self.u))
         ω: Expression = 2 * PI * q["train.n.in"] / 60
-        for one, other, ratio in pairs:
-            start = q.define(train_ids.omega(one), ω)
-            ω = end = q.define(train_ids.omega(other), start / ratio)
+        for driving, driven_wheel, ratio in pairs:
+            start = q.define(train_ids.omega(driving), ω)
+            ω = end = q.define(train_ids.omega(driven_wheel), start / ratio)
             q.set_out("rates", start, end)
-            if one == driver:
+            if driving == driver:
                 ω1, ωH = q[train_ids.omega("1")], q[train_ids.omega("H")]
                 turned = signed(self.scheme.signs[0], (ω1 - ωH) * z["1"] / z["2"])
                 q.set_out("rates", q.define(train_ids.omega("2"), ωH + turned, scale=given.n_in.si))
@@ -265,8 +258,8 @@ class TrainSheet:
     def _enter_triangles(self) -> None:
         """Velocities over the distance from the axis are straight lines; parallels to them through a pole cut off ω."""
         q, z, a = self.q, self.z, self.q["train.a.1"]
-        r1 = self._length("train.r.1", self.m * z["1"] / 2, Symbol("r", "1"))
-        r3 = self._length("train.r.3", self.m2 * z["3"] / 2, Symbol("r", "3"))
+        r1 = self._length("train.r.1", formulas.reference_radius(self.m, z["1"]), Symbol("r", "1"))
+        r3 = self._length("train.r.3", formulas.reference_radius(self.m2, z["3"]), Symbol("r", "3"))
         v = {
             "A": q.define(train_ids.velocity("A"), q[train_ids.omega("1")] * r1),
             "B": q.define(train_ids.velocity("B"), q[train_ids.omega("H")] * a),
@@ -340,8 +333,8 @@ def pole_distance(rate: float, wide: float, larger: float = 1.0) -> float:
     differ by less than ten times, one of whole half millimetres is taken if there is one.
     """
     most = larger * min(max(RATES_WIDTH / wide, NEAREST_POLE), FARTHEST_POLE)
-    found = [rate / nice_up(rate / most * share) for share in SERIES]
-    return next((h for h in found if math.isclose(2 * h, round(2 * h), rel_tol=1e-9)), found[0])
+    distances = [rate / nice_up(rate / most * share) for share in SERIES]
+    return next((h for h in distances if math.isclose(2 * h, round(2 * h), rel_tol=1e-9)), distances[0])
 
 
 def over(points: str) -> Symbol:

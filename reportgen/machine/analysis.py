@@ -73,7 +73,7 @@ class Summary:
 
 
 def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> GasState:
-    """The gas in a cylinder: s/H from the pin's place, pressure from the indicator diagram."""
+    """The gas at cycle angles [N] (rad): s/H from the pin's place, pressure (Pa) from the indicator diagram."""
     angle = piston.phase + cycle_angle
     return GasState(
         piston,
@@ -85,7 +85,7 @@ def gas_in(piston: Piston, motion: Motion, cycle_angle: np.ndarray) -> GasState:
 
 
 def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis:
-    """Solve motion, gas, forces and both torques at the machine's positions, or at other cycle angles."""
+    """Solve motion, gas, forces and both torques at the machine's positions, or at other cycle angles [N] (rad)."""
     angles = machine.cycle_angles if cycle_angle is None else np.asarray(cycle_angle, dtype=float)
     linkage = machine.linkage
     motion = motion_at(machine, angles)
@@ -115,7 +115,7 @@ def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
 
 
 def breaks(machine: Machine) -> np.ndarray:
-    """Cycle angles where the loads have corners: dead centres and nodes of the tables."""
+    """Cycle angles (rad) where the loads have corners: dead centres and nodes of the tables."""
     corners = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
     return np.array(sorted(set(np.mod(corners, whole).round(13).tolist())))
@@ -292,12 +292,12 @@ class Machine:
 
     @property
     def even(self) -> np.ndarray:
-        """Whether each position is one of those evenly spaced over the cycle [count·turns]: lettered ones are not."""
+        """Whether each position [count·turns] is one of those evenly spaced over the cycle: lettered ones are not."""
         return np.array([not self.labels[k].isalpha() if self.labels else True for k in range(self.positions)])
 
     @property
     def cycle_angles(self) -> np.ndarray:
-        """Cycle angles of all positions [count·turns], 0 at position 1, growing with the rotation."""
+        """Cycle angles (rad) of all positions [count·turns], 0 at position 1, growing with the rotation."""
         step = 2 * np.pi / self.count
         if not self.places:
             return np.arange(self.positions) * step
@@ -326,7 +326,7 @@ class Machine:
 
 
 def lettered(count: int, turns: int, extra: Iterable[float]) -> tuple[tuple[float, ...], tuple[str, ...]]:
-    """Cycle angles of one turn's positions, and labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
+    """Cycle angles (rad) of a turn's positions, labels of the cycle's: `count` even ones 0, 1, …, others a, b, ….
 
     Of the `extra` angles those that coincide with an even one are left out; the letters follow the angle and
     go on from turn to turn, as the numbers do.

@@ -124,7 +124,7 @@ def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
 
 
 def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
-    """The flywheel for the unevenness δ, over angles among which are all positions and corners of the loads."""
+    """The flywheel (kg·m²) for the unevenness δ, over angles among which are all positions and corners of the loads."""
     whole = machine.turns * FULL_TURN
     own = np.concatenate((machine.cycle_angles, breaks(machine), [0.0, whole]))
     grid = np.linspace(0.0, whole, machine.turns * SAMPLES + 1)

@@ -38,7 +38,7 @@ class Load:
     couple: Floats
 
     def moment(self, about: Complexes | complex) -> Floats:
-        """Moment about a point: (point − about) × force + couple."""
+        """Moment about a point (N·m) [N]: (point − about) × force + couple."""
         return cross(self.point - about, self.force) + self.couple
 
     def power(self, motion: Motion) -> Floats:
@@ -120,7 +120,7 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
 
 
 def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float) -> float:
-    """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`.
+    """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`, in the unit of f.
 
     Every part between breaks must be smooth.  Parts are halved, those alone where it matters, as beside a dead point,
     until halving no longer changes them: by 1e-12 of the mean of |f| in all, or by 1e-9 where rounding allows no more.
@@ -201,6 +201,7 @@ class _Wrench(NamedTuple):
     couple: Floats | float
 
     def moment(self, about: Complexes) -> Floats:
+        """Moment about a point (N·m) [N]."""
         return cross(self.point - about, self.force) + self.couple
 
 

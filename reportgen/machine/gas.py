@@ -41,7 +41,7 @@ SETTLED = 1e-9
 
 
 def stroke_at(cycle_angle: ArrayLike, dead_centres: ArrayLike = DEAD_CENTRES) -> NDArray[np.int64]:
-    """Which stroke (0…3 of `STROKES`) a cycle angle lies in; a dead centre begins its stroke.
+    """Which stroke [N] (0…3 of `STROKES`) cycle angles (rad) lie in; a dead centre begins its stroke.
 
     `dead_centres` are the cycle angles at which the four strokes begin, the first of them 0.
     """
@@ -147,7 +147,7 @@ class StrokeIndicator:
     def breaks(
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[float, ...]:
-        """All cycle angles in [0, 4π] where the pressure bends or jumps, rising.
+        """All cycle angles in [0, 4π] (rad) where the pressure bends or jumps, rising.
 
         `fraction_of` gives s/H at cycle angles [N]; it is monotonic between dead centres, so each
         stroke crosses every node once.
@@ -206,13 +206,13 @@ class AngleIndicator:
         self, fraction_of: Callable[[Floats], Floats], dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[Branch, ...]:
         """Each stroke's line over s/H, carried over by the piston's motion: `fraction_of` gives s/H at cycle angles."""
-        found = []
+        corners = []
         for start, end in pairwise((*np.asarray(dead_centres), CYCLE)):
             nodes = [angle for angle in self.angles if start < angle < end]
             angle = np.union1d(np.linspace(start, end, DRAWN_IN_A_STROKE), nodes)
             pressure = np.interp(angle, self.angles, self.pressures)
-            found.append((tuple(map(float, fraction_of(angle))), tuple(map(float, pressure))))
-        return tuple(found)
+            corners.append((tuple(map(float, fraction_of(angle))), tuple(map(float, pressure))))
+        return tuple(corners)
 
     def pressure(
         self, cycle_angle: ArrayLike, fraction: ArrayLike = 0.0, dead_centres: ArrayLike = DEAD_CENTRES
@@ -223,7 +223,7 @@ class AngleIndicator:
     def breaks(
         self, fraction_of: Callable[[Floats], Floats] | None = None, dead_centres: ArrayLike = DEAD_CENTRES
     ) -> tuple[float, ...]:
-        """All cycle angles in [0, 4π] where the pressure bends, rising."""
+        """All cycle angles in [0, 4π] (rad) where the pressure bends, rising."""
         return self.angles
 
     def work(self, volume_rate: Callable[[Floats], Floats]) -> float:

@@ -71,13 +71,13 @@ class Stroke:
     @property
     def dead_centres(self) -> Floats:
         """Its own cycle angles over two turns at which it turns back [4]; the first is 0, the top."""
-        way = (self.bottom_angle - self.top_angle) % FULL_TURN or np.pi
-        return np.array([0.0, way, FULL_TURN, FULL_TURN + way])
+        inward_turn = (self.bottom_angle - self.top_angle) % FULL_TURN or np.pi
+        return np.array([0.0, inward_turn, FULL_TURN, FULL_TURN + inward_turn])
 
     def fraction(self, motion: Motion) -> Floats:
         """s/H [N]: the pin's way from its top over the stroke."""
-        way = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
-        return np.asarray(np.clip(way, 0.0, 1.0))
+        fraction = np.real(np.conj(self.inward) * (motion.points[self.pin].p - self.top)) / self.stroke
+        return np.asarray(np.clip(fraction, 0.0, 1.0))
 
     def fraction_rate(self, motion: Motion) -> Floats:
         """d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
@@ -114,12 +114,12 @@ class Law(ABC):
 
     @abstractmethod
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        """Cycle angles where the size bends or jumps, in any order and any turn."""
+        """Cycle angles (rad) where the size bends or jumps, in any order and any turn."""
 
     @property
     @abstractmethod
     def sizes(self) -> tuple[float, ...]:
-        """All sizes that it is given by."""
+        """All sizes (N or N·m) that it is given by."""
 
     @property
     def acts(self) -> bool:
@@ -369,12 +369,12 @@ class Resistance(Law):
 
 
 def by_stroke(fractions: tuple[float, ...], inward: tuple[float, ...], outward: tuple[float, ...]) -> Indicator:
-    """Forces over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
+    """Forces (N) over s/H from the top: a row for the way in, towards the crank, and one for the way out."""
     return StrokeIndicator(fractions, inward, outward, inward, outward)
 
 
 def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> Indicator:
-    """Forces over one turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
+    """Forces (N) over a turn from the top, 0…2π; the table's last value closes the turn or jumps to the first."""
     second = tuple(angle + FULL_TURN for angle in angles)
     if values[0] == values[-1]:
         return AngleIndicator((*angles, *second[1:]), (*values, *values[1:]))
@@ -383,7 +383,7 @@ def by_angle(angles: tuple[float, ...], values: tuple[float, ...]) -> Indicator:
 
 
 def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
-    """What resists a `rate` over the cycle angle (0…2π) with a constant size."""
+    """What resists a `rate` (m/s or rad/s) over the cycle angle (0…2π) with a constant size (N or N·m)."""
     edges = np.linspace(0.0, FULL_TURN, STEPS + 1) - FULL_TURN / STEPS / np.pi
     signs = np.sign(rate(edges))
     changes = np.flatnonzero(signs[1:] != signs[:-1])
@@ -394,10 +394,10 @@ def opposing(size: float, rate: Callable[[Floats], Floats]) -> Opposing:
         return np.asarray(np.sign(rate(angle.ravel()).reshape(angle.shape)) == first[:, None])
 
     _, high = halved(edges[changes], edges[changes + 1], unchanged, halvings)
-    found = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
+    reversals = np.sort(np.mod(high + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
     # The first of them in the turn is where the sign before it ends.
-    after = rate(np.array([(found[0] + found[1]) / 2])) if found.size > 1 else -rate(np.array([0.0]))
-    return Opposing(size, tuple(map(float, found)), -float(np.sign(after[0])))
+    after = rate(np.array([(reversals[0] + reversals[1]) / 2])) if reversals.size > 1 else -rate(np.array([0.0]))
+    return Opposing(size, tuple(map(float, reversals)), -float(np.sign(after[0])))
 
 
 def halved(low: Floats, high: Floats, before: Callable[[Floats], Flags], times: int) -> tuple[Floats, Floats]:

@@ -27,16 +27,16 @@ def crank_motion(linkage: Linkage, positions: Positions, start: float, speed: fl
 
 def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
     """The sliders on guides of the frame, by link: their group and guide."""
-    found = {}
+    rails = {}
     for dyad in linkage.dyads:
         for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
             if isinstance(end, Guide) and end.link == GROUND:
-                found[link] = dyad, end
-    return found
+                rails[link] = dyad, end
+    return rails
 
 
 def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[float, ...]:
-    """The cycle angles of one turn, rising, at which a slider on the frame turns back."""
+    """The cycle angles (rad) of one turn, rising, at which a slider on the frame turns back."""
     dyad, guide = rails(linkage)[link]
     along = cmath.exp(1j * guide.angle)
 
@@ -60,20 +60,20 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
     ends = motion_at(np.array(reversals)).points[dyad.middle].p
     high = int(np.argmax(np.real(np.conj(along) * ends)))
     first = float(np.mod(reversals[high] + BEFORE_A_TURN, FULL_TURN) - BEFORE_A_TURN)
-    way = (reversals[1 - high] - reversals[high]) % FULL_TURN
+    inward_turn = (reversals[1 - high] - reversals[high]) % FULL_TURN
     whole = turns * FULL_TURN
     phase = (-(first + FULL_TURN * (top - 1)) + BEFORE_A_TURN) % whole - BEFORE_A_TURN
     crank_pin = dyad.start if isinstance(dyad.start, str) else dyad.middle
-    other = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
+    rod = dyad.links[0] if dyad.links[1] == link else dyad.links[1]
     return Stroke(
         link=link,
-        rod=other,
+        rod=rod,
         pin=dyad.middle,
         crank_pin=crank_pin,
         top=complex(ends[high]),
         bottom=complex(ends[1 - high]),
         top_angle=0.0,
-        bottom_angle=way,
+        bottom_angle=inward_turn,
         phase=phase,
     )
 
@@ -93,7 +93,7 @@ class Piston(Stroke):
 
     @classmethod
     def on(cls, course: Stroke, bore: float, indicator: Indicator) -> Piston:
-        """The piston that is the slider of a course."""
+        """The piston, its bore in m, that is the slider of a course."""
         return cls(**vars(course), bore=bore, indicator=indicator)
 
     @property
@@ -117,7 +117,7 @@ Direction = Callable[[Motion], Complexes]
 
 
 def fixed(direction: complex) -> Direction:
-    """The same direction at every position."""
+    """The same direction, of length 1, at every position."""
     return lambda motion: np.full(motion.driver.shape, direction, dtype=np.complex128)
 
 
@@ -153,7 +153,7 @@ class Torque:
 
 def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
     """The gas on each piston."""
-    return tuple(Applied(one.name, one.link, one.pin, fixed(one.inward), one.law) for one in pistons)
+    return tuple(Applied(piston.name, piston.link, piston.pin, fixed(piston.inward), piston.law) for piston in pistons)
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,19 +47,19 @@ def unit(angle: Floats | float) -> Complexes:
 
 
 def cross(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a × b = aₓb_y − a_y bₓ, the component along z."""
+    """a × b = aₓb_y − a_y bₓ [N], the component along z."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.imag - a.imag * b.real, dtype=np.float64)
 
 
 def dot(a: Complexes | complex, b: Complexes | complex) -> Floats:
-    """a · b = aₓbₓ + a_y b_y."""
+    """The scalar product a · b = aₓbₓ + a_y b_y [N]."""
     a, b = np.asarray(a), np.asarray(b)
     return np.asarray(a.real * b.real + a.imag * b.imag, dtype=np.float64)
 
 
 def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | complex) -> tuple[Floats, Floats]:
-    """The real x, y with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
+    """Cramer's rule: the real x, y [N] with x·u + y·w = rhs; nan where u and w are parallel to within `SINGULAR`."""
     area = cross(u, w)
     regular = np.abs(area) > SINGULAR * np.abs(u) * np.abs(w)
     area = np.where(regular, area, np.nan)
@@ -107,7 +107,7 @@ class Rail:
     carrier: LinkMotion
 
     def carried(self, p: Complexes) -> PointMotion:
-        """The point of the guide's own link that lies at `p`: v = v_G + iω r, a = a_G + (iε − ω²) r."""
+        """The point of the guide's own link that lies at `p` (m) [N]: v = v_G + iω r, a = a_G + (iε − ω²) r."""
         return carried(self.at, self.carrier, p)
 
 
@@ -125,7 +125,7 @@ End = PointMotion | Rail
 
 
 def carried(base: PointMotion, link: LinkMotion, p: Complexes) -> PointMotion:
-    """The point at `p` of a rigid link that moves with `base` and turns as `link` does."""
+    """The point at `p` (m) [N] of a rigid link that moves with `base`: v = v_O + iω r, a = a_O + (iε − ω²) r."""
     r = p - base.p
     return PointMotion(p, base.v + 1j * link.omega * r, base.a + (1j * link.epsilon - link.omega**2) * r)
 
@@ -276,7 +276,7 @@ class Motion:
     reachable: Flags
 
     def of(self, link: int, at: Complexes | complex) -> PointMotion:
-        """The material point of `link` that lies at `at` now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
+        """The material point of `link` that lies at `at` (m) [N] now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
         p = np.broadcast_to(np.asarray(at, dtype=np.complex128), self.driver.shape)
         if link == GROUND:
             return PointMotion(p, np.zeros_like(p), np.zeros_like(p))
@@ -381,7 +381,7 @@ class _State:
             self._place(number, LinkMotion(_continuous(link.angle), link.omega, link.epsilon), origin)
 
     def motion(self, driver: Floats, kept: Places) -> Motion:
-        """The result at the positions asked for; the substeps are dropped."""
+        """The result at the positions asked for [N]; the substeps are dropped."""
         return Motion(
             driver=driver,
             rate=self.rate[kept],

@@ -224,8 +224,8 @@ def _on_paper(ledger: Ledger, id: str) -> Family:
     assert isinstance(vector, Ref), f"{id} is no direction of a vector"
     # The side of a force plan that is drawn for a force; on other plans the vector itself lies on paper.
     measured = Call("abs", (vector,))
-    sides = (one for one in ledger.families.values() if one.kind == "segment")
-    return next((one for one in sides if one.of == vector.id or one.definition == measured), ledger[vector.id])
+    sides = (family for family in ledger.families.values() if family.kind == "segment")
+    return next((side for side in sides if side.of == vector.id or side.definition == measured), ledger[vector.id])
 
 
 # --- the flywheel as it is worked out on paper ----------------------------------------------------
@@ -261,6 +261,6 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
 
 
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
-    """Whether a quantity can be worked out from the positions alone; the speed only where the excess work can."""
+    """Whether a quantity can be worked out from the positions alone; speed only where excess work can (errors SI)."""
     id = "A.excess" if id == "omega.of" else id
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

@@ -90,7 +90,7 @@ def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answe
     """A judged cell: the student's value on the colour of its verdict."""
     problem = marking.submission.problems.get((cell.id, cell.position))
     comment = _comment(cell, marking.key, words, problem.message if problem else "", show_answers)
-    return Entry(cell.given, FIRST if cell.first else STYLES[cell.verdict], comment)
+    return Entry(cell.written, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
 def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
@@ -162,7 +162,7 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
 def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool) -> Inlines:
     """One error: what, where, the value given, perhaps the one expected; then the mistake in words."""
     feedback, row = words["feedback"], key.row(cell.id)
-    assert cell.given is not None
+    assert cell.written is not None
     number = _expected(row, cell)
     expected = tree.Value(Number(number.value, number.decimals, row.unit))
     label = key.label(cell.position, cell.id)
@@ -170,7 +170,7 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
         InlineMath(row.symbol),
         *((Text(f" ({row.what})"),) if row.what else ()),
         *(sentence(feedback["at"], label=label) if label else ()),
-        *sentence(feedback["yours"], value=_given_value(row, cell.given)),
+        *sentence(feedback["yours"], value=_given_value(row, cell.written)),
         *(sentence(feedback["expected"], value=expected) if show_answers else ()),
         Text(". "),
         *mistake_inlines(cell, key, words),
@@ -179,11 +179,11 @@ def _first(cell: Marked, key: Key, words: Mapping[str, Any], show_answers: bool)
 
 def _expected(row: KeyRow, cell: Marked) -> Number:
     """The value expected, with the decimals of its tolerance, or those of the report where these are fewer."""
-    width = band(row, cell.band)
+    width = band(row, cell.on_sheet.band)
     if not width:
-        return shown_number(row, cell.expected)
+        return shown_number(row, cell.on_sheet.expected)
     fine = band_decimals(width)
-    return Number(cell.expected, fine if row.decimals is None else min(fine, row.decimals))
+    return Number(cell.on_sheet.expected, fine if row.decimals is None else min(fine, row.decimals))
 
 
 def _followed(marking: Marking) -> list[Marked]:
@@ -207,9 +207,9 @@ def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[M
 
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     """Faults of single cells, each with its place in the student's own file."""
-    found = sorted(problems, key=lambda problem: problem.mark)
-    if found:
-        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in found)
+    in_order = sorted(problems, key=lambda problem: problem.mark)
+    if in_order:
+        texts = (f"{str(one.mark).removeprefix(f'{one.mark.file}:')}: {one.message}." for one in in_order)
         yield tree.List(tuple((paragraph(text),) for text in texts))
 
 
@@ -276,7 +276,7 @@ def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, sho
         lines.append(plain(mistake_inlines(cell, key, words), key.language))
     if show_answers:
         row = key.row(cell.id)
-        number, width = _expected(row, cell), band(row, cell.band) or 0.0
+        number, width = _expected(row, cell), band(row, cell.on_sheet.band) or 0.0
         expected = str(words["feedback"]["expected_note"]).format(
             value=write(number.value, number.decimals, key.language),
             band=write(width, band_decimals(width), key.language),

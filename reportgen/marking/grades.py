@@ -9,15 +9,17 @@ from pathlib import Path
 from statistics import fmean, median
 from typing import Any
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Content
-from reportgen.drawing.charts import bars, histogram
+from reportgen.drawing.counts import bars, histogram
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import points_text
 from reportgen.marking.key import symbol_text
-from reportgen.marking.marks import Marked, Marking, Scale, Verdict, points_of
+from reportgen.marking.marks import Marked, Marking, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
+from reportgen.marking.policy import Scale
 from reportgen.report import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Table, Text
 from reportgen.report.key import Key, KeyRow, capitalised
 

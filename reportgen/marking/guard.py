@@ -23,8 +23,9 @@ from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.bands import is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Notice, Place, Submission, Verdict
+from reportgen.marking.marks import Cells, Marked, Notice, Place, Submission, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Working, last_half_unit
 from reportgen.report.key import Key, KeyRow, Role
 
@@ -105,7 +106,7 @@ def guard(
 
 
 def _filled(cells: Cells) -> list[Place]:
-    return [place for place, cell in cells.items() if cell.given is not None]
+    return [place for place, cell in cells.items() if cell.written is not None]
 
 
 # --- the sheet alone ------------------------------------------------------------------------------
@@ -114,8 +115,8 @@ def _filled(cells: Cells) -> list[Place]:
 def _one_number(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     """Nearly all cells hold one number, which most of them should not."""
     filled = _filled(cells)
-    number, _ = Counter(cells[place].given for place in filled).most_common(1)[0] if filled else (None, 0)
-    same = tuple(place for place in filled if cells[place].given == number)
+    number, _ = Counter(cells[place].written for place in filled).most_common(1)[0] if filled else (None, 0)
+    same = tuple(place for place in filled if cells[place].written == number)
     wrong = [place for place in same if cells[place].verdict is not Verdict.right]
     if len(same) >= FOREIGN_SHARE * len(filled) and len(wrong) >= max(FEWEST, len(same) / 2):
         yield Notice("stock", same, tuple(filled))
@@ -128,8 +129,8 @@ def _constant_rows(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
         rows.setdefault(place[0], []).append(place)
     for places in rows.values():
         row = [cells[place] for place in places]
-        varies = np.ptp([cell.expected for cell in row]) > APART * max(cell.band for cell in row)
-        if len(row) >= FEWEST and len({cell.given for cell in row}) == 1 and varies:
+        varies = np.ptp([cell.on_sheet.expected for cell in row]) > APART * max(cell.on_sheet.band for cell in row)
+        if len(row) >= FEWEST and len({cell.written for cell in row}) == 1 and varies:
             yield Notice("constant", tuple(places))
 
 
@@ -139,7 +140,7 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
     copies: set[int] = set()
     for first, second in combinations(positions, 2):
         telling = [id for id, position in cells if position == first and _differ(cells, (id, first), (id, second))]
-        same = [id for id in telling if cells[id, first].given == cells[id, second].given]
+        same = [id for id in telling if cells[id, first].written == cells[id, second].written]
         if len(telling) < FEWEST_ROWS or len(same) < FOREIGN_SHARE * len(telling) or {first, second} <= copies:
             continue
         right = {k: sum(cells[id, k].verdict is Verdict.right for id in same) for k in (first, second)}
@@ -152,10 +153,10 @@ def _same_columns(scheme: MarkingScheme, cells: Cells) -> Iterator[Notice]:
 
 def _differ(cells: Cells, first: Place, second: Place) -> bool:
     """Whether both hold a value, and the key's lie apart."""
-    if second not in cells or cells[first].given is None or cells[second].given is None:
+    if second not in cells or cells[first].written is None or cells[second].written is None:
         return False
-    band = max(cells[first].band, cells[second].band)
-    return abs(cells[first].expected - cells[second].expected) >= APART * band
+    band = max(cells[first].on_sheet.band, cells[second].on_sheet.band)
+    return abs(cells[first].on_sheet.expected - cells[second].on_sheet.expected) >= APART * band
 
 
 def _other_data(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> Iterator[Notice]:
@@ -187,12 +188,12 @@ def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> 
     telling = met = 0
     for cell in cells.values():
         row = _row(classmate, cell)
-        if cell.given is None or row is None or _is_drawn(row):
+        if cell.written is None or row is None or _is_drawn(row):
             continue
         theirs = float(row.values[row.at(cell.position)])
-        if _apart(scheme, cell, theirs, cell.expected) >= APART * cell.band:
+        if _apart(scheme, cell, theirs, cell.on_sheet.expected) >= APART * cell.on_sheet.band:
             telling += 1
-            met += _apart(scheme, cell, cell.given, theirs) <= cell.band
+            met += _apart(scheme, cell, cell.written, theirs) <= cell.on_sheet.band
     return telling >= FEWEST_ROWS and met >= ALL * telling
 
 
@@ -202,7 +203,9 @@ def _is_right_for(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> 
 def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]) -> list[Notice]:
     """Runs of values that a classmate's sheet or key has, by chapters, by positions and over the sheet."""
     step = _read_to(scheme, cells)
-    own = {place: cell for place, cell in cells.items() if cell.given is not None and _is_personal(scheme, cell, step)}
+    own = {
+        place: cell for place, cell in cells.items() if cell.written is not None and _is_personal(scheme, cell, step)
+    }
     right = [cell for cell in cells.values() if cell.verdict is Verdict.right]
     others = [one for one in classmates if one.key.id != scheme.key.id and not _is_source(scheme, right, one)]
     runs: dict[Chapter | int, list[Place]] = {}
@@ -244,9 +247,9 @@ def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool
     telling = [
         cell
         for place, cell in cells.items()
-        if cell.given is not None
+        if cell.written is not None
         and (theirs := _theirs(classmate, place)) is not None
-        and _apart(scheme, cell, theirs, cell.expected) > cell.band
+        and _apart(scheme, cell, theirs, cell.on_sheet.expected) > cell.on_sheet.band
     ]
     met = sum(_equal(cell, _theirs(classmate, (cell.id, cell.position))) for cell in telling)
     return len(telling) > FEWEST_ROWS and met >= FOREIGN_SHARE * len(telling)
@@ -264,7 +267,8 @@ def _is_source(scheme: MarkingScheme, right: Sequence[Marked], classmate: Classm
             continue
         row = _row(classmate, cell)
         if row is not None and not _is_drawn(row):
-            taken += _apart(scheme, cell, float(row.values[row.at(cell.position)]), cell.expected) >= APART * cell.band
+            value = float(row.values[row.at(cell.position)])
+            taken += _apart(scheme, cell, value, cell.on_sheet.expected) >= APART * cell.on_sheet.band
     return taken >= FEWEST_ROWS
 
 
@@ -291,12 +295,12 @@ def _theirs(classmate: Classmate, place: Place) -> float | None:
 
 
 def _equal(cell: Marked, value: float | None) -> bool:
-    return value is not None and cell.given is not None and math.isclose(cell.given, value, rel_tol=1e-9)
+    return value is not None and cell.written is not None and math.isclose(cell.written, value, rel_tol=1e-9)
 
 
 def _read_to(scheme: MarkingScheme, cells: Cells) -> float:
     """The step (mm) to which the lengths on paper of a sheet are read."""
-    lengths = [cell.given for cell in cells.values() if cell.given and scheme.ledger[cell.id].kind == "segment"]
+    lengths = [cell.written for cell in cells.values() if cell.written and scheme.ledger[cell.id].kind == "segment"]
     for step in STEPS:
         on_it = sum(abs(math.remainder(one, step)) <= 1e-9 * abs(one) for one in lengths)
         if on_it >= FOREIGN_SHARE * len(lengths):
@@ -310,15 +314,16 @@ def _is_personal(scheme: MarkingScheme, cell: Marked, step: float) -> bool:
     Two who read one length to `step` (mm) write the same, of a short one not even a second figure.  One that was
     worked out rightly from a wrong one says nothing: so would anybody's with the same mistake.
     """
-    assert cell.given is not None
-    if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.given == 0:
+    assert cell.written is not None
+    if cell.verdict is Verdict.follows or (cell.mistake and cell.mistake != WRONG_DATUM) or cell.written == 0:
         return False
-    last = 2 * last_half_unit(cell.given)
+    last = 2 * last_half_unit(cell.written)
     if scheme.ledger[cell.id].kind == "segment":
         last = max(last, step)
     elif is_direction(cell.id):
         last = max(last, DEGREE)
-    return all(_apart(scheme, cell, cell.given, value) > LAST * last for value in (cell.expected, cell.own))
+    known = (cell.on_sheet.expected, cell.on_sheet.own)
+    return all(_apart(scheme, cell, cell.written, value) > LAST * last for value in known)
 
 
 def _is_near(cell: Marked) -> bool:
@@ -330,16 +335,17 @@ def _meets(scheme: MarkingScheme, cell: Marked, classmate: Classmate) -> bool | 
     row, theirs = _row(classmate, cell), _theirs(classmate, (cell.id, cell.position))
     if row is None:
         return None
-    assert cell.given is not None
+    assert cell.written is not None
     value = float(row.values[row.at(cell.position)])
     if _is_near(cell):
         # Two readings of one drawing.
         return None if theirs is None else _equal(cell, theirs)
     # A direction that is a little wrong has few whole degrees to be; any other value has a hundred.
     far = APART if is_direction(cell.id) else 1.0
-    if _apart(scheme, cell, value, cell.expected) < far * cell.band:
+    if _apart(scheme, cell, value, cell.on_sheet.expected) < far * cell.on_sheet.band:
         return None
-    return _equal(cell, theirs) or _apart(scheme, cell, cell.given, value) <= last_half_unit(cell.given) * (1 + 1e-9)
+    rounding = last_half_unit(cell.written) * (1 + 1e-9)
+    return _equal(cell, theirs) or _apart(scheme, cell, cell.written, value) <= rounding
 
 
 def _tail(chances: Sequence[float], met: int) -> float:
@@ -375,7 +381,7 @@ def _differs(working: Working, cell: Marked) -> bool:
     ledger, world = working.scheme.ledger, working.world
     id = ledger.size_of(cell.id)
     definition = ledger[id].definition
-    assert cell.given is not None, "only a given value is right"
+    assert cell.written is not None, "only a given value is right"
     kind = ledger[id].kind
     if kind == "segment":
         return _differs_on_plan(working, cell)
@@ -400,7 +406,7 @@ def _differs(working: Working, cell: Marked) -> bool:
     own, *others = (abs(float(one.real)) for one in np.asarray(evaluate(definition, values))[:, 0])
     moves = [abs(one - own) for one in others]
     value = abs(float(working.values[cell.id][index]))
-    last = last_half_unit(cell.given) * float(working.unit(cell.id)[index])
+    last = last_half_unit(cell.written) * cell.unit
     return bool(np.isfinite(own) and abs(value - own) > ROOM * (sum(moves) + last))
 
 
@@ -411,10 +417,10 @@ def _differs_on_plan(working: Working, cell: Marked) -> bool:
         return False
     known = (scheme.ledger[one.of].of for id, one in scheme.ledger.families.items() if vocabulary.plan(id) == plan)
     laid = [id for id in known if id in scheme.rows and plan not in scheme.before[id]]
-    assert cell.given is not None, "only a given value is right"
+    assert cell.written is not None, "only a given value is right"
     if not all(_stands(working, id, cell.position) for id in laid):
         return False
-    apart = abs(abs(cell.given) - abs(cell.own))
+    apart = abs(abs(cell.written) - abs(cell.on_sheet.own))
     # What is rounded in the forces shows as well where the plan is large.
     forces = (working.submission.values[id, scheme.place(scheme.rows[id], cell.position)].value for id in laid)
     scale = working.submission.values[plan, scheme.place(scheme.rows[plan], cell.position)].value

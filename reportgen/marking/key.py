@@ -16,8 +16,9 @@ import numpy as np
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, load_words, search_path
+from reportgen.base.words import as_error, close_or_known, load_words
 from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
@@ -159,7 +160,7 @@ def _formula(ledger: Ledger, id: str) -> Expression:
 
 
 def is_open(values: np.ndarray, sense: str) -> bool:
-    """Whether the papers leave the sign of values open: there are negative ones, and no words about them."""
+    """Whether the papers leave the sign of values [N] open: there are negative ones, and no words about them."""
     return sense in OPEN or (not sense and bool(np.nanmin(values, initial=0.0) < 0))
 
 

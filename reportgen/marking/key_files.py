@@ -46,14 +46,14 @@ FINER, FINEST = 3, 7
 
 
 def band(row: KeyRow, width: float) -> float | None:
-    """A band's half width to two significant figures; one that is negligible beside the row is 0."""
+    """A band's half width (in the row's unit) to two significant figures; one negligible beside the row is 0."""
     if width != width:
         return None
     return 0.0 if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0) else float(f"{width:.{BAND_DIGITS}g}")
 
 
 def band_decimals(width: float) -> int:
-    """Decimals that show two significant figures of a band."""
+    """Decimals that show two significant figures of a band, in the row's unit."""
     return max(significant_decimals(width, BAND_DIGITS), 0)
 
 

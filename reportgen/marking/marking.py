@@ -19,22 +19,12 @@ from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit
 from reportgen.marking.guard import Classmate, guard, not_from_own
 from reportgen.marking.key import Ask, symbol_text, words_of
-from reportgen.marking.marks import (
-    Cells,
-    Marked,
-    Marking,
-    MarkingScheme,
-    Notice,
-    Place,
-    Policy,
-    Submission,
-    Values,
-    Verdict,
-    marking_scheme,
-)
+from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict
 from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
 from reportgen.marking.parts import joined, sheets_of
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme, Values, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.marking.working import Working, lay_out
 from reportgen.report.case import Case
@@ -108,12 +98,14 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         row.id,
         position,
         verdict=verdict,
-        given=None if np.isnan(value) else submission.values[place].value,
-        expected=key / unit,
-        own=own / unit,
-        band=band / unit,
+        given=None if np.isnan(value) else value,
+        expected=key,
+        own=own,
+        band=band,
         points=points,
         worth=worth * scheme.policy.right,
+        unit=unit,
+        written=None if np.isnan(value) else submission.values[place].value,
     )
 
 
@@ -162,12 +154,11 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue
             index = scheme.rows[cell.id].at(cell.position)
-            unit = float(working.unit(cell.id)[index])
             own = _own(scheme.ledger, own_values, cell.id, index)
-            if _follows(scheme, cell.id, float(working.values[cell.id][index]), own, cell.band * unit):
+            if _follows(scheme, cell.id, float(working.values[cell.id][index]), own, cell.band):
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
-                    cell, verdict=Verdict.follows, own=own / unit, points=points, first=False, mistake="", where=""
+                    cell, verdict=Verdict.follows, own=own, points=points, first=False, mistake="", where=""
                 )
     return changed
 

@@ -16,8 +16,9 @@ import numpy as np
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Verdict
+from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, foreseen, unseen_mistakes
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.marking.working import Change, Working, last_half_unit
 
 FACTORS = np.geomspace(1 / 4, 4, 120)
@@ -177,7 +178,7 @@ def _following(working: Working, cells: Cells, datum: _Datum) -> int:
         if cell.verdict is Verdict.wrong:
             index = _index(scheme, cell)
             apart = scheme.distance(cell.id, values[cell.id][index].real, _given(working, cell))
-            count += bool(apart <= cell.band * float(working.unit(cell.id)[index]))
+            count += bool(apart <= cell.band)
     return count
 
 
@@ -195,7 +196,8 @@ def _possible_data(working: Working, cell: Marked) -> Iterator[_Datum]:
         for index in crossing[np.isfinite(values[crossing]) & np.isfinite(values[crossing + 1])]:
             before, after = values[index], values[index + 1]
             share = before / (before - after)
-            factor = float(WIDE[index : index + 2] @ (1 - share, share))
+            lower, upper = WIDE[index], WIDE[index + 1]
+            factor = float(lower + share * (upper - lower))
             yield _Datum(id, _neat(scheme, id, right * factor))
 
 
@@ -204,10 +206,9 @@ def _explains(working: Working, cell: Marked, datum: _Datum) -> bool:
     scheme = working.scheme
     if datum.id not in scheme.before[cell.id]:
         return False
-    band = cell.band * float(working.unit(cell.id)[_index(scheme, cell)])
     with_it = float(_at(scheme, cell, datum.id, np.array([datum.value]))[0])
     key = float(scheme.ledger[cell.id].values[_index(scheme, cell)].real)
-    return abs(with_it - _given(working, cell)) <= band < abs(with_it - key)
+    return abs(with_it - _given(working, cell)) <= cell.band < abs(with_it - key)
 
 
 def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
@@ -215,8 +216,8 @@ def _is_slip(working: Working, cell: Marked, datum: _Datum) -> bool:
     right = float(working.scheme.ledger[datum.id].values[0])
     last = 2 * float(half_unit(np.array([right]), NEAT)[0])
     with_it = float(_at(working.scheme, cell, datum.id, np.array([datum.value]))[0])
-    assert cell.given is not None, "a wrong value is given"
-    written = last_half_unit(cell.given) * float(working.unit(cell.id)[_index(working.scheme, cell)])
+    assert cell.written is not None, "a wrong value is given"
+    written = last_half_unit(cell.written) * cell.unit
     return abs(abs(datum.value - right) - last) < last / 10 and abs(with_it - _given(working, cell)) <= written
 
 
@@ -232,7 +233,7 @@ def _is_contradicted(scheme: MarkingScheme, cells: Cells, datum: _Datum) -> bool
         proves = cell.verdict is Verdict.right and not _is_on_paper(scheme, id)
         if proves and datum.id in before and not wrong & before:
             column = np.broadcast_to(values[id].real, len(scheme.ledger[id].values))
-            moved = float(column[scheme.rows[id].at(position)]) / scheme.ledger[id].how.scale - cell.expected
+            moved = float(column[scheme.rows[id].at(position)]) - cell.expected
             if abs(moved) > APART * cell.band:
                 return True
     return False
@@ -346,12 +347,11 @@ def _met(working: Working, cells: Cells, place: Place, values: np.ndarray) -> np
     """Which of the candidates' values [candidates, positions] a student's value is, and not the right one."""
     scheme, cell = working.scheme, cells[place]
     index = scheme.rows[place[0]].at(place[1])
-    unit = float(working.unit(place[0])[index])
-    given, band = float(working.values[place[0]][index]), cell.band * unit
+    given, band = float(working.values[place[0]][index]), cell.band
     expected = values[:, index]
-    wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own) * unit, band))
+    wider = np.maximum(1.0, np.abs(expected) / max(abs(cell.own), band))
     near = scheme.distance(place[0], given, expected) <= band * wider
-    shows = scheme.distance(place[0], cell.own * unit, expected) > band
+    shows = scheme.distance(place[0], cell.own, expected) > band
     return np.asarray(near & shows)
 
 

@@ -18,7 +18,8 @@ from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.formula.sheet import Family
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.marks import Cells, Marked, MarkingScheme, Place, Values, Verdict
+from reportgen.marking.marks import Cells, Marked, Place, Verdict
+from reportgen.marking.scheme import MarkingScheme, Values
 from reportgen.marking.working import Change, Working
 from reportgen.report.key import Role
 
@@ -279,15 +280,20 @@ def slips_of_writing(working: Working, cells: Cells) -> dict[Place, Mistake]:
 def _is_other_scale(scheme: MarkingScheme, cell: Marked) -> bool:
     """Whether a scale is the task's, or chosen freely, but not that of the drawing."""
     usual = float(scheme.key.row(cell.id).values[0])
-    return cell.equals(usual, cell.band) or scheme.ledger[cell.id].kind == "force scale"
+    return cell.on_sheet.equals(usual, cell.on_sheet.band) or scheme.ledger[cell.id].kind == "force scale"
 
 
 def _has_too_few_figures(cell: Marked) -> bool:
     """Whether a value is right but for its figures."""
-    given = cell.given
-    return bool(given) and any(
-        given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > cell.band
-        for value in (cell.own, cell.expected)
+    sheet = cell.on_sheet
+    given = sheet.given
+    return (
+        given is not None
+        and given != 0
+        and any(
+            given == float(f"{value:.{FEW_FIGURES}g}") and abs(given - value) > sheet.band
+            for value in (sheet.own, sheet.expected)
+        )
     )
 
 
@@ -305,7 +311,7 @@ def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tu
     for (one, mine), (other, theirs) in combinations(first.items(), 2):
         same = one[1] == other[1] and scheme.rows[one[0]].unit == scheme.rows[other[0]].unit
         # Of two values that differ in sign alone, both signs were reversed.
-        opposite = abs(mine.expected + theirs.expected) <= mine.band
+        opposite = abs(mine.on_sheet.expected + theirs.on_sheet.expected) <= mine.on_sheet.band
         if same and not opposite and _belongs_to(mine, theirs) and _belongs_to(theirs, mine):
             yield "rows-swapped", one
             yield "rows-swapped", other
@@ -317,7 +323,8 @@ def _misplaced(scheme: MarkingScheme, first: Cells, cells: Cells) -> Iterator[tu
 
 def _belongs_to(cell: Marked, other: Marked) -> bool:
     """Whether a value is that of another cell, not of its own."""
-    return cell.equals(other.expected, other.band) and abs(cell.expected - other.expected) > other.band
+    own, theirs = cell.on_sheet, other.on_sheet
+    return own.equals(theirs.expected, theirs.band) and abs(own.expected - theirs.expected) > theirs.band
 
 
 def _by_another_convention(first: Cells, cells: Cells) -> Iterable[tuple[str, Place]]:
@@ -333,9 +340,10 @@ def _by_another_convention(first: Cells, cells: Cells) -> Iterable[tuple[str, Pl
 
 
 def _is_measured(cell: Marked, factor: float, summand: float) -> bool:
-    assert cell.given is not None
-    apart = (cell.given - factor * cell.expected - summand + 180) % 360 - 180
-    return abs(apart) <= cell.band
+    sheet = cell.on_sheet
+    assert sheet.given is not None
+    apart = (sheet.given - factor * sheet.expected - summand + 180) % 360 - 180
+    return abs(apart) <= sheet.band
 
 
 # --- mistakes of working --------------------------------------------------------------------------
@@ -377,11 +385,11 @@ def _explained(
     row = scheme.rows[id]
     index = [row.at(position) for position in positions]
     given = working.values[id][index]
-    unit = working.unit(id)[index]
-    band = np.array([cells[id, position].band for position in positions]) * unit
-    own, expected = np.array([[cells[id, k].own, cells[id, k].expected] for k in positions]).T * unit
+    here = [cells[id, position] for position in positions]
+    band, own, expected = (np.array([getattr(cell, name) for cell in here]) for name in ("band", "own", "expected"))
     values = np.concatenate([foreseen(one, [id], candidates)[id][:, index] for one in gone_on_from])
-    candidates = [*candidates, *candidates]
+    # Of each working all candidates follow one another: so do the values, and so do the names.
+    candidates = candidates * len(gone_on_from)
     # What a mistake makes larger, it makes less certain in the same measure.
     wider = np.maximum(1.0, np.abs(values) / np.maximum(np.abs(own), band))
     apart = scheme.distance(id, given, values)
@@ -423,7 +431,7 @@ def unseen_mistakes(working: Working, id: str) -> Iterator[Mistake]:
 
 
 def foreseen(working: Working, ids: Sequence[str], mistakes: Sequence[Mistake]) -> dict[str, np.ndarray]:
-    """What quantities come to with each mistake, from the student's own earlier values [mistakes, positions]."""
+    """What quantities come to (SI) by each mistake, from a student's own earlier values [mistakes, positions]."""
     scheme = working.scheme
     ledger = scheme.ledger
     made: dict[str, list[tuple[int, Change]]] = {}

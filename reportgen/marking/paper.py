@@ -10,7 +10,7 @@ from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.units import Language
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.formula import Number, Symbol
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
@@ -240,7 +240,7 @@ def _answer_table(
     rest = tree.TEXT_WIDTH - symbol - UNIT
     # A formula is broken at its equals sign at most.
     formulas = (one.expression for row in rows for one in row.described if isinstance(one, InlineMath))
-    least = max((LEAST_WHAT, *(box(one, TABLE_SIZE).width + PADDING for one in formulas)))
+    least = max((LEAST_WHAT, *(box(formula, TABLE_SIZE).width + PADDING for formula in formulas)))
     value = min((rest - least) / len(positions), WIDEST)
     columns = (
         Column(symbol),

@@ -15,7 +15,9 @@ from reportgen.base.source import read_source
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.marking.guard import Classmate
-from reportgen.marking.marks import Marked, Marking, MarkingScheme, Notice, Place, Policy, Submission
+from reportgen.marking.marks import Marked, Marking, Notice, Place, Submission
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme
 from reportgen.report.key import Key, PartOfKey
 
 
@@ -42,7 +44,7 @@ def sheets_of(scheme: MarkingScheme, submission: Submission, classmates: Sequenc
         worths = {part.own(row.id): factor * scheme.policy.worth(row.id) for row in page.rows}
         key = _own_key(page, part)
         policy = replace(scheme.policy, weights=worths)
-        mates = (_own_classmate(one, part.name) for one in classmates)
+        mates = (_own_classmate(classmate, part.name) for classmate in classmates)
         own = replace(alone, key=key, policy=policy)
         yield PartSheet(part, own, _own_submission(submission, scheme.key, part), tuple(filter(None, mates)))
 

@@ -19,8 +19,9 @@ import numpy as np
 
 from reportgen.base import units
 from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, QuantityFault
-from reportgen.base.words import as_error, as_problem, load_words, search_path
+from reportgen.base.words import as_error, as_problem, load_words
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.key import shown_number, symbol_text, words_of
 from reportgen.marking.marks import Answer, Place, Submission

@@ -12,7 +12,8 @@ from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import half_unit
-from reportgen.marking.marks import MarkingScheme, Place, Submission, Values, makes_scale
+from reportgen.marking.marks import Place, Submission
+from reportgen.marking.scheme import MarkingScheme, Values, makes_scale
 from reportgen.report.key import KeyRow, Role
 
 Change = Callable[[np.ndarray, Values], np.ndarray]
@@ -64,7 +65,7 @@ class Working:
     def own_values(
         self, blank_from_key: bool = False, changes: Mapping[str, Change] | None = None
     ) -> dict[str, np.ndarray]:
-        """What every judged quantity comes to from the student's own earlier values.
+        """What every judged quantity comes to (SI) [N] from the student's own earlier values.
 
         A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
         made to quantities that the sheet does not show.
@@ -73,7 +74,7 @@ class Working:
 
     @cached_property
     def world(self) -> dict[str, np.ndarray]:
-        """All values as the student has them: entered, or following from these; the key's where a cell is blank."""
+        """All values (SI) [N] as a student has them: entered, or following from these; the key's where one is blank."""
         return self._followed(True, {})[1]
 
     def _followed(
@@ -95,7 +96,7 @@ class Working:
         return result, values
 
     def also(self, row: KeyRow, position: int) -> list[float]:
-        """What a quantity may be taken to be as well: another like it, or what another way of drawing gives.
+        """What else a quantity may be (SI): another like it, or what another way of drawing gives.
 
         Whoever takes a_C for a_A, or μ_a for a_A/πa′, is not wrong again where a_A was.  On the lever M = F h′ μ_l
         where pa is the drawn crank, though the report has μ_v/ω₁ for a plan at another scale.  Whoever has y from the
@@ -160,7 +161,7 @@ class Working:
         return tuple(dict.fromkeys([*judged, *map(self.scheme.ledger.size_of, judged), *self.values]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
-        """The student's values of a quantity, `blank` where there are none; the computed sign where none is judged."""
+        """A student's values (SI) [N], `blank` where there are none; the computed sign where none is judged."""
         given = self.values.get(id)
         if given is None:
             signed = self.values.get(self.scheme.ledger.signed.get(id, ""))

@@ -13,7 +13,8 @@ from itertools import groupby
 
 from reportgen.base.units import Language
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
-from reportgen.drawing.geometry import POINT, SCRIPT, box, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT, SCRIPT, box
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch, decimal
 from reportgen.formula import Expression, Sum, Symbol, VectorEquation, setter, setting
 from reportgen.formula.setter import TextSetter
@@ -82,7 +83,7 @@ class Pens:
         return self._names.setdefault((stroke, fill), f"{self._letter}{len(self._names)}")
 
     def size(self, points: float) -> str:
-        """The class of a font size."""
+        """The class of a font size (points)."""
         return self._sizes.setdefault(points, f"{self._letter}s{len(self._sizes)}")
 
     def rules(self) -> str:
@@ -122,7 +123,7 @@ class Painter:
         )
 
     def items(self, items: Iterable[Item], height: float = 0.0) -> str:
-        """The elements of items, y turned over about the `height` of their sheet."""
+        """The elements of items, y turned over about the `height` (mm) of their sheet."""
         paths = []
         shapes = (shape for item in items for shape in self._shapes(item, height))
         for (name, joins), group in groupby(shapes, key=lambda shape: shape[:2]):
@@ -177,7 +178,7 @@ class Painter:
     # --- labels
 
     def label(self, label: Label, height: float = 0.0) -> str:
-        """A label as text: its middle, left or right end where the scene has it, its base line as its metrics say."""
+        """A label as text on a sheet so high (mm): its middle or an end where the scene has it, its own base line."""
         extent, (centre, half) = box(label.content, label.size), frame(label)
         turned = label.turn == 90
         side = "s" if "left" in label.anchor else "e" if "right" in label.anchor else "m"

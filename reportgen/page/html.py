@@ -18,18 +18,19 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import NARROW, written
 from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
 from reportgen.report import layout
+from reportgen.report.named_figures import figure_name, safe
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
 
 
-STYLES, SCRIPTS = ("page.css",), ("page.js",)
+STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
 """Files of the frame that every page has."""
 MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
 """Those that serve panels."""
@@ -235,6 +236,7 @@ class Blocks:
         return "\n".join(filter(None, lines))
 
     def block(self, block: tree.Block, room: float) -> str:
+        """A block in a room (mm)."""
         match block:
             case tree.Section(level, title, _, _, number):
                 name = f"h{level + self.below}"
@@ -354,13 +356,14 @@ class Blocks:
     # --- formulas, lists and tables -----------------------------------------------------------------
 
     def items(self, block: tree.List, room: float) -> str:
+        """The items of a list in a room (mm)."""
         name = "ol" if block.ordered else "ul"
         start = f' start="{block.start}"' if block.ordered and block.start != 1 else ""
         lines = "".join(f"<li>{self.write(item, room)}</li>" for item in block.items)
         return f"<{name}{start}>{lines}</{name}>"
 
     def equation(self, equation: tree.Equation, room: float) -> str:
-        """Rows that are set alike in one block each; the number beside the last."""
+        """Rows that are set alike in one block each, in a room (mm); the number beside the last."""
         groups = "".join(map(self.group, layout.in_groups(equation.rows, room)))
         number = f'<span class="number">({escape(equation.number)})</span>' if equation.number else ""
         return f'<div class="equation"{_id(equation.key)}><div class="rows">{groups}</div>{number}</div>'
@@ -430,7 +433,10 @@ class Blocks:
         caption = tree.plain(block.caption, self.language)
         name = f"{self.words.figure} {block.number}. {caption} {scene.title}".strip()
         title = f"<p>{escape(scene.title)}</p>" if scene.title else ""
-        return f"<div>{self.painter.scene(scene, name)}{title}</div>"
+        file = figure_name(block)
+        if isinstance(block, tree.Figure) and len(block.scenes) > 1:
+            file += f"-{scene.at or block.scenes.index(scene) + 1}"
+        return f"<div>{self.painter.scene(scene, name)}{save_buttons(file, self.words.save)}{title}</div>"
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """Word, number and words of a caption; nothing for a block that has none."""
@@ -441,6 +447,14 @@ class Blocks:
     def again(self, block: tree.Plate) -> str:
         """The number of a figure that goes on from the plate before."""
         return f"<b>{escape(self.words.figure)} {escape(block.number)}</b> ({escape(self.words.continued)})"
+
+
+def save_buttons(file: str, told: str) -> str:
+    """What saves the drawing before it to a file of this name; all its letters are of the style sheet."""
+    buttons = "".join(
+        f'<button type="button" data-save="{kind}" aria-label="{kind.upper()}"></button>' for kind in ("svg", "png")
+    )
+    return f'<p class="save" role="group" aria-label="{escape(told)}" data-name="{escape(safe(file))}">{buttons}</p>'
 
 
 _DOTS = '<span class="dots"></span>'

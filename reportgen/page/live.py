@@ -14,8 +14,9 @@ from typing import Any
 
 from reportgen import report as tree
 from reportgen.base.errors import AssignmentError, ReportgenError
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path, spoken, unexpected
+from reportgen.base.words import load_words, spoken, unexpected
 from reportgen.page import html, panels
 from reportgen.page.html import Live, Panel, WrittenReport
 from reportgen.report.case import Case
@@ -56,11 +57,11 @@ class Revision:
 
 @dataclass
 class LiveSession:
-    """Makes the revisions of a file, which `opens`.  `told` is called with each finished report's case and document."""
+    """Makes the revisions of a file, which `opens`.  `tell` is called with each finished report's case and document."""
 
     opens: Callable[[], Case]
     language: Language | None = None
-    told: Callable[[Case, tree.Document], None] = lambda case, document: None
+    tell: Callable[[Case, tree.Document], None] = lambda case, document: None
     changed: threading.Condition = field(default_factory=threading.Condition)
     closed: bool = False
 
@@ -126,7 +127,7 @@ class LiveSession:
                 written = html.report(document)
                 count = self.revision.reports + 1
                 self._publish(report=written, document=document, reports=count, busy=False)
-                self.told(case, document)
+                self.tell(case, document)
             except Exception as error:
                 if number == self._asked:
                     self._publish(fault=self._in_words(error), busy=False)

@@ -10,6 +10,7 @@ import base64
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -29,12 +30,13 @@ from reportgen.drawing.animation import (
     Track,
     scale_bars,
 )
-from reportgen.drawing.geometry import POINT, frame
+from reportgen.drawing.geometry import frame
+from reportgen.drawing.label_size import POINT
 from reportgen.drawing.style import HEAD_SLENDERNESS, LABEL, SMALL, decimal
 from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
-from reportgen.page.html import Panel, data, template
+from reportgen.page.html import Panel, data, save_buttons, template
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
@@ -121,6 +123,7 @@ class _Writer:
             words=self.words,
             animation=animation,
             own=self.own,
+            save=partial(save_buttons, told=self.words["save_figure"]),
             speeds=[(speed, write(speed, None, self.language)) for speed in SPEEDS],
             shown_layer=LAYERS[0],
             machine=self.pane(machine),
@@ -158,7 +161,7 @@ class _Writer:
                 for spot in animation.panes[0].spots
             ],
             "finer": {
-                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / one.per for one in pane.scales]}
+                pane.key: {"at": number(pane.finer), "times": [pane.scales[0].per / scale.per for scale in pane.scales]}
                 for pane in animation.panes
                 if pane.finer
             },
@@ -263,6 +266,7 @@ class _Writer:
         return self.element(parts, item.layer, follows)
 
     def label(self, content: Content, size: float) -> str:
+        """A label of a size (points) about its own place."""
         return self.painter.label(Label(0j, content, size=size * self.enlargement))
 
     def half_size(self, content: Content, size: float) -> list[float]:
@@ -294,7 +298,7 @@ class _Writer:
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:
-    """A bound as printed: so many figures, never less than the value."""
+    """A bound as printed, in its unit: so many figures, never less than the value."""
     if value <= 0:
         return write(0.0, None, language)
     step = 10.0 ** (math.floor(math.log10(value)) - figures + 1)

@@ -119,7 +119,7 @@ class _Samples:
 
     @cached_property
     def angles(self) -> np.ndarray:
-        """The cycle angles of all samples: those of a turn, turn after turn, to the end of the last."""
+        """The cycle angles (rad) of all samples: those of a turn, turn after turn, to the end of the last."""
         turns = np.arange(self.machine.turns)[:, None] * FULL_TURN
         return np.append((turns + self.knots[:-1]).ravel(), self.machine.turns * FULL_TURN)
 
@@ -134,7 +134,7 @@ class _Samples:
 
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
-        """The corners of all plans at the samples, and their scales, by id."""
+        """The corners of all plans (mm) at the samples [N], and their scales (SI per mm), by id."""
         worked = [self._sample(k) + 1 for k in self.case.assignment.worked_positions]
         sheet, _ = enter_plans(self.analysis, worked)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
@@ -165,7 +165,7 @@ class _Samples:
         )
 
     def turn(self, values: np.ndarray) -> Track:
-        """What repeats from turn to turn: its first one."""
+        """What repeats from turn to turn: its first one [knots]."""
         return Track(values[: self.knots.size] if values.size > 1 else values)
 
     # --- drawings

@@ -18,8 +18,8 @@ from reportgen.assignment import parts
 from reportgen.base.errors import ReportgenError
 from reportgen.base.files import reported
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates
 from reportgen.page.live import LiveSession
 from reportgen.page.serving import Server
 from reportgen.report import Document

@@ -83,7 +83,7 @@ def enter_plans(
     _masses(q, analysis)
     _applied(q, analysis)
     applied = {one.name: (one.link, one.point, one.direction(analysis.motion)) for one in machine.applied}
-    torques = {one.name: one.link for one in machine.torques}
+    torques = {torque.name: torque.link for torque in machine.torques}
     return q, enter_forces(q, machine.linkage, machine.turn, applied, torques)
 
 

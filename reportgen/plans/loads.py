@@ -72,7 +72,7 @@ class Statics:
 
     @property
     def span(self) -> float:
-        """The size on paper of what arms are compared with: the drawn crank."""
+        """The size on paper (mm) of what arms are compared with: the drawn crank."""
         driver = self.scheme.linkage.driver
         if isinstance(driver, Crank):
             return self.q.si(ids.drawn(driver.centre, driver.pin))
@@ -212,7 +212,7 @@ def _divisor(statics: Statics, load: LoadOn) -> Expression:
 
 
 def above(size: Ref, floor: float) -> Expression:
-    """A size, 0 where it does not exceed `floor`."""
+    """A size (SI), 0 where it does not exceed `floor` (SI)."""
     return size * sign(call("max", 0.0, size - floor))
 
 

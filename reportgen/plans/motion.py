@@ -53,6 +53,7 @@ class Sizes:
     rotation: float
 
     def of(self, what: What) -> float:
+        """What counts as one (SI) of velocities or accelerations."""
         return self.velocity if what == "v" else self.acceleration
 
 
@@ -167,11 +168,11 @@ class Kinematics:
         return self.q.define(id, abs(along), segment(first, second), scale=self.paper(what))
 
     def constant(self, id: str, value: complex) -> Ref:
-        """A constant point or direction as a quantity, entered once."""
+        """A constant point (m) or direction (of length 1) as a quantity, entered once."""
         return self.q[id] if id in self.q else self.q.give(id, complex(value), Symbol(id), "ratio")
 
     def length(self, start: str, end: str, value: float) -> Ref:
-        """A link's length, entered as given unless the machine has done so."""
+        """A link's length (m), entered as given unless the machine has done so."""
         id = ids.length(start, end)
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
@@ -258,7 +259,7 @@ LONGEST_DRAWN = 0.08
 def crank(
     q: Sheet, scheme: Scheme, driver: Crank, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
-    """v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; without chosen `scales` μ_v = ω₁ μ_l, μ_a = ω₁² μ_l.
+    """v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; without chosen `scales` (SI per mm) μ_v = ω₁ μ_l, μ_a = ω₁² μ_l.
 
     Then pa and πn are the drawn crank; without `eps.1` πn is πa′.
     """
@@ -335,7 +336,7 @@ def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
 def slide(
     q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, sense: int, scales: Mapping[str, float | None]
 ) -> Kinematics:
-    """The pin moves along its guide with v_A and a_A, 0 if not given; `scales` are μ_v and μ_a, none for a trial.
+    """The pin moves along its guide with v_A, and a_A if given; `scales` (SI per mm) are μ_v, μ_a, none for a trial.
 
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
     """

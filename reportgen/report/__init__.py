@@ -242,11 +242,13 @@ class Words:
     page: str
     continued: str
     """Stands behind the number of a table or figure that goes on from the page before."""
+    save: str
+    """What the buttons below a figure do on a page."""
 
     @classmethod
     def among(cls, words: Mapping[str, str]) -> Self:
         """Those of a table of words, in which a school may have more."""
-        return cls(*(words[one.name] for one in fields(cls)))
+        return cls(*(words[field.name] for field in fields(cls)))
 
 
 @dataclass(frozen=True, slots=True)

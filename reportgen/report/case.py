@@ -17,9 +17,10 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
+from reportgen.base.kinds import title as kind_title
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path, word
-from reportgen.base.words import title as kind_title
+from reportgen.base.words import load_words, word
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
@@ -75,6 +76,22 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
             taken = put(others[id], {id: family.definition}) if id in others else put(family.definition, others)
             if taken != family.definition:
                 yield id, taken
+
+
+@dataclass(frozen=True, slots=True)
+class DriverMotion:
+    """How a driver goes through the positions of a cycle, at constant speed.
+
+    `gone` is how far it has gone since the first of them [N], `whole` its way through the cycle (rad, or m of one that
+    `slides`, which does not begin anew), `speed` that of its motion (rad/s or m/s), if it has one.  `signed` are by
+    their ids the values [N] of the sizes of vectors along a line, counted in the direction of a unit vector.
+    """
+
+    gone: np.ndarray
+    whole: float
+    speed: float | None
+    slides: bool = False
+    signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -150,6 +167,11 @@ class Case(ABC):
     @property
     def speed(self) -> float | None:
         """Of its driver (rad/s or m/s); None where nothing drives it."""
+        return None
+
+    @property
+    def driver_motion(self) -> DriverMotion | None:
+        """How its driver goes through its positions; None where these are none of a driver's."""
         return None
 
     @property

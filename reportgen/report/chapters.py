@@ -188,9 +188,9 @@ MOST_PLACES = 12
 
 def extremes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
     """The greatest sizes of velocities, accelerations and reactions with their positions, in sets side by side."""
-    found = list(_extremes(report))
-    height = -(-len(found) // BESIDE)
-    cells = [tuple(Cell(part) for part in _row(one)) for one in found]
+    peaks = list(_extremes(report))
+    height = -(-len(peaks) // BESIDE)
+    cells = [tuple(Cell(part) for part in _row(peak)) for peak in peaks]
     cells += [(Cell(),) * len(SET)] * (BESIDE * height - len(cells))
     body = (tuple(cell for line in cells[start::height] for cell in line) for start in range(height))
     titles = tuple(Cell((Text(title),)) for title in head) * BESIDE
@@ -205,24 +205,24 @@ def _extremes(report: Report) -> Iterator[Peak]:
     yield from each_peak(report, reaction_ids(report), report.all_positions)
 
 
-def _row(one: Peak) -> tuple[Inlines, Inlines, Inlines]:
-    places = one.at if len(one.at) <= MOST_PLACES else f"{one.at.split(',')[0]}, …"
-    return one.symbols, (one.value,), (Text(places),)
+def _row(top: Peak) -> tuple[Inlines, Inlines, Inlines]:
+    places = top.at if len(top.at) <= MOST_PLACES else f"{top.at.split(',')[0]}, …"
+    return top.symbols, (top.value,), (Text(places),)
 
 
 def main_figures(report: Report) -> Iterator[Sequence[object]]:
     """The scales, how far the balancing torque goes, its mean and power, the flywheel: words, symbol, value, place."""
-    for one, name in report.words["main_figures"].items():
-        if id := of_kind(report, one):
+    for figure, name in report.words["main_figures"].items():
+        if id := of_kind(report, figure):
             yield *_figure(report, id, name), extreme_place(report, id)
 
 
 def _figure(report: Report, id: str, name: str | Mapping[str, str]) -> tuple[str, Expression, Value]:
     """Words, symbol and value; an extreme of the balance is called by its sense, and its size is shown."""
-    symbol, way = report.ledger.symbol(id), sign(report, id)
+    symbol, sense = report.ledger.symbol(id), sign(report, id)
     if isinstance(name, str):
         return name, symbol, Value(report.ledger.number(id))
-    return name[way], size(symbol) if way == "negative" else symbol, Value(report.ledger.number(id, size=True))
+    return name[sense], size(symbol) if sense == "negative" else symbol, Value(report.ledger.number(id, size=True))
 
 
 def of_kind(report: Report, name: str) -> str:
@@ -322,19 +322,39 @@ for first in range(0, len(names), 4):
     for k in range(N):
         print(f"{k + 1:8d} " + " ".join(f"{table[name][k]:23.15e}" for name in shown))"""
 
+DRAWN = """import sys
+import matplotlib
+if "--show" not in sys.argv:
+    matplotlib.use("agg")
+from matplotlib import pyplot as plt
+figure, axes = plt.subplots(len(curves), sharex=True, figsize=(7, 2.4 * len(curves)), squeeze=False,
+    layout="constrained")
+for ax, (unit, names) in zip(axes.flat, curves.items()):
+    for name in names:
+        ax.plot(driver, table[name], ".-", label=name)
+    ax.set_ylabel(unit)
+    ax.grid()
+    ax.legend()
+axes[-1, 0].set_xlabel(DRIVER)
+figure.savefig("curves.png", dpi=150)
+if "--show" in sys.argv:
+    plt.show()"""
+CURVES = ("s", "v", "a", "M"), ("x", "y", "v", "a", "M"), ("ω", "ε")
+"""Letters of what is drawn: the first of these sets that begins with a letter which the formulas give."""
+
 
 def program(report: Report) -> Listing:
     """The closed formulas as a program of its own: given data, the formulas in their order, a table of all they give.
 
-    Its quantities are in SI units and rad, none is rounded.  What no formula gives stands with its values.
-    Raises `NotOfferedError` for a machine without closed formulas.
+    It ends with their curves over the way of the driver.  Its quantities are in SI units and rad, none is rounded.
+    What no formula gives stands with its values.  Raises `NotOfferedError` for a machine without closed formulas.
     """
     ledger, kind = report.case.ledger, report.assignment.kind
     changing = [id for id, one in ledger.families.items() if one.chapter is Chapter.formulas and len(one.values) > 1]
-    found = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
-    if not found:
+    changing_lines = [id for id in changing if ledger[id].definition is not None and not ledger[id].hidden]
+    if not changing_lines:
         raise NotOfferedError(word("no_listing", report.assignment.language, kind=kind))
-    needed = {other for id in found for other in (id, *ledger.ancestors(id))}
+    needed = {other for id in changing_lines for other in (id, *ledger.ancestors(id))}
     data: list[str] = []
     formulas: list[str] = []
     names: dict[str, str] = {}
@@ -348,8 +368,8 @@ def program(report: Report) -> Listing:
             formulas += _assigned(name, python(family.definition, names), note)
         except (AssertionError, KeyError):
             data += _assigned(name, _given(family.values, report.machine.count), note)
-    table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in found), LONGEST - 4)
-    title, given, worked, shown = report.words["listing"]
+    table = textwrap.wrap(", ".join(f"{names[id]}={names[id]}" for id in changing_lines), LONGEST - 4)
+    title, given, worked, shown, drawn = report.words["listing"]
     return Listing(
         (
             _comment(title.format(machine=report.case.title, id=report.assignment.id)),
@@ -365,8 +385,33 @@ def program(report: Report) -> Listing:
             *(f"    {line}" for line in table),
             ")",
             *TABULATED.splitlines(),
+            _comment(drawn),
+            *_curves(report, {id: names[id] for id in changing_lines}),
+            *DRAWN.splitlines(),
         )
     )
+
+
+def _curves(report: Report, names: Mapping[str, str]) -> Iterator[str]:
+    """What the curves of a program are drawn over, and which they are, by their units."""
+    ledger, machine = report.case.ledger, report.machine
+    bases = {id: ledger.symbol(id).base for id in names}
+    letters = next((one for one in CURVES if one[0] in bases.values()), CURVES[-1])
+    # What slides is told by its displacement; v and a of other points only lead to its own.
+    points = {ledger.symbol(id).sub for id in names if bases[id] == letters[0]}
+    own = {letter for letter in letters if any(bases[id] == letter and ledger.symbol(id).sub in points for id in names)}
+    by_unit: dict[str, list[str]] = {}
+    for letter in letters:
+        for id, name in names.items():
+            if bases[id] == letter and (letter not in own or ledger.symbol(id).sub in points):
+                by_unit.setdefault(KINDS_SI.get(ledger[id].kind, ""), []).append(name)
+    gone = machine.cycle_angles * (machine.span / FULL_TURN if machine.span else math.degrees(1.0))
+    step = float(f"{gone[1]:.12g}")
+    even = step * np.arange(len(gone))
+    law = f"{step!r} * np.arange(N)" if np.allclose(gone, even, rtol=1e-12) else _given(gone, len(gone))
+    yield from _assigned("driver", law, "")
+    yield f"DRIVER = {'s (m)' if machine.span else 'phi (deg)'!r}"
+    yield from _assigned("curves", repr(by_unit), "")
 
 
 def _comment(text: str) -> str:

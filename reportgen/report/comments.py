@@ -90,7 +90,7 @@ def where(report: Report, positions: Sequence[int]) -> str:
 
 
 def peak(report: Report, id: str, positions: Sequence[int]) -> Peak | None:
-    """How a quantity extreme over positions; None where it is nothing at all of them."""
+    """How a quantity goes over positions; None where it is nothing at all of them."""
     values = shown(report, id, positions)
     sizes = np.abs(values)
     if not np.nanmax(sizes, initial=0.0) > 0:
@@ -126,7 +126,7 @@ def peaks(report: Report, quantities: Iterable[str], cycle: bool = False) -> lis
 
 
 def each_peak(report: Report, quantities: Iterable[str], positions: Sequence[int]) -> list[Peak]:
-    """How each quantity extreme over positions; those that are nothing are left out."""
+    """How each quantity goes over positions; those that are nothing are left out."""
     peaks_found = (peak(report, id, positions) for id in report.known(quantities))
     return [one for one in peaks_found if one is not None]
 
@@ -264,8 +264,8 @@ def balance_senses(report: Report) -> list[Inlines]:
     positions_by_sense = {"against": course.against, "along": course.along, "none": course.none}
     motion = report.words["driven"][report.driver.kind]["motion_of"]
     return [
-        say(report, words[way], where=where(report, there), motion=motion)
-        for way, there in positions_by_sense.items()
+        say(report, words[sense], where=where(report, there), motion=motion)
+        for sense, there in positions_by_sense.items()
         if there
     ]
 
@@ -296,7 +296,7 @@ class Range:
 
 
 def work_range(report: Report) -> Range:
-    """Between which values the excess work of the flywheel's calculation extreme."""
+    """Between which values the excess work of the flywheel's calculation goes."""
     positions, values = report.all_positions, shown(report, "A.excess", report.all_positions)
 
     def end(value: float) -> tuple[Value, str]:

@@ -11,7 +11,8 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.units import MM
-from reportgen.drawing import Content, Scene, charts
+from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
+from reportgen.drawing.diagram import Inclination
 from reportgen.formula import Chain, Symbol, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
@@ -89,7 +90,7 @@ def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
 
 
 def headings(report: Report, ways: Iterable[complex]) -> list[str]:
-    """The ways in words, each once."""
+    """Directions [N] of any length in words, each once."""
     return list(dict.fromkeys(heading_words(report, math.degrees(cmath.phase(way))) for way in ways))
 
 
@@ -129,15 +130,16 @@ def over_a_turn(report: Report, curves: Sequence[Shown], title: Chain, half: boo
     count = int(np.searchsorted(report.dense_cycle.cycle_angle, FULL_TURN + SAME_ANGLE))
     slides = bool(report.machine.span)
     x, marks = _across(report)[:count], _marks(report)[: len(report.positions)]
-    series = [charts.PlottedCurve(shown, x, values[:count], marks) for shown, values in curves]
-    return charts.plotted(series, _driver_axis(report, "angle"), title, turn=not slides, half=half, area=report.area)
+    series = tuple(PlottedCurve(shown, x, values[:count], marks) for shown, values in curves)
+    diagram = Diagram(series, _driver_axis(report, "angle"), title, turn=not slides)
+    return charts.plotted(diagram, half=half, area=report.area)
 
 
 def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: bool = False) -> charts.Plotted:
     """Curves over the whole cycle, the numbered positions marked."""
-    series = [charts.PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves]
-    turn = not report.machine.span
-    return charts.plotted(series, _driver_axis(report), title, turn=turn, half=half, area=report.area)
+    series = tuple(PlottedCurve(shown, _across(report), values, _marks(report)) for shown, values in curves)
+    diagram = Diagram(series, _driver_axis(report), title, turn=not report.machine.span)
+    return charts.plotted(diagram, half=half, area=report.area)
 
 
 # --- torque and forces over the cycle
@@ -151,16 +153,15 @@ def torque(report: Report) -> FigureScenes:
 def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     """The curve of what balances the driver, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
-    curve = charts.PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
+    curve = PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
     levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),) if report.cyclic else ()
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)
     across = _driver_axis(report)
     height = charts.HEIGHT if report.parts("high-curves") else charts.LOW
-    return charts.plotted(
-        (curve,), across, title, levels=levels, turn=not slides, half=half, height=height, area=report.area
-    )
+    diagram = Diagram((curve,), across, title, turn=not slides, levels=levels)
+    return charts.plotted(diagram, half=half, height=height, area=report.area)
 
 
 def polar(report: Report) -> FigureScenes:
@@ -186,9 +187,10 @@ def polar(report: Report) -> FigureScenes:
             shown[" + ".join(parts)] = np.sum(list(parts.values()), axis=0)
         along = names["along_crank"].format(arm=subscripted(f"{report.driver.centre}{name}"))
         for forces, load in shown.items():
-            series = charts.PlottedCurve("", load.real, load.imag, _marks(report), numbers)
+            series = PlottedCurve("", load.real, load.imag, _marks(report), numbers)
             title = f"{names['pin']} {subscripted(name)}: {forces}"
-            diagrams.append(partial(charts.polar, series, names["across_crank"], along, title=title, area=report.area))
+            diagram = Diagram((series,), names["across_crank"], along, turn=False, equal=True, title=title)
+            diagrams.append(partial(charts.polar, diagram, area=report.area))
     if len(diagrams) == 1 or report.area is not None:
         return FigureScenes(tuple(draw() for draw in diagrams))
     for size in charts.POLAR_PAIRS:
@@ -214,8 +216,8 @@ def _over_cycle(
     half: bool = False,
 ) -> Scene:
     kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
-    curve = charts.PlottedCurve("", np.degrees(_wheel(report).angle[kept]), values[kept])
-    return charts.chart((curve,), _driver_axis(report), title, levels=levels, half=half, area=report.area)
+    curve = PlottedCurve("", np.degrees(_wheel(report).angle[kept]), values[kept])
+    return charts.chart(Diagram((curve,), _driver_axis(report), title, levels=levels), half=half, area=report.area)
 
 
 def flywheel_torque(report: Report) -> FigureScenes:
@@ -242,14 +244,14 @@ def wittenbauer(report: Report) -> FigureScenes:
     lines, angles = [], []
     for radius, (name, height, at, speed) in zip(ARCS, bounds, strict=True):
         shown, slope = ledger.symbol(ids.bound_of_speed(name)), speed**2 / 2
-        lines.append(charts.PlottedCurve(shown, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
-        angles.append(charts.Inclination(ledger.symbol(ids.tangent(name)), 0.0, at, slope, radius))
-    curve = charts.PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
+        lines.append(PlottedCurve(shown, ends, at + slope * ends, (0,), (ledger.symbol(height),)))
+        angles.append(Inclination(ledger.symbol(ids.tangent(name)), 0.0, at, slope, radius))
+    curve = PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
     scales = ledger.number("mu.J").value, ledger.number("mu.A").value
     area = replace(report.area or charts.Area(), scales=scales)
-    drawn = charts.plotted((curve, *lines), across, up, turn=False, area=area, inclinations=angles)
-    return FigureScenes((drawn.scene,))
+    diagram = Diagram((curve, *lines), across, up, turn=False, inclinations=tuple(angles))
+    return FigureScenes((charts.chart(diagram, area=area),))
 
 
 def flywheel_speed(report: Report) -> FigureScenes:

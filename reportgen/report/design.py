@@ -3,16 +3,32 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Generic, TypeVar
 
 from reportgen.drawing import Scene
+from reportgen.formula import Symbol
 from reportgen.formula.carrying import carried
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
-from reportgen.report import Block, Cell, Column, Document, Figure, Inlines, PageBreak, Section, Table, Text
+from reportgen.formula.vocabulary import in_language
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Document,
+    Equation,
+    Figure,
+    InlineMath,
+    Inlines,
+    PageBreak,
+    Section,
+    Table,
+    Text,
+    Value,
+)
 from reportgen.report.case import AskedFor, LoadedAssignment
 from reportgen.report.key import Span
 from reportgen.report.layout import contents
@@ -20,6 +36,8 @@ from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
 from reportgen.report.wording import positive_sense
 
+DATA = (95.0, 25.0, 40.0)
+"""Widths (mm) of the columns of the given data."""
 Designed = TypeVar("Designed", bound=LoadedAssignment)
 
 
@@ -94,7 +112,7 @@ class DesignPage(ABC, Generic[Designed]):
     SUMMARY: ClassVar[str]
     """The section with its main results."""
     SECTIONS: ClassVar[Sequence[str]]
-    SHORT: ClassVar[frozenset[str]]
+    SHORT: ClassVar[frozenset[str]] = frozenset()
     """The sections that a short report goes without."""
 
     @property
@@ -118,15 +136,57 @@ class DesignPage(ABC, Generic[Designed]):
         """What the task may name besides, of what is asked for."""
         return {}
 
-    @abstractmethod
     def scenes(self, name: str) -> Iterable[Scene]:
         """The drawings of a figure."""
+        raise KeyError(name)
 
     def section(self, name: str, names: Mapping[str, Any]) -> tuple[Block, ...]:
         return Prose(self.case.places).render(name, names)
 
     def caption(self, name: str) -> Inlines:
         return Prose(self.case.places).inlines(self.words["captions"][name])
+
+    # --- symbols and lines
+
+    def math(self, text: str) -> Symbol:
+        """What a template writes as `$…$`: a quantity by its id, else letters with what is lowered."""
+        if text in self.case.printed:
+            return self.case.printed.symbol(text)
+        base, _, sub = text.partition("_")
+        return in_language(Symbol(base, sub), self.case.words["symbols"])
+
+    def value(self, id: str, k: int | None = None) -> Value:
+        """A result with its unit, at a position (from 1): in text it has the figures of its kind, as in tables."""
+        return Value(self.case.printed.result(id, k))
+
+    def quantity(self, id: str, k: int | None = None) -> Inlines:
+        """A symbol with its number."""
+        return InlineMath(self.case.printed.symbol(id)), Text(" = "), self.value(id, k)
+
+    def lines(self, quantities: Iterable[str], k: int | None = None) -> tuple[Block, ...]:
+        """Worked lines, in an equation if there are any."""
+        rows = tuple(self.case.printed.chain(id, k) for id in quantities)
+        return (Equation(rows),) if rows else ()
+
+    # --- tables and figures
+
+    def given_rows(self, without: Collection[str] = ()) -> Iterator[tuple[Inlines, Inlines, Inlines]]:
+        """The given data by their names, symbols and values, without those that were found."""
+        printed = self.case.printed
+        for id, name in self.case.words["given"].items():
+            if id in printed and id not in without and printed[id].definition is None:
+                yield (Text(str(name)),), (InlineMath(printed.symbol(id)),), (self.value(id),)
+
+    def data_table(self, rows: Iterable[Iterable[Inlines]]) -> Table:
+        """The table of the given data."""
+        name, *widths = DATA
+        heads = tuple((Text(str(self.case.words["table"][key])),) for key in ("quantity", "symbol", "value"))
+        return self.table("data", (Column(name, "left"), *map(Column, widths)), (heads,), rows)
+
+    @property
+    def data(self) -> Table:
+        """The given data."""
+        return self.data_table(self.given_rows())
 
     def figure(self, name: str) -> Figure:
         return Figure(tuple(self.scenes(name)), self.caption(f"figure-{name}"), f"fig.{name}")

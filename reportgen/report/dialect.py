@@ -214,35 +214,35 @@ def _bounded(number: int) -> int:
 def _sum(of: tuple[Any, Any]) -> Any:
     """`a + b` of two numbers, two texts, or two lists."""
     match tuple(map(_number, of)):
-        case int(one), int(other):
-            return _bounded(one + other)
-        case str(one), str(other):
-            return short(one + other)
-        case tuple(one), tuple(other) if len(one) + len(other) <= MOST_ITEMS:
-            return held.get().plain(one + other)
+        case int(a), int(b):
+            return _bounded(a + b)
+        case str(a), str(b):
+            return short(a + b)
+        case tuple(a), tuple(b) if len(a) + len(b) <= MOST_ITEMS:
+            return held.get().plain(a + b)
         case tuple(), tuple():
             raise TooMuchError
-        case one, other:
-            raise TypeError(f"a {type(one).__name__} and a {type(other).__name__} have no sum")
+        case a, b:
+            raise TypeError(f"a {type(a).__name__} and a {type(b).__name__} have no sum")
 
 
 def _difference(of: tuple[Any, Any]) -> int:
     match tuple(map(_number, of)):
-        case int(one), int(other):
-            return _bounded(one - other)
-        case one, other:
-            raise TypeError(f"a {type(one).__name__} and a {type(other).__name__} have no difference")
+        case int(a), int(b):
+            return _bounded(a - b)
+        case a, b:
+            raise TypeError(f"a {type(a).__name__} and a {type(b).__name__} have no difference")
     raise AssertionError
 
 
 def _items(of: Any) -> tuple[Any, ...]:
     """What a loop goes through; counts its steps."""
     values = held.get()
-    found = values.items(of)
-    values.steps += len(found)
+    items = values.items(of)
+    values.steps += len(items)
     if values.steps > MOST_STEPS:
         raise TooMuchError
-    return found
+    return items
 
 
 def _part(of: tuple[Any, ...]) -> Any:
@@ -328,10 +328,10 @@ FILTERS: Mapping[str, Callable[..., Any]] = {
 
 def numbers(*ends: int) -> tuple[int, ...]:
     """The whole numbers of a range.  Raises `TooMuchError` for too many."""
-    found = range(*map(int, ends))
-    if len(found) > MOST_ITEMS:
+    numbers = range(*map(int, ends))
+    if len(numbers) > MOST_ITEMS:
         raise TooMuchError
-    return tuple(found)
+    return tuple(numbers)
 
 
 def _said(name: Any) -> str:

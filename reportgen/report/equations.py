@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -182,9 +183,14 @@ def _pointing(report: Report, angle: Number) -> Inlines:
 
 
 def heading_words(report: Report, degrees: float) -> str:
-    """The axis or the quadrant that an angle from +x lies in, in words: to the right, to the right and up, …."""
+    """The axis or quadrant of an angle (degrees) from +x, in words: to the right, to the right and up, …."""
+    return heading_of(report.words, degrees)
+
+
+def heading_of(words: Mapping[str, Any], degrees: float) -> str:
+    """As `heading_words`, of the short words alone."""
     quadrant, within = divmod(round(degrees, 2) % 360.0, 90.0)
-    return str(report.words["headings"][int(2 * quadrant) + (within > 0)])
+    return str(words["headings"][int(2 * quadrant) + (within > 0)])
 
 
 def opposites(report: Report, polygon: Polygon, position: int) -> Equation:

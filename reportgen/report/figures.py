@@ -16,11 +16,11 @@ from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing import positions as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
+from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import Sliding, link_and_plan
 from reportgen.drawing.forces import coriolis as coriolis_figure
 from reportgen.drawing.forces import inclination as inclination_figure
 from reportgen.drawing.geometry import moved
-from reportgen.drawing.labels import Canvas
 from reportgen.drawing.positions import (
     DrawnCentre,
     PlaneMotion,
@@ -111,7 +111,7 @@ def close(scene: Scene) -> Scene:
 
 
 def fits(width: float, height: float, paper: tuple[float, float]) -> bool:
-    """Whether a drawing has room on a plate."""
+    """Whether a drawing of a width and height (mm) has room on a plate."""
     return width <= paper[0] - WHITE[0] and height <= paper[1] - WHITE[1]
 
 
@@ -147,14 +147,13 @@ def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = Non
 
 
 def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
-    """Pistons with their bore, mass centres, the figure's scale."""
+    """Pistons with their bore, mass centres, the figure's scale, by a factor of enlargement."""
     blocks = {
         piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
         for piston in report.machine.pistons
     }
     jointed = {name for group in report.groups for name in (group.P, group.Q)}
-    names = report.analysis.motion.points.keys() - jointed
-    centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre in names)
+    centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre not in jointed)
     return Looks(blocks=blocks, centres=centres, scale=scale_note(report, "mu.l", factor))
 
 
@@ -176,6 +175,7 @@ def scheme(report: Report) -> FigureScenes:
 
 
 def scheme_scene(report: Report, factor: float) -> Scene:
+    """The kinematic scheme, by a factor of enlargement."""
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
     return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, _shown_at(report), scale, look)
@@ -203,8 +203,8 @@ def _shown_at(report: Report) -> int:
 
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
-    points = [point.p[_shown_at(report)] for point in report.analysis.motion.points.values()]
-    size = np.array(points)[np.isfinite(points)] * drawing_scale(report) * report.enlarged
+    points = np.array([report.place(name, _shown_at(report) + 1) for name in report.analysis.motion.points])
+    size = points[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
@@ -216,8 +216,8 @@ def positions(report: Report) -> FigureScenes:
 def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
     """A drawing to μ_l, by which it is measured, or at the first reduction that leaves half a page to the text.
 
-    What is wider than the text stands turned, as large as the page allows.  Where labels want more room, it is the next
-    larger one that has it.
+    What no reduction brings into the text stands turned, as large as the page allows.  Where labels want more room, it
+    is the next larger one that has it.
     """
     if report.parts("true-size"):
         return on_paper(draw(1.0))
@@ -225,8 +225,11 @@ def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> Figure
     for smaller in SMALLER:
         scene = close(draw(1 / smaller))
         drawn.append(replace(on_paper(scene), smaller=smaller))
-        if drawn[-1].turned or (in_text(scene) and scene.height <= HALF_PAGE):
+        if in_text(scene) and scene.height <= HALF_PAGE:
             break
+    else:
+        turned = next((n for n, one in enumerate(drawn, 1) if one.turned), len(drawn))
+        del drawn[turned:]
     return next((shown for shown in reversed(drawn) if not shown.scenes[0].crowded), drawn[-1])
 
 
@@ -236,7 +239,7 @@ def plan_in_text(report: Report) -> bool:
 
 
 def positions_scene(report: Report, factor: float = 1.0, beside: Canvas | None = None) -> Scene:
-    """The numbered positions of one turn, alone with the paths of points or beside another drawing."""
+    """The numbered positions of one turn by a factor of enlargement, alone with paths or beside another drawing."""
     machine = report.machine
     shows = PositionPlan(
         _numbered(report),

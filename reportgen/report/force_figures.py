@@ -10,10 +10,11 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Item, Line, Scene
+from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
 from reportgen.drawing.forces import lever as lever_figure
-from reportgen.drawing.labels import Canvas, label
+from reportgen.drawing.labels import label
 from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
@@ -41,8 +42,8 @@ class _Bodies:
         return drawing_scale(self.report) * self.share
 
     def at(self, name: str) -> complex:
-        """Where a point stands on paper."""
-        return complex(self.report.analysis.motion.points[name].p[self.k - 1]) * self.scale
+        """Where a point stands on paper (mm)."""
+        return self.report.place(name, self.k) * self.scale
 
     def scene(self, forces: Sequence[Force], **more: Any) -> Scene:
         report, look = self.report, looks(self.report, self.scale, self.share)
@@ -83,7 +84,7 @@ class _Bodies:
     # --- reactions
 
     def reaction(self, name: str, at: complex) -> Force:
-        """A reaction R12, or a component R12.t of one, in its true sense."""
+        """A reaction R12, or a component R12.t of one, in its true sense at a place (mm)."""
         direction = true_sense(self.report, name, self.k)
         return Force(self.report.force_vector(name), at, direction, "reaction", name)
 
@@ -116,13 +117,13 @@ class _Bodies:
 
 
 def arm_of(report: Report, id: str, k: int, about: complex) -> ArmOf:
-    """An arm as it is printed."""
+    """An arm as it is printed, its foot `about` a point of the paper (mm)."""
     length = report.ledger.number(id, k, size=True).value / report.enlarged
     return ArmOf(report.ledger.symbol(id), about, report.ledger[id].of, length)
 
 
 def true_sense(report: Report, name: str, k: int) -> complex:
-    """How a reaction is drawn on a separated link: where it points; 0 where it is nothing."""
+    """How a reaction is drawn on a separated link: its direction, of length 1; 0 where it is nothing."""
     vector = report.ledger[ids.force_vector(name)]
     return 0j if report.is_zero(vector.of, k) else complex(vector.at(k))
 
@@ -249,7 +250,7 @@ def _percussion(report: Report, link: int, k: int) -> Canvas:
     scale, number = drawing_scale(report), str(link)
     known, meeting = (point * scale for point in points)
     marks: tuple[Item, ...] = (
-        Line(complex(report.analysis.motion.points[body.centre].p[k - 1]) * scale, meeting, CONSTRUCTION),
+        Line(report.place(body.centre, k) * scale, meeting, CONSTRUCTION),
         Line(known, meeting, CONSTRUCTION),
         Circle(known, 0.6, VISIBLE, PAPER),
         Circle(meeting, 0.6, VISIBLE, PAPER),
@@ -263,7 +264,7 @@ def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:
     if not (group.offset and link == group.j):
         return Canvas()
     scale, ledger = drawing_scale(report), report.ledger
-    pivot, block = (complex(report.analysis.motion.points[name].p[k - 1]) * scale for name in (group.T, group.Q))
+    pivot, block = (report.place(name, k) * scale for name in (group.T, group.Q))
     along = complex(ledger[ids.slot(link)].at(k))
     at = complex(constructions.foot(pivot, block, along))
     marks = (Line(pivot, at, CONSTRUCTION), Line(at, block, CONSTRUCTION), Circle(at, 0.6, VISIBLE, PAPER))

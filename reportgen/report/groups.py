@@ -178,7 +178,7 @@ class GroupView:
         self.offset = dyad.kind == "RPR" and bool(dyad.lengths[1])
         self.points_i, self.points_j = (points_on(plan.linkage, link) for link in dyad.links)
         self.points = (*self.points_i, *self.points_j)
-        self.polygon = next((one for one in polygons if one.name == self.name), None)
+        self.polygon = next((polygon for polygon in polygons if polygon.name == self.name), None)
         self.fixed, self.on_driver = frozenset(plan.linkage.ground), frozenset(driver.names)
         self.by_crank = driver.kind == "crank" and all(ledger[ids.scale(what)].definition is not None for what in "va")
 

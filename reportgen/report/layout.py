@@ -9,7 +9,7 @@ from itertools import groupby
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
-from reportgen.drawing.geometry import POINT, Boxes, box
+from reportgen.drawing.label_size import POINT, Boxes, box
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula.setting import MathRow, Part
 from reportgen.report import (
@@ -107,7 +107,7 @@ def in_groups(rows: Sequence[Expression], room: float) -> list[tuple[Expression,
 
 
 def lines(rows: Sequence[Expression], room: float) -> int:
-    """How many lines the rows of an equation take, short ones two abreast."""
+    """How many lines the rows of an equation take in a room (mm), short ones two abreast."""
     groups = in_groups(rows, room)
     return sum(-(-len(one) // 2) if all(_is_short(row, room) for row in one) else len(one) for one in groups)
 
@@ -123,14 +123,14 @@ def _width(row: Expression) -> float:
 
 # --- contents ----------------------------------------------------------------------------------------
 
-MANY_ENTRIES = 22
-"""So many lines fill about half a page."""
+PAGE_ENTRIES, MANY_ENTRIES = 50, 30
+"""So many lines fill a page, and so many all of it but what would not be called white."""
 
 
 def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
-    """The table of contents of some blocks; one that would leave half of its page white is not alone there."""
-    entries = [block for block in blocks if isinstance(block, Section) and block.level <= (2 if brief else 3)]
-    return Contents(title, brief, alone=not brief and len(entries) > MANY_ENTRIES)
+    """The table of contents of some blocks; one that would leave half of its last page white is not alone there."""
+    entries = sum(isinstance(block, Section) and block.level <= (2 if brief else 3) for block in blocks)
+    return Contents(title, brief, alone=not brief and (entries - 1) % PAGE_ENTRIES >= MANY_ENTRIES)
 
 
 # --- blocks ---------------------------------------------------------------------------------------

@@ -58,16 +58,21 @@ class NamedFigure:
 
 def named_figures(document: Document) -> tuple[NamedFigure, ...]:
     """All figures of a report in their order; one on several pages is one."""
-    found: list[NamedFigure] = []
+    figures: list[NamedFigure] = []
     for block in _figures(document.blocks):
         scenes = block.scenes if isinstance(block, Figure) else (block.scene,)
         if isinstance(block, Plate) and block.continues:
-            found[-1] = replace(found[-1], scenes=found[-1].scenes + scenes)
+            figures[-1] = replace(figures[-1], scenes=figures[-1].scenes + scenes)
         else:
-            name = _FIGURE.sub(r"\1", block.key, count=1) or block.number or str(len(found) + 1)
+            name = figure_name(block) or str(len(figures) + 1)
             caption = plain(block.caption, document.language)
-            found.append(NamedFigure(name, block.number, caption, scenes, block.at))
-    return tuple(found)
+            figures.append(NamedFigure(name, block.number, caption, scenes, block.at))
+    return tuple(figures)
+
+
+def figure_name(block: Figure | Plate) -> str:
+    """What a figure is called: its key without what says that it is one, or its number."""
+    return _FIGURE.sub(r"\1", block.key, count=1) or block.number
 
 
 def safe(name: str) -> str:

@@ -43,9 +43,9 @@ def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
             said += [Text(text)] if text else []
             said += _gap(report, name, how or "", about, gaps) if name else ()
     except (LookupError, TypeError, ValueError) as error:
-        told = unfilled(phrase, gaps, report.assignment.language)
+        refusal = unfilled(phrase, gaps, report.assignment.language)
         mark = place_of(phrase, report.words)
-        raise (TemplateError(f"{mark}: {told}") if mark else ValueError(told)) from error
+        raise (TemplateError(f"{mark}: {refusal}") if mark else ValueError(refusal)) from error
     return tuple(said)
 
 
@@ -57,9 +57,9 @@ def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mappin
     """
     if name in gaps:
         return inlines(gaps[name])
-    for one in about:
+    for member_of in about:
         with suppress(LookupError):
-            return inlines(member(one, name))
+            return inlines(member(member_of, name))
     if name.startswith("@"):
         return (Reference(name[1:]),)
     if how == "quantity":
@@ -100,7 +100,7 @@ def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> 
 
 
 def shown_smaller(report: Report, times: float, name: str) -> Inlines:
-    """What is said of a figure that is shown so many times smaller than to μ_l; nothing for one that is not."""
+    """What is said of a figure shown smaller than to μ_l by a factor; nothing for one that is not."""
     if times == 1.0:
         return ()
     scale = Chain((report.ledger.symbol("mu.l"), report.ledger.number("mu.l")))
@@ -198,8 +198,8 @@ def load_key(report: Report) -> str:
 
 def driver_loads(report: Report) -> Inlines:
     """The driver's own inertia force and weight with their symbols, each followed by a comma."""
-    words, found = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
-    return tuple(part for id in found for part in say(report, words[id], force=report.ledger.symbol(id)))
+    words, loads = report.words["driver_loads"], [id for id in ("Pqt1", "G1") if id in report.on_crank]
+    return tuple(part for id in loads for part in say(report, words[id], force=report.ledger.symbol(id)))
 
 
 def opposite_words(report: Report) -> str:
@@ -255,8 +255,8 @@ def constant_force(report: Report) -> Inlines:
     """In which stroke a constant working force acts, and whether with the motion; nothing for any other force."""
     if "P.given" not in report.ledger or "stroke" not in report.own:
         return ()
-    told = report.words["constant_force"][report.own["stroke"]]
-    return say(report, told.get(sign(report, "P.given"), ""), report.words["ways"])
+    senses = report.words["constant_force"][report.own["stroke"]]
+    return say(report, senses.get(sign(report, "P.given"), ""), report.words["ways"])
 
 
 def first_position(report: Report) -> Inlines:
@@ -273,8 +273,8 @@ def first_position(report: Report) -> Inlines:
         told = words["ways" if machine.span else "instants"][len(at) > 1]
         return say(report, told, labels=labels, places=tuple(places), pin=pin)
     if machine.span:
-        way = Number(_plain(machine.start * MM), unit="mm")
-        place: dict[str, Any] = {"label": first.label, "pin": NamedPoint(report.driver.pin), "place": way}
+        place_on_guide = Number(_plain(machine.start * MM), unit="mm")
+        place: dict[str, Any] = {"label": first.label, "pin": NamedPoint(report.driver.pin), "place": place_on_guide}
         return say(report, words["along" if machine.turn > 0 else "against"], **place)
     natural = report.words.get("beginning", {}).get("dead_centre")
     if start is None and natural:
@@ -291,8 +291,10 @@ def _plain(value: float) -> float:
 def strokes_at_start(report: Report) -> Inlines:
     """On which stroke each piston leaves the first position, which tells in which of its turns it is."""
     words, strokes = report.words["strokes_at_start"], report.words["strokes"]
-    told = [(state.piston.link, str(strokes[state.stroke[0]]).lower()) for state in report.analysis.gas.values()]
-    phrases = [words[index > 0].format(link=link, stroke=stroke) for index, (link, stroke) in enumerate(told)]
+    strokes_begun = [
+        (state.piston.link, str(strokes[state.stroke[0]]).lower()) for state in report.analysis.gas.values()
+    ]
+    phrases = [words[index > 0].format(link=link, stroke=stroke) for index, (link, stroke) in enumerate(strokes_begun)]
     return (Text(f"{''.join(phrases)}."),) if phrases else ()
 
 
@@ -395,10 +397,10 @@ def shows_coriolis(report: Report, group: GroupView, side: Side, position: int) 
 def found_senses(report: Report, group: GroupView, position: int) -> Inlines:
     """What the signs of the reactions say that moments gave."""
     words, figure = report.words["plan"]["found"], Reference(f"fig.bodies.{group}.{position}")
-    found = [(id, sign(report, id, position)) for id in group.by_moments]
+    signs = [(id, sign(report, id, position)) for id in group.by_moments]
     return tuple(
         part
-        for id, way in found
-        if way != "zero"
-        for part in say(report, words[way], force=report.ledger.symbol(id), figure=figure)
+        for id, sense in signs
+        if sense != "zero"
+        for part in say(report, words[sense], force=report.ledger.symbol(id), figure=figure)
     )

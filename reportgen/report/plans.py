@@ -88,8 +88,10 @@ class MotionFigures:
 
     def series(self, report: Report) -> PlanSeries:
         """The plans of one turn without those that mirror others."""
-        told = positions_mirrored(report, self.what).at
-        return PlanSeries(report, self._plan, [k for k in one_turn(report) if k not in told], ids.scale(self.what))
+        mirrored_at = positions_mirrored(report, self.what).at
+        return PlanSeries(
+            report, self._plan, [k for k in one_turn(report) if k not in mirrored_at], ids.scale(self.what)
+        )
 
     def _plan(self, report: Report, k: int) -> Plan:
         return motion_plan(report, self.what, k)
@@ -107,9 +109,9 @@ def positions_mirrored(report: Report, what: What) -> Mirrored:
 
 def mirror_images(report: Report, what: What) -> Inlines:
     """What is said of the positions whose plans are not drawn again; nothing where all are drawn."""
-    found = positions_mirrored(report, what)
-    drawn = ", ".join(str(report.machine.position(k)) for k in found.of)
-    return counted(report, "mirrored", [report.machine.position(k) for k in found.at], drawn=drawn)
+    mirror = positions_mirrored(report, what)
+    drawn = ", ".join(str(report.machine.position(k)) for k in mirror.of)
+    return counted(report, "mirrored", [report.machine.position(k) for k in mirror.at], drawn=drawn)
 
 
 def _at(construction: Construction[str], report: Report, k: int) -> Plan:
@@ -310,7 +312,7 @@ def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
         return 0 if vector.stage < known else 2 + vector.stage - known
 
     def reached(corner: complex) -> int:
-        """The first step that draws an arrow to or from a corner."""
+        """The first step that draws an arrow to or from a corner (mm)."""
         return min(step(v) for v in drawing.vectors if corner in (v.start, v.end))
 
     steps = replace(
@@ -392,30 +394,30 @@ def mirrored(plans: Mapping[int, Plan]) -> Mirrored:
     Of several such lines the one with most pairs counts; a single pair, as of the two dead centres, is drawn.
     """
     ends = {k: np.array([end for v in plan.vectors for end in (v.start, v.end)]) for k, plan in plans.items()}
-    found = [
+    turns = [
         (one, other, turn)
         for one, other in combinations(sorted(ends), 2)
         if (turn := _turn(ends[one], ends[other])) is not None
     ]
     best: dict[int, int] = {}
-    for *_, line in found:
+    for *_, line in turns:
         pairs: dict[int, int] = {}
-        for one, other, turn in found:
-            if abs(turn - line) < SAME_MIRROR and not {one, other} & {*pairs, *pairs.values()}:
-                pairs[one] = other
+        for earlier, later, turn in turns:
+            if abs(turn - line) < SAME_MIRROR and not {earlier, later} & {*pairs, *pairs.values()}:
+                pairs[earlier] = later
         best = max(best, pairs, key=len)
     if len(best) < FEWEST:
         return Mirrored((), ())
     return Mirrored(tuple(best.values()), tuple(best))
 
 
-def _turn(one: np.ndarray, other: np.ndarray) -> complex | None:
+def _turn(ends: np.ndarray, mirrored_ends: np.ndarray) -> complex | None:
     """What turns the conjugates of some points into others, if anything does; None if both are one without it."""
-    if not one.size or abs(one - other).max() < SAME_END:
+    if not ends.size or abs(ends - mirrored_ends).max() < SAME_END:
         return None
-    largest = int(abs(one).argmax())
-    turn = complex(other[largest] / one[largest].conjugate())
-    if abs(abs(one[largest]) * (abs(turn) - 1)) > SAME_END:
+    largest = int(abs(ends).argmax())
+    turn = complex(mirrored_ends[largest] / ends[largest].conjugate())
+    if abs(abs(ends[largest]) * (abs(turn) - 1)) > SAME_END:
         return None
     turn /= abs(turn)
-    return turn if abs(other - turn * one.conj()).max() < SAME_END else None
+    return turn if abs(mirrored_ends - turn * ends.conj()).max() < SAME_END else None

@@ -111,12 +111,12 @@ class Prose:
         outer, steps = held.set(self.values), self.values.steps
         self.values.steps = 0
         try:
-            found = markdown.blocks(_render(self.places, name, self.values.names({**GLOBALS, **names})))
+            blocks = markdown.blocks(_render(self.places, name, self.values.names({**GLOBALS, **names})))
         finally:
             held.reset(outer)
             self.values.steps = steps
-        first = found[0] if found else None
-        return (replace(first, opens=name), *found[1:]) if isinstance(first, Section) else found
+        first = blocks[0] if blocks else None
+        return (replace(first, opens=name), *blocks[1:]) if isinstance(first, Section) else blocks
 
     def inlines(self, words: str) -> Inlines:
         """What a macro, `caller()` or a `{% set %}` block made, as inlines: a caption written in a template.
@@ -142,8 +142,8 @@ class _Compiled(BytecodeCache):
 
     def load_bytecode(self, bucket: Bucket) -> None:
         code = self.codes.get(bucket.key)
-        if code is None and (found := kept(self._kept_as(bucket))) is not None:
-            code = self.codes[bucket.key] = found.replace(NUMBER, SECRET.encode())
+        if code is None and (bytecode := kept(self._kept_as(bucket))) is not None:
+            code = self.codes[bucket.key] = bytecode.replace(NUMBER, SECRET.encode())
         if code is not None:
             # A damaged file is as good as none.
             with suppress(EOFError, ValueError, TypeError, UnpicklingError):
@@ -170,11 +170,11 @@ class _Sections(BaseLoader):
         self.places = places
 
     def get_source(self, environment: Environment, template: str) -> tuple[str, str, Callable[[], bool]]:
-        found = find(template, self.places)
-        if found is None:
+        passage = find(template, self.places)
+        if passage is None:
             raise TemplateNotFound(template)
-        above = "{#" + "\n" * (found.line - 1) + "#}\n"  # a comment, of which nothing is left
-        return above + found.text, str(found.file), lambda: find(template, self.places) == found
+        above = "{#" + "\n" * (passage.line - 1) + "#}\n"  # a comment, of which nothing is left
+        return above + passage.text, str(passage.file), lambda: find(template, self.places) == passage
 
 
 @lru_cache(maxsize=ENVIRONMENTS)
@@ -217,13 +217,13 @@ def _render(places: tuple[Path, ...], name: str, names: Mapping[str, object]) ->
 
 def _within(pieces: Iterable[str]) -> str:
     """The pieces of a section in one, up to the one with which they pass any bound."""
-    found, size = [], 0
+    rendered, size = [], 0
     for piece in pieces:
-        found.append(piece)
+        rendered.append(piece)
         size += len(piece)
         if size > MARKS * LONGEST_SECTION:
             break
-    return "".join(found)
+    return "".join(rendered)
 
 
 def _told(error: Exception, places: tuple[Path, ...]) -> str:
@@ -239,8 +239,8 @@ def _told(error: Exception, places: tuple[Path, ...]) -> str:
         case MemoryError() | LimitError():
             return word("template_limits", _language(places), **asdict(TEMPLATES))
     # What else an error holds may be a value of the program.
-    told = str(error) if all(type(one) in PLAIN for one in error.args) else ""
-    return f"{type(error).__name__}: {told[:LONGEST_TOLD]}"
+    reason = str(error) if all(type(one) in PLAIN for one in error.args) else ""
+    return f"{type(error).__name__}: {reason[:LONGEST_TOLD]}"
 
 
 def _too_much(places: tuple[Path, ...]) -> str:
@@ -383,10 +383,10 @@ class _Provenance(Extension):
         for token in stream:
             if token.type in ("data", "string"):
                 flat = token.value.translate(_WHITE) if token.type == "data" else token.value
-                if found := STRANGE.search(flat):
-                    line = token.lineno + token.value.count("\n", 0, found.start())
-                    told = word("template_character", of_file(Path(file)))
-                    raise TemplateSyntaxError(told, line, stream.name, file)
+                if strange := STRANGE.search(flat):
+                    line = token.lineno + token.value.count("\n", 0, strange.start())
+                    refusal = word("template_character", of_file(Path(file)))
+                    raise TemplateSyntaxError(refusal, line, stream.name, file)
             if token.type == "data":
                 yield _static(token.lineno, file, token.value)
             else:
@@ -458,8 +458,8 @@ def _origin(error: Exception, search: tuple[Path, ...], name: str) -> Place:
         return error.filename or name, error.lineno
     if places:
         return places[-1]
-    if (found := find(name, search)) is not None:
-        return str(found.file), found.line
+    if (passage := find(name, search)) is not None:
+        return str(passage.file), passage.line
     own = next(place for place in search if place.is_relative_to(search[-1]))  # of the machine, if it has one
     return str(home(name, own)[0]), 1
 

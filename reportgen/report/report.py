@@ -154,7 +154,7 @@ class Report:
         return self.sense(self.machine.turn)
 
     def sense(self, value: float) -> str:
-        """The sense of a rotation; a dash where there is none."""
+        """The sense of a rotation (rad/s, or any other unit); a dash where there is none."""
         words = self.words["sense"]
         return str(words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"])
 
@@ -352,7 +352,7 @@ class Report:
     @property
     def has_forces(self) -> bool:
         """Whether anything loads the machine, weights and inertia included."""
-        return bool(self.analysis.loads)
+        return "M.eq" in self.ledger
 
     @property
     def has_turning_links(self) -> bool:
@@ -376,6 +376,10 @@ class Report:
 
     # --- motion
 
+    def place(self, point: str, k: int) -> complex:
+        """Where a point stands at a position (m)."""
+        return complex(self.ledger[ids.place(point)].at(k))
+
     def known(self, quantities: Iterable[str]) -> list[str]:
         """Those of the ids that the ledger knows, each once."""
         return self.ledger.known(quantities)
@@ -390,14 +394,14 @@ class Report:
     @property
     def sliding(self) -> tuple[GroupView, ...]:
         """Groups whose last link slides along a fixed guide."""
-        on_ground = {slider for carrier, slider in self.analysis.motion.slides if carrier == GROUND}
-        return tuple(group for group in self.groups if group.kind in ("RRP", "RPP") and group.j in on_ground)
+        slides = (group for group in self.groups if group.kind in ("RRP", "RPP"))
+        return tuple(group for group in slides if group.guide == ids.joint(GROUND, group.j))
 
     @property
     def slider_senses(self) -> Mapping[str, complex]:
         """The unit vectors along which the motion of sliders on the ground counts as positive, by their pins."""
-        angles = {group.Q: float(self.analysis.motion.links[group.j].angle[0]) for group in self.sliding}
-        return {pin: self.machine.positive.get(pin, complex(np.exp(1j * angle))) for pin, angle in angles.items()}
+        guides = {group.Q: complex(self.ledger[ids.guide(group.j)].values[0]) for group in self.sliding}
+        return {pin: self.machine.positive.get(pin, along) for pin, along in guides.items()}
 
     # --- forces
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from reportgen.catalogue.given_loads import ByOrdinates
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.formula import Chain, Expression, Fraction, Number, Symbol, ids, refs, size, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine.laws import Law
@@ -102,7 +102,7 @@ def tables(
     room = TEXT_WIDTH - FIRST_COLUMN
     widths = [] if report.parts("usual-type") else [column_width(report, id, at) for id in shown]
     fitting = bool(widths) and sum(widths) <= room
-    found = side_by_side(
+    parts = side_by_side(
         report,
         key,
         caption,
@@ -114,15 +114,15 @@ def tables(
         widths=[min(width + (room - sum(widths)) / len(widths), WIDEST_COLUMN) for width in widths] if fitting else (),
     )
     if not zeros or shown == list(quantities):
-        return found
+        return parts
     equations = listed(InlineMath(Chain((report.ledger.symbol(id), Number(0.0)))) for id in zeros)
-    return *found, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
+    return *parts, Paragraph((Text(f"{report.words['table']['zero']} "), *equations, Text(".")))
 
 
 def column_width(report: Report, id: str, at: Iterable[int | None]) -> float:
     """What a quantity's numbers and its symbol need across (mm), with the white beside them."""
     numbers = (replace(report.ledger.number(id, k), unit="") for k in at)
-    shown = (head_symbol(report, id), *(one for one in numbers if math.isfinite(one.value)))
+    shown = (head_symbol(report, id), *(number for number in numbers if math.isfinite(number.value)))
     return max(box(one, TABLE_SIZE).width for one in shown) + PADDING
 
 
@@ -147,12 +147,12 @@ def side_by_side(
     count = max(-(-len(columns) // most), 1)
     size = together * -(-len(columns) // (together * count))
     parts = [columns[start : start + size] for start in range(0, len(columns), size or 1)]
-    found = []
+    tables = []
     for number, part in enumerate(parts, start=1):
         width = min((TEXT_WIDTH - first.width) / len(part), widest)
         rows = [tuple(map(cell, row)) for row in zip(titles, *part, strict=True)]
         title = f"{caption} ({number}/{len(parts)})" if len(parts) > 1 else caption
-        found.append(
+        tables.append(
             Table(
                 (first, *(map(Column, widths) if widths else (Column(width),) * len(part))),
                 tuple(rows[:heads]),
@@ -161,7 +161,7 @@ def side_by_side(
                 f"{key}.{number}" if number > 1 else key,
             )
         )
-    return tuple(found)
+    return tuple(tables)
 
 
 def list_table(
@@ -329,8 +329,8 @@ def _blocks(
 def joints(report: Report) -> Iterator[Sequence[object]]:
     """All joints: number, place, links, type."""
     for number, joint in enumerate(report.mobility.joints, start=1):
-        one, other = joint.links
-        yield str(number), vocabulary.point(joint.point), f"{one} – {other}", report.words["joints"][joint.kind]
+        acting, acted_on = joint.links
+        yield str(number), vocabulary.point(joint.point), f"{acting} – {acted_on}", report.words["joints"][joint.kind]
 
 
 def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table, ...]:
@@ -372,7 +372,7 @@ def further_points(report: Report) -> Iterator[Sequence[object]]:
     along = report.words["vector"]
     for row in report.own["points"]:
         start = vocabulary.point(row.origin)
-        way: object = along[f"along_{row.way}"] if row.way in ("guide", "slot") else vocabulary.point(row.way)
-        if not isinstance(way, str):
-            way = (InlineMath(start), Text(" → "), InlineMath(vocabulary.point(row.way)))
-        yield vocabulary.point(row.name), str(row.link), start, way, row.along, row.across
+        axis: object = along[f"along_{row.way}"] if row.way in ("guide", "slot") else vocabulary.point(row.way)
+        if not isinstance(axis, str):
+            axis = (InlineMath(start), Text(" → "), InlineMath(vocabulary.point(row.way)))
+        yield vocabulary.point(row.name), str(row.link), start, axis, row.along, row.across

@@ -92,7 +92,7 @@ def _expressions(blocks: Iterable[Block]) -> Iterator[Expression]:
                 yield from _of(inlines)
             case Figure(scenes, inlines):
                 yield from _of(inlines)
-                yield from (one for scene in scenes for one in _labels(scene))
+                yield from (label for scene in scenes for label in _labels(scene))
             case Plate(scene, caption=inlines):
                 yield from _of(inlines)
                 yield from _labels(scene)

@@ -138,11 +138,11 @@ class Values:
     def _token(self, value: Any, kind: type[Token]) -> Token:
         # What is held is kept, so that no other value is ever taken for it.
         key = id(value), kind
-        found = self._tokens.get(key)
-        if found is None:
-            found = self._tokens[key] = kind(len(self._held), _counts(value))
+        token = self._tokens.get(key)
+        if token is None:
+            token = self._tokens[key] = kind(len(self._held), _counts(value))
             self._held.append(value)
-        return found
+        return token
 
 
 def _counts(value: Any) -> bool:

@@ -34,8 +34,8 @@ def phrase(id: str, ledger: Ledger, words: Mapping[str, Any]) -> str:
     _, parts = vocabulary.wording(id, shown)
     of = phrase(vector, ledger, words) if vector else ""
     bodies = {name: _body(parts[link], phrases) for name, link in (("body", "link"), ("onto", "other"))}
-    found = next(vocabulary.words_of(phrases, id, kind, shown), "")
-    return found.format(**parts, **bodies, of=of)
+    wording = next(vocabulary.words_of(phrases, id, kind, shown), "")
+    return wording.format(**parts, **bodies, of=of)
 
 
 def _body(link: str, phrases: Mapping[str, str]) -> str:
@@ -87,9 +87,9 @@ def _points(id: str, ledger: Ledger) -> dict[str, str]:
 
 def _point(id: str) -> str:
     """The name of the point whose place it is."""
-    found = ids.place.read(id)
-    assert found is not None, f"{id} is no place"
-    return found["point"]
+    names = ids.place.read(id)
+    assert names is not None, f"{id} is no place"
+    return names["point"]
 
 
 def definition_of(ledger: Ledger, id: str) -> Expression:
@@ -100,8 +100,8 @@ def definition_of(ledger: Ledger, id: str) -> Expression:
 
 def _way(id: str, ways: Mapping[str, str]) -> dict[str, str]:
     """Where a slider's motion counts as positive, in words."""
-    found = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
-    return {"way": ways[found["point"]]} if found and found["point"] in ways else {}
+    names = ids.formula_velocity.read(id) or ids.formula_acceleration.read(id)
+    return {"way": ways[names["point"]]} if names and names["point"] in ways else {}
 
 
 # --- sentences ---------------------------------------------------------------------------------------

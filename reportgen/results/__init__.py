@@ -25,9 +25,9 @@ def results(case: Case) -> dict[str, Any]:
     """
     assignment, entries = case.assignment, case.entries
     about = {"format": FORMAT, "kind": assignment.kind, "variant": assignment.variant, "units": "SI"}
-    found = {**about, **plain(entries.besides), "positions": plain(entries.positions)}
+    about_all = {**about, **plain(entries.besides), "positions": plain(entries.positions)}
     further = {name: results(part) for name, part in islice(case.parts.items(), 1, None)}
-    return {**found, "parts": further} if further else found
+    return {**about_all, "parts": further} if further else about_all
 
 
 def plain(value: Any) -> Any:

@@ -43,14 +43,14 @@ def result_rows(results: Mapping[str, Any]) -> list[list[Cell]]:
     return [list(heads), *([row.get(head) for head in heads] for row in rows)]
 
 
-def _leaves(value: Any, way: str = "") -> Iterator[tuple[str, Cell]]:
+def _leaves(value: Any, path: str = "") -> Iterator[tuple[str, Cell]]:
     """The numbers and texts of an entry with the ways to them; a pair is a vector of the plane."""
     match value:
         case Mapping():
             for name, inner in value.items():
-                yield from _leaves(inner, f"{way}.{name}" if way else str(name))
+                yield from _leaves(inner, f"{path}.{name}" if path else str(name))
         case list():
             for axis, part in zip(AXES, value, strict=True):
-                yield f"{way}.{axis}", part
+                yield f"{path}.{axis}", part
         case _:
-            yield way, value
+            yield path, value

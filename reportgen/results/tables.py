@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
+from reportgen.base.template_folders import kind_file
 from reportgen.base.units import (
     LARGE,
     MM,
@@ -17,7 +18,7 @@ from reportgen.base.units import (
     significant_decimals,
     write,
 )
-from reportgen.base.words import word
+from reportgen.base.words import load_words, word
 from reportgen.formula import ids
 
 DIGITS = 5
@@ -39,11 +40,12 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
 
     # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
     console = Console(width=500)
-    found = tables(results["positions"])
+    titles = load_words((kind_file(language, results["kind"]),)).get("results", {})
+    found = tables(results["positions"], titles)
     scales = _scales(found, results["positions"])
     for name, rows in found.items():
         for headings in _split(rows[0]):
-            table = Table(title=word(name, language), title_justify="left", title_style="bold")
+            table = Table(title=titles.get(name) or word(name, language), title_justify="left", title_style="bold")
             for heading in headings:
                 text = word(heading, language) if heading in WORDS else heading
                 table.add_column(text, justify="right", no_wrap=True)
@@ -64,8 +66,11 @@ def _split(row: Row) -> list[list[str]]:
     return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
 
 
-def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]]:
-    """Name of each table and its rows; positions that cannot be reached are left out."""
+def tables(positions: Sequence[Mapping[str, Any] | None], own: Collection[str] = ()) -> dict[str, list[Row]]:
+    """Name of each table and its rows; positions that cannot be reached are left out.
+
+    The entries of these `own` names are tables of numbers as they are.
+    """
     found: dict[str, list[Row]] = defaultdict(list)
     for position in positions:
         if position is None:
@@ -93,6 +98,7 @@ def tables(positions: Sequence[Mapping[str, Any] | None]) -> dict[str, list[Row]
                 for name, value in position.get("contact", {}).items()
             },
         }
+        rows |= {name: dict(position.get(name, {})) for name in own}
         for name, row in rows.items():
             if row:
                 found[name].append(lead | row)

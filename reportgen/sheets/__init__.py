@@ -45,14 +45,14 @@ def drawing_sheets(
     if case.redrawn is not None:
         length, redraw = case.redrawn
         crank = length, lambda length: redraw(length).plates(sets, every)
-    found = on_sheets(case, plates, size, block, crank)
+    sheets = on_sheets(case, plates, size, block, crank)
     if isinstance(case, CaseOfParts):
         assignment = case.assignment
-        least = min(found[0].name, USUAL[0], key=BY_SIZE.index)
-        found += on_sheets(case, case.joined_plates(), size, block, least=least)
+        least = min(sheets[0].name, USUAL[0], key=BY_SIZE.index)
+        sheets += on_sheets(case, case.joined_plates(), size, block, least=least)
         form = read_block(block or blocks(assignment.school or "")[DEFAULT[assignment.language]], assignment.language)
-        found = numbered(found, form, assignment.sheet.designation or "")
-    return [*found, *case.true_sizes()]
+        sheets = numbered(sheets, form, assignment.sheet.designation or "")
+    return [*sheets, *case.true_sizes()]
 
 
 def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:

@@ -17,10 +17,11 @@ from reportgen.assignment.fields import Decimal, Flag, Interval, OneLine
 from reportgen.assignment.reading import placed, read_model
 from reportgen.base.errors import Finding, Where
 from reportgen.base.source import read_source
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, close_or_known, templates
+from reportgen.base.words import as_error, close_or_known
 from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
 from reportgen.report.case import Case
 
@@ -119,7 +120,7 @@ def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scen
 
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
-    """The title block with its cells filled in; the texts keep inside their cells."""
+    """The title block of a size (mm) with its cells filled in; the texts keep inside their cells."""
     outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
     return Scene(*size, (*_cells(cells), outline))
 

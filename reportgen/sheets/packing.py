@@ -36,7 +36,7 @@ class PlateColumn:
 
     @classmethod
     def of(cls, plates: Sequence[DrawingPlate], width: float) -> PlateColumn:
-        """The plates in rows, one beside the other where that makes the column lower; none may be wider."""
+        """The plates in rows, one beside the other where that makes the column lower; none may be wider (mm)."""
         rows: list[Row] = []
         used = 0.0
         for plate in plates:
@@ -52,15 +52,15 @@ class PlateColumn:
 
     @cached_property
     def height(self) -> float:
-        """Of all rows, without what is between them."""
+        """Of all rows (mm), without what is between them."""
         return sum(map(_height, self.rows))
 
     def fits(self, high: float) -> bool:
-        """Whether it has a height, white above, below and between the rows included."""
+        """Whether it has a height (mm), white above, below and between the rows included."""
         return self.height + GAP * (len(self.rows) + 1) <= high + DUST
 
     def placed(self, corner: complex, apart: float) -> Iterator[PlacedScene]:
-        """The parts of its plates, its rows so far apart; of each row the heads are in line."""
+        """The parts of its plates, its rows so far apart (mm); of each row the heads are in line."""
         top = corner
         for row in self.rows:
             free = self.width - sum(how.width for _, how in row)
@@ -87,20 +87,22 @@ class Packing:
 
     @property
     def wide(self) -> float:
+        """The sheet's room across (mm)."""
         return (self.room.high - self.room.low).real
 
     @property
     def high(self) -> float:
+        """The sheet's room upwards (mm)."""
         return (self.room.high - self.room.low).imag
 
     @property
     def beside(self) -> float:
-        """The width to the left of the title block."""
+        """The width (mm) to the left of the title block."""
         return self.wide - self.room.block.real
 
     @property
     def above(self) -> float:
-        """The height above it."""
+        """The height (mm) above it."""
         return self.high - self.room.block.imag
 
     def sheets(self, plates: Iterable[DrawingPlate]) -> Iterator[tuple[PlacedScene, ...]]:

@@ -29,6 +29,7 @@ from reportgen.report.figures import centre_state, centres, indicator, positions
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import (
+    SHARES,
     MotionFigures,
     PlanSeries,
     force_plan,
@@ -97,6 +98,8 @@ class Drawn:
     scenes: Sequence[Scene]
     lines: tuple[Content, ...] = ()
     family: str = ""
+    larger: Callable[[], Drawn] | None = None
+    """The same at the next larger standard scale, if it may be drawn at one."""
 
 
 Draw = Callable[[Sources], Iterator[Drawn]]
@@ -106,12 +109,23 @@ def plates_of(sources: Sources, chosen: Set) -> Iterator[DrawingPlate]:
     """The plates of a set in the order of the work."""
     for draw in SETS[chosen]:
         for drawn in draw(sources) if sources.every or draw not in FURTHER else ():
-            scenes = tuple(map(lettered, drawn.scenes))
-            spare = draw in RESULTS and not sources.every
-            if scenes:
-                title, further = sources.words[drawn.name], sources.words["continued"]
-                lines, layer, family = drawn.lines, drawn.layer, drawn.family
-                yield DrawingPlate(title, lines, layer, scenes, family=family, spare=spare, further=further)
+            if drawn.scenes:
+                yield _plate(sources, drawn, spare=draw in RESULTS and not sources.every)
+
+
+def _plate(sources: Sources, drawn: Drawn, spare: bool) -> DrawingPlate:
+    title, further = sources.words[drawn.name], sources.words["continued"]
+    scenes, larger = tuple(map(lettered, drawn.scenes)), drawn.larger
+    return DrawingPlate(
+        title,
+        drawn.lines,
+        drawn.layer,
+        scenes,
+        family=drawn.family,
+        spare=spare,
+        further=further,
+        larger=None if larger is None else lambda: _plate(sources, larger(), spare),
+    )
 
 
 # --- motion
@@ -145,7 +159,7 @@ def _accelerations(sources: Sources) -> Iterator[Drawn]:
 
 
 def _motion_plans(sources: Sources, what: What, name: str) -> Iterator[Drawn]:
-    """The worked plans, then those of one turn as the report has them, or all to the scale of the worked ones."""
+    """The worked plans, then those of one turn as large as there is room, or all to the scale of the worked ones."""
     report, label = sources.report, sources.report.machine.position
     for k in report.worked:
         drawing = motion_plan(sources.small, what, k)
@@ -154,17 +168,29 @@ def _motion_plans(sources: Sources, what: What, name: str) -> Iterator[Drawn]:
     if report.parts("velocity-plates"):
         series, mirrored = MotionFigures(what).series(report), positions_mirrored(report, what)
         share = 1.0 if sources.every else series.fitted()[0]
-        lines: tuple[Content, ...] = (series.note(share),)
+        told: tuple[Content, ...] = ()
         if sources.every:
             series = replace(series, positions=one_turn(report))
         elif mirrored.at:
             pairs = ", ".join(f"{label(at)} ({label(of)})" for at, of in zip(mirrored.at, mirrored.of, strict=True))
-            lines += (str(sources.words["mirrored"]).format(pairs=pairs),)
-        yield Drawn(f"{name}-plates", name, _scenes(sources, series, share), lines, name)
+            told = (str(sources.words["mirrored"]).format(pairs=pairs),)
+        yield _drawn_series(sources, series, share, Drawn(f"{name}-plates", name, (), told, name))
 
 
-def _scenes(sources: Sources, series: PlanSeries, share: float) -> tuple[Scene, ...]:
-    return tuple(replace(series, report=sources.small).scenes(share))
+def _drawn_series(sources: Sources, series: PlanSeries, usual: float, of: Drawn, share: float = 0.0) -> Drawn:
+    """Plans of one scale, a `usual` share as large as the worked ones or up to as large; they say the report's, too."""
+    share = share or usual
+    after = min((one for one in SHARES if one > share), default=None)
+    (symbol, shown), (_, in_report) = series.note(share).parts, series.note(usual).parts
+    assert isinstance(shown, Number)
+    assert isinstance(in_report, Number)
+    larger = on_sheet(sources.report.case, 1).told(symbol, shown, in_report)
+    return replace(
+        of,
+        scenes=tuple(replace(series, report=sources.small).scenes(share)),
+        lines=(*of.lines, series.note(share) if share == usual else larger),
+        larger=None if after is None else lambda: _drawn_series(sources, series, usual, of, after),
+    )
 
 
 def _centres(sources: Sources) -> Iterator[Drawn]:
@@ -222,9 +248,8 @@ def _force_plates(sources: Sources) -> Iterator[Drawn]:
     for group in reversed(sources.report.groups if sources.report.parts("force-plates") else ()):
         if group.polygon is not None:
             series = force_series(sources.report, group.polygon)
-            share = series.fitted()[0]
-            lines = (sources.called(group), series.note(share))
-            yield Drawn("force-plates", "forces", _scenes(sources, series, share), lines)
+            drawn = Drawn("force-plates", "forces", (), (sources.called(group),))
+            yield _drawn_series(sources, series, series.fitted()[0], drawn)
 
 
 # --- curves and tables

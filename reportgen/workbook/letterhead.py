@@ -34,6 +34,36 @@ _W = f"{{{WORD}}}"
 _BLOCKS = frozenset({"p", "tbl", "sdt", "bookmarkStart", "bookmarkEnd"})
 _CONTENTS = {"styles": frozenset({"docDefaults", "latentStyles", "style"}), "hdr": _BLOCKS, "ftr": _BLOCKS}
 """What a part is called inside, with what stands in it directly."""
+_WITHIN = {
+    child: frozenset(parents.split())
+    for children, parents in (
+        ("p tbl", "hdr ftr tc sdtContent customXml"),
+        ("tr", "tbl sdtContent customXml"),
+        ("tc", "tr sdtContent customXml"),
+        (
+            "r fldSimple hyperlink",
+            "p hyperlink fldSimple smartTag sdtContent customXml ins del moveTo moveFrom rt rubyBase",
+        ),
+        ("t instrText fldChar ptab br", "r"),
+        ("pPr", "p style tblStylePr pPrDefault pPrChange"),
+        ("rPr", "r pPr style tblStylePr rPrDefault rPrChange sdtPr sdtEndPr"),
+        ("tblPr", "tbl style tblStylePr tblPrChange"),
+        ("trPr", "tr style tblStylePr trPrChange"),
+        ("tcPr", "tc style tblStylePr tcPrChange"),
+        ("tblGrid", "tbl tblGridChange"),
+        ("gridCol", "tblGrid"),
+        ("tblW", "tblPr"),
+        ("tcW", "tcPr"),
+        ("basedOn next link uiPriority qFormat semiHidden", "style"),
+        ("sz szCs rFonts lang kern", "rPr"),
+        ("numPr keepNext tabs outlineLvl pBdr pStyle ind", "pPr"),
+        ("spacing", "pPr rPr"),
+    )
+    for child in children.split()
+}
+"""What stands in what; other elements may stand anywhere."""
+_FIRST = {"pPr": "p", "rPr": "r", "tcPr": "tc"}
+"""What stands in these before all else, and once."""
 _KINDS = frozenset({"paragraph", "character", "table", "numbering"})
 _LENGTHS = frozenset(
     {"left", "right", "start", "end", "firstLine", "hanging", "before", "after", "line", "pos", "w", "h"}
@@ -43,7 +73,11 @@ _VALUES = {"sz": (2, 3276), "szCs": (2, 3276), "kern": (0, 3276), "position": (-
 """Elements whose value is a whole number, with the least and the greatest that Word takes."""
 FARTHEST = 31_680
 """Twips of the longest length that Word takes: 22 inches."""
-_NUMBER = re.compile(r"[+-]?\d+")
+_NUMBER = re.compile(r"[+-]?[0-9]+")
+_LENGTH = re.compile(r"[+-]?[0-9]+(\.[0-9]+)?(mm|cm|in|pt|pc|pi|%)?")
+_COLOUR = re.compile(r"auto|[0-9A-Fa-f]{6}")
+_IN_UNITS = frozenset({"auto", "dxa", "nil", "pct"})
+"""What a width is counted in."""
 _PICTURES = frozenset({"drawing", "pict"})
 _OBJECTS = frozenset({"object", "control", "altChunk", "subDoc"})
 _CODES = {name: f"letterhead-{name}" for name in ("bomb", "macros", "links", "entities")}
@@ -199,6 +233,8 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
         raise package.refused("letterhead-part", text=name)
     if any(not len(cell) or cell[-1].tag != f"{_W}p" for cell in root.iter(f"{_W}tc")):
         raise package.refused("letterhead-part", text=name)
+    if any(not _stands_right(child, parent) for parent in root.iter() for child in parent):
+        raise package.refused("letterhead-part", text=name)
     marks = [one.get(f"{_W}fldCharType") for one in root.iter(f"{_W}fldChar")]
     if marks.count("begin") != marks.count("end"):
         raise package.refused("letterhead-part", text=name)
@@ -209,6 +245,13 @@ def _judge(root: ElementTree.Element, called: str, package: Package, name: str) 
         _judge_styles(root.findall(f"{_W}style"), package, name)
 
 
+def _stands_right(child: ElementTree.Element, parent: ElementTree.Element) -> bool:
+    """Whether an element may stand where it does."""
+    local, above = child.tag.removeprefix(_W), parent.tag.removeprefix(_W)
+    first = _FIRST.get(local) != above or (parent[0] is child and len(parent.findall(child.tag)) == 1)
+    return first and above in _WITHIN.get(local, (above,))
+
+
 def _wrong_value(element: ElementTree.Element) -> str | None:
     """A number of an element that is out of Word's range; None where there is none."""
     local = element.tag.removeprefix(_W)
@@ -217,7 +260,14 @@ def _wrong_value(element: ElementTree.Element) -> str | None:
         ends = (-FARTHEST, FARTHEST) if attribute in _LENGTHS else _VALUES.get(local) if attribute == "val" else None
         if ends and _NUMBER.fullmatch(value) and not (len(value) < 9 and ends[0] <= int(value) <= ends[1]):
             return f"{local} {attribute}={value[:20]}"
-        if attribute == "val" and local in _VALUES and not re.fullmatch(r"[+-]?[\d.]+(mm|cm|in|pt|pc|pi)?", value):
+        is_length = attribute in _LENGTHS or (attribute == "val" and local in _VALUES)
+        is_width = attribute == "type" and local in ("tcW", "tblW", "tblInd")
+        is_colour = attribute in ("color", "fill") or (attribute == "val" and local == "color")
+        if (
+            (is_length and not _LENGTH.fullmatch(value))
+            or (is_width and value not in _IN_UNITS)
+            or (is_colour and not _COLOUR.fullmatch(value))
+        ):
             return f"{local} {attribute}={value[:20]}"
     return None
 

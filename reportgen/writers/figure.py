@@ -13,6 +13,7 @@ from functools import cache
 from typing import Any
 
 import matplotlib
+from cycler import cycler
 from matplotlib.artist import Artist
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -23,7 +24,7 @@ from matplotlib.path import Path
 from matplotlib.text import Text
 
 from reportgen.base.units import Language
-from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
+from reportgen.drawing import Arc, Arrow, Circle, Diagram, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.mathtext import MathText
 from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head, clip_hatch
 
@@ -31,6 +32,11 @@ INCH, POINT = 25.4, 25.4 / 72
 """Millimetres of an inch, and of a point as matplotlib has it."""
 STYLE: Any = {"mathtext.fontset": "stix", "ps.fonttype": 3, "pdf.fonttype": 3, "svg.hashsalt": "reportgen"}
 """Letters near those of the report, the same bytes from run to run."""
+SIZE = (6.3, 3.6)
+"""Of a chart: the width of a page's text, in inches."""
+COLOURS = (style.BLUE, style.RED, style.BLACK, style.GRAY) * 2
+DASHES = ("-", "--", "-.", ":", "--", "-.", ":", "-")
+"""Of one curve after the other."""
 FONTS = ("STIXGeneral", "DejaVu Serif")
 """Of texts: the first that has all letters, which for Vietnamese is the second."""
 _DATED = re.compile(rb"^%%CreationDate: .*\n", re.MULTILINE)
@@ -54,6 +60,23 @@ def figure(scene: Scene, language: Language) -> Figure:
 def eps(scene: Scene, language: Language) -> bytes:
     """A scene as Encapsulated PostScript, in the letters of STIX."""
     return saved(figure(scene, language), "eps")
+
+
+def chart(diagram: Diagram, language: Language) -> Figure:
+    """A figure of a diagram, its curves told apart without colour, too."""
+    with matplotlib.rc_context({**STYLE, "axes.prop_cycle": cycler(color=COLOURS) + cycler(linestyle=DASHES)}):
+        made = Figure(SIZE, layout="constrained")
+        diagram.on(made.subplots(), language)
+        for text in made.findobj(Text):
+            text.set_fontfamily(_font(text.get_text()))
+    return made
+
+
+def current_axes() -> Any:
+    """The axes that pyplot shows, in a notebook or a window; it makes some where there are none."""
+    from matplotlib import pyplot
+
+    return pyplot.gca()
 
 
 def saved(made: Figure, format: str, dpi: int = 0) -> bytes:

@@ -15,7 +15,7 @@ from itertools import islice, pairwise
 from typing import TYPE_CHECKING
 
 from reportgen import report as tree
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setting import columns

@@ -195,10 +195,10 @@ class LatexFormulas(TextSetter):
 
     def _grid(self, terms: Sequence[TermColumn], rows: Sequence[str]) -> str:
         """Terms on top, below each what is known of it; "?" marks an unknown."""
-        signs = ("".join(self.SIGNS.get(sign.of, sign.of) for sign in one.signs) for one in terms)
+        signs = ("".join(self.SIGNS.get(sign.of, sign.of) for sign in term.signs) for term in terms)
         lines = ["&" + "&".join(f"{sign}&{self.part(one.term)}" for sign, one in zip(signs, terms, strict=True))]
         for row, name in enumerate(rows):
-            known = "&".join(rf"&\known{{{self.known(one.known[row])}}}" for one in terms)
+            known = "&".join(rf"&\known{{{self.known(term.known[row])}}}" for term in terms)
             lines.append(rf"\rowname{{{escape(name)}}}&{known}")
         if rows:
             lines[1] = rf"\cline{{2-{2 * len(terms) + 1}}}{lines[1]}"

@@ -17,10 +17,11 @@ from typing import Literal
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.limits import give_memory_back
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
-from reportgen.base.words import templates
 from reportgen.drawing import Scene
-from reportgen.drawing.geometry import box, moved
+from reportgen.drawing.geometry import moved
+from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
 from reportgen.formula.setting import NARROW, columns, displayed, sides, written
@@ -250,7 +251,7 @@ class _Blocks:
         heads = [self.head(row) for row in rows]
 
         def aligned(start: int, step: int) -> float:
-            """What rows take whose relations stand below each other."""
+            """What rows take (mm) whose relations stand below each other."""
             left = heads[start::step]
             return max(left) + max(row - head for row, head in zip(own[start::step], left, strict=True))
 

@@ -51,7 +51,7 @@ def families() -> list[str]:
 
 @lru_cache(maxsize=16)
 def breadth(font: str) -> float:
-    """How many times as broad as in the typesetter's own font a text is in another, at least 1."""
+    """By which factor, at least 1, a text in another font is broader than in the typesetter's own."""
     import typst
 
     answer = typst.query(BREADTH.format(font=font, own=FONT).encode(), "<breadth>", field="value", one=True)

@@ -112,6 +112,7 @@ class _Setting:
 
     @property
     def indent(self) -> float:
+        """How far a paragraph at this level is indented (mm)."""
         return LIST_INDENT * self.level
 
     @property
@@ -139,7 +140,7 @@ class _Blocks:
         self._figure = ""
         """The key of the figure that goes on, if one does."""
         sections = [block for block in document.blocks if isinstance(block, tree.Section)]
-        self.entries = [one for one in sections if one.level <= CONTENTS_LEVEL]
+        self.entries = [section for section in sections if section.level <= CONTENTS_LEVEL]
         self._entries = {id(one): f"_Toc{index}" for index, one in enumerate(self.entries, start=1)}
         self.places = dict(places(document.blocks))
 

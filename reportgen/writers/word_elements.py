@@ -37,6 +37,7 @@ def escape(text: str) -> str:
 
 
 def twips(millimetres: float) -> int:
+    """A length in twips, twentieths of a point."""
     return round(millimetres * TWIPS)
 
 
@@ -105,7 +106,7 @@ class PageSetup:
 
     @property
     def room(self) -> float:
-        """What text takes across."""
+        """What text takes across (mm)."""
         return self.width - self.left - self.right
 
 

@@ -12,7 +12,7 @@ from itertools import chain
 from typing import ClassVar
 
 from reportgen.base.units import Language
-from reportgen.drawing.geometry import POINT, Boxes
+from reportgen.drawing.label_size import POINT, Boxes
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setter import TextSetter
 from reportgen.formula.setting import (
@@ -220,7 +220,7 @@ def _filled(pieces: Sequence[Part], room: float, indent: float) -> list[FormulaL
 
 
 def abreast(lines: Sequence[FormulaLine], room: float) -> bool:
-    """Whether lines have room two by two."""
+    """Whether lines have room (mm) two by two."""
     widths = (max(line.widths[side] for line in lines[at::2]) for at in (0, 1) for side in (0, 1))
     return sum(widths) + ABREAST <= room
 
@@ -248,7 +248,7 @@ def term_widths(term: TermColumn) -> tuple[float, float]:
 
 
 def in_storeys(widths: Sequence[float], names: float, room: float) -> list[range]:
-    """Terms of these widths in as few grids as the room asks for, each beside the names of the rows."""
+    """Terms of these widths (mm) in as few grids as the room asks for, each beside the names of the rows."""
     storeys: list[range] = []
     start, used = 0, names
     for index, term in enumerate(widths):
@@ -292,6 +292,7 @@ FREE = GridEntry()
 
 
 def grid_cell(content: str, width: float, span: int = 1, borders: str = "", align: str = "center") -> str:
+    """A cell of a width (mm) that spans some columns."""
     spans = f'<w:gridSpan w:val="{span}"/>' if span > 1 else ""
     ruled = f"<w:tcBorders>{borders}</w:tcBorders>" if borders else ""
     size = f'<w:tcW w:w="{twips(width)}" w:type="dxa"/>'
@@ -314,19 +315,20 @@ class Equations:
         self.formulas = OmmlFormulas(language)
 
     def displayed(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
-        """Rows that are set alike in one table each; the number beside the last."""
+        """Rows that are set alike in one table each, indented (mm); the number beside the last."""
         room = TEXT_WIDTH - indent
         *before, last = in_groups(rows, room)
         groups = [*((group, "", KEPT) for group in before), (last, number, kept)]
         return KEPT_GAP.join(self.group(group, shown, indent, lines) for group, shown, lines in groups)
 
     def group(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
+        """Rows that are set alike, indented (mm)."""
         if isinstance(rows[0], VectorEquation):
             return self.vector_equation(rows[0], number, indent, kept)
         return self.aligned(rows, number, indent, kept)
 
     def aligned(self, rows: Sequence[Expression], number: str, indent: float, kept: str) -> str:
-        """Rows aligned at their "="; a single line is one formula, in the middle unless the number is in the way."""
+        """Rows aligned at their "=", indented (mm); a single line is in the middle unless the number is in the way."""
         beside = NUMBER_ROOM if number else 0.0
         room = TEXT_WIDTH - indent - beside
         lines = broken(rows, self.language, room)
@@ -358,7 +360,7 @@ class Equations:
         ]
 
     def vector_equation(self, equation: VectorEquation, number: str, indent: float, kept: str) -> str:
-        """Terms in a row, below each what is known of it, in as many storeys as it takes."""
+        """Terms in a row, indented (mm), below each what is known of it, in as many storeys as it takes."""
         room = TEXT_WIDTH - indent - (NUMBER_ROOM if number else 0.0)
         terms = columns(equation)
         widths = [term_widths(term) for term in terms]
@@ -402,7 +404,7 @@ def grid(
     kept: str,
     ruled: range = NO_COLUMNS,
 ) -> str:
-    """A table whose rows stay together, with a rule below the `ruled` columns of the first; the number at the right."""
+    """A table whose rows stay together (mm), a rule below `ruled` columns of the first; the number at the right."""
     widths = [*widths, TEXT_WIDTH - indent - sum(widths)] if number else widths
     lines = []
     for index, row in enumerate(rows):

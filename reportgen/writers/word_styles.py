@@ -10,8 +10,8 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates
 from reportgen.writers.word_elements import DECLARED, MATH_FONT, NAMESPACES, PROLOGUE, escape, twips
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ def _put_in_list(style: ElementTree.Element, numbers: ElementTree.Element) -> No
         lines = ElementTree.Element(f"{_W}pPr")
         letters = style.find(f"{_W}rPr")
         style.insert(len(style) if letters is None else list(style).index(letters), lines)
-    lines.insert(sum(one.tag in _BEFORE_NUMBERS for one in lines), numbers)
+    lines.insert(sum(line.tag in _BEFORE_NUMBERS for line in lines), numbers)
 
 
 def _id(style: ElementTree.Element) -> str:

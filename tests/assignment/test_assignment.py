@@ -20,8 +20,8 @@ from hypothesis import strategies as st
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.base.kinds import sample
 from reportgen.base.units import PLAIN, QuantityFault, read_quantity, read_ratio, scale_by_pint
-from reportgen.base.words import sample
 from reportgen.catalogue import check, engine_twin, load
 
 ROOT = Path(__file__).parents[2]

@@ -22,7 +22,8 @@ from reportgen import api
 from reportgen.cases import open_case, opened
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Policy, marking_scheme
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import answer_book
 from reportgen.workbook import write_xlsx
 from tests.marking import students

@@ -17,7 +17,8 @@ from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Policy, marking_scheme
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
 

@@ -213,7 +213,7 @@ def test_a_full_disk_stops_the_batch(tmp_path: Path, monkeypatch: pytest.MonkeyP
     def full(target: Path, content: bytes) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(target))
 
-    monkeypatch.setattr("reportgen.classes.run.put_file", full)
+    monkeypatch.setattr("reportgen.classes.manifest.put_file", full)
     with pytest.raises(OutputError, match="No space") as raised:
         batch.run()
     assert raised.value.exit_code == 3

@@ -10,10 +10,11 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import Mark, Problem
-from reportgen.base.words import templates, templates_hash
-from reportgen.classes import run as manifest
+from reportgen.base.template_folders import templates
+from reportgen.base.words import templates_hash
+from reportgen.classes import manifest
+from reportgen.classes.manifest import ManifestEntry, journal
 from reportgen.classes.pool import Job, Outcome, making
-from reportgen.classes.run import ManifestEntry, journal
 from tests.classes.classes import Batch
 from tests.classes.little import little
 

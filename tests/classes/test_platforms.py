@@ -19,12 +19,12 @@ import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.units import Language
-from reportgen.classes import assess
-from reportgen.classes import platforms as gradebooks
-from reportgen.classes.platforms import MOST_MEMBERS, Owner, StudentResult, handed_in, owner_of, read_gradebook
+from reportgen.classes import assess, gradebooks
+from reportgen.classes.gradebooks import StudentResult, read_gradebook
+from reportgen.classes.platforms import MOST_MEMBERS, Owner, handed_in, owner_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
-from reportgen.marking.marks import Policy, Scale
+from reportgen.marking.policy import Policy, Scale
 from reportgen.workbook.reading import LARGEST
 from tests.lanes import matrix
 from tests.marking import demo

@@ -169,7 +169,7 @@ def putting(monkeypatch: pytest.MonkeyPatch, put: Put) -> None:
         put(files, gone)
 
     monkeypatch.setattr("reportgen.classes.run.put_set", puts)
-    monkeypatch.setattr("reportgen.classes.run.put_file", lambda target, content: put({target: content}, ()))
+    monkeypatch.setattr("reportgen.classes.manifest.put_file", lambda target, content: put({target: content}, ()))
 
 
 class Killed(BaseException):

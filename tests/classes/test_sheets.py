@@ -9,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 from reportgen.base.limits import Limits
-from reportgen.classes import platforms as sheets
+from reportgen.classes import reading_sheets as sheets
 from reportgen.classes.platforms import Handed
 from reportgen.cli import app
 from tests.lanes import proof

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from reportgen.base.words import samples
+from reportgen.base.template_folders import samples
 from tests.cli.test_cli import ROOT, SAMPLE, reportgen
 from tests.lanes import matrix, proof
 

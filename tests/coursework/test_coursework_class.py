@@ -23,7 +23,8 @@ from reportgen.classes.variants import Variants, make_variants
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import compare, mark
-from reportgen.marking.marks import Policy, marking_scheme, read_policy
+from reportgen.marking.policy import Policy, read_policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.workbook import write_csv
 from tests.lanes import proof

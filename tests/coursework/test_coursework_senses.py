@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.coursework.booklet import groups, told
+from reportgen.coursework.booklet import groups, topic
 from reportgen.coursework.case import Coursework
 from reportgen.coursework.senses import PartShafts, turning
 from reportgen.report import Block, Inlines, Section, Table, plain, text_of
@@ -74,7 +74,7 @@ def coursework(folder: Path, direction: str, scheme: str = "double", u: float = 
 
 
 def section(blocks: tuple[Block, ...], name: str) -> tuple[Block, ...]:
-    return next((group for group in groups(blocks) if told(group[0]) == name), ())
+    return next((group for group in groups(blocks) if topic(group[0]) == name), ())
 
 
 def senses(blocks: tuple[Block, ...]) -> dict[str, tuple[str, str]]:

@@ -11,7 +11,7 @@ from unittest import mock
 
 import numpy as np
 
-from reportgen.drawing import Arc, Circle, Item, Label, Line, Polyline, Scene, labels
+from reportgen.drawing import Arc, Circle, Item, Label, Line, Polyline, Scene, canvas, labels
 from reportgen.drawing.geometry import bounds, corners, frame, overlap, segments
 from reportgen.drawing.style import GRAY
 
@@ -90,7 +90,7 @@ def watched() -> Iterator[list[list[Placed]]]:
         return result
 
     place.cache_clear()
-    with mock.patch.object(labels, "_place_in", placing), mock.patch.object(labels, "place", all_rounds):
+    with mock.patch.object(labels, "_place_in", placing), mock.patch.object(canvas, "place", all_rounds):
         yield figures
 
 

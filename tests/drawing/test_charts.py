@@ -7,20 +7,9 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from reportgen.drawing import Circle, Label, Polyline, Scene
-from reportgen.drawing.charts import (
-    CLOSE,
-    HEIGHT,
-    WIDTH,
-    Area,
-    PlottedCurve,
-    _telling,
-    _ticks,
-    bars,
-    chart,
-    histogram,
-    polar,
-)
+from reportgen.drawing import Circle, Diagram, Label, PlottedCurve, Polyline, Scene
+from reportgen.drawing.charts import CLOSE, HEIGHT, WIDTH, Area, _telling, _ticks, chart, polar
+from reportgen.drawing.counts import bars, histogram
 from reportgen.formula import Chain, Number, Symbol
 from tests.drawing.overlaps import overlaps
 
@@ -34,7 +23,7 @@ def curves(scene: Scene) -> list[np.ndarray]:
 def torque() -> Scene:
     x = np.radians(ANGLE)
     series = PlottedCurve(Symbol("M", "cb"), ANGLE, 300 * np.sin(2 * x) - 120 * np.cos(x), tuple(range(0, 720, 45)))
-    return chart([series], Symbol("φ", "1"), "M, N·m", levels=[(-120.0, Symbol("M", "m"))])
+    return chart(Diagram((series,), Symbol("φ", "1"), "M, N·m", levels=((-120.0, Symbol("M", "m")),)))
 
 
 def test_a_chart_is_clear_and_of_its_size() -> None:
@@ -72,7 +61,7 @@ def test_a_name_longer_than_its_axis_is_set_in_two_lines(height: float) -> None:
     """On a sheet, where the height of a chart is chosen."""
     name = Chain((Symbol("ω"),), "rad/s; positive: anticlockwise, seen from above")
     curve = PlottedCurve("", ANGLE[:361], np.sin(np.radians(ANGLE[:361])))
-    scene = chart([curve], Symbol("φ"), name, area=Area(60.0, height))
+    scene = chart(Diagram((curve,), Symbol("φ"), name), area=Area(60.0, height))
     turned = [item for item in scene.items if isinstance(item, Label) and item.turn == 90]
     assert len(turned) == (2 if height < 50 else 1)
     assert overlaps(scene) == []
@@ -86,7 +75,7 @@ def test_two_curves_are_told_apart_without_colour() -> None:
         PlottedCurve(Symbol("v", "B"), x, np.sin(np.radians(x))),
         PlottedCurve(Symbol("v", "D"), x, np.cos(np.radians(x))),
     ]
-    scene = chart(series, Symbol("φ", "1"), "v, m/s")
+    scene = chart(Diagram(tuple(series), Symbol("φ", "1"), "v, m/s"))
     assert overlaps(scene) == []
     pens = [item.stroke for item in scene.items if isinstance(item, Polyline) and not item.closed]
     assert len({pen.dash for pen in pens if pen}) == 2
@@ -95,18 +84,18 @@ def test_two_curves_are_told_apart_without_colour() -> None:
 def test_a_gap_stays_a_gap() -> None:
     y = np.sin(np.radians(ANGLE))
     y[300:340] = np.nan
-    assert len(curves(chart([PlottedCurve("y", ANGLE, y)], "x", "y"))) == 2
+    assert len(curves(chart(Diagram((PlottedCurve("y", ANGLE, y),), "x", "y")))) == 2
 
 
 def test_nothing_finite_is_an_error() -> None:
     with pytest.raises(ValueError, match="finite"):
-        chart([PlottedCurve("y", [0.0, 1.0], [np.nan, np.nan])], "x", "y")
+        chart(Diagram((PlottedCurve("y", [0.0, 1.0], [np.nan, np.nan]),), "x", "y"))
 
 
 def test_a_polar_diagram_has_equal_scales() -> None:
     x = np.radians(ANGLE)
     load = PlottedCurve("", 4000 * np.cos(x), 9000 * np.sin(x) - 2000, tuple(range(0, 720, 90)), tuple("12345678"))
-    scene = polar(load, "N")
+    scene = polar(Diagram((load,), "N", turn=False, equal=True))
     assert overlaps(scene) == []
     curve = curves(scene)[0]
     assert np.ptp(curve.real) / np.ptp(curve.imag) == pytest.approx(8000 / 18000, rel=2e-3)  # 0.025 mm in 50
@@ -115,7 +104,7 @@ def test_a_polar_diagram_has_equal_scales() -> None:
 def test_figures_without_room_side_by_side_are_left_out() -> None:
     """At every step (10000) stands a grid line, a figure at every second one, 0 among them."""
     load = PlottedCurve("", [-22000.0, 8000.0], [-43000.0, 9000.0])
-    scene = polar(load, "N", size=58.0)
+    scene = polar(Diagram((load,), "N", turn=False, equal=True), size=58.0)
     assert overlaps(scene) == []
     figures = [item for item in scene.items if isinstance(item, Label) and isinstance(item.content, Number)]
     across = [item.content.value for item in figures if item.anchor == "center"]

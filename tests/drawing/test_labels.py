@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reportgen.drawing import Arrow, Circle, Item, Label, Line, Scene
-from reportgen.drawing.labels import Canvas, finish, label
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.labels import label
 from reportgen.formula import Symbol
 from tests.drawing.overlaps import overlaps
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from reportgen.drawing import Circle, Hatch, Label, Line, Polyline
+from reportgen.drawing.canvas import finish
 from reportgen.drawing.geometry import Complexes
-from reportgen.drawing.labels import finish
 from reportgen.drawing.positions import Branch, Frame, PositionPlan, Reading, beside, indicator, position_plan
 from reportgen.drawing.scheme import Looks, groups, scheme, skeleton
 from reportgen.formula import Symbol

@@ -8,7 +8,7 @@ import pymupdf
 import pytest
 import typst
 
-from reportgen.drawing.geometry import box
+from reportgen.drawing.label_size import box
 from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
 from reportgen.writers.typst_math import TypstFormulas

@@ -16,8 +16,9 @@ from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import key_of
 from reportgen.marking.marking import compare, mark
-from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.report import text_of
 from tests.marking import demo, students
 

@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 from reportgen import api, catalogue
 from reportgen.base.errors import AssignmentError
 from reportgen.exercise import centres
-from reportgen.exercise.case import ExerciseCase, solution
+from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.centres import lay_out
 from reportgen.exercise.file import Method
 from reportgen.exercise.plane_motion import why_not
 from reportgen.exercise.solution import Worked, belongs, work_out
+from reportgen.exercise.solution_page import solution
 from reportgen.report import text_of
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "plane-motion"

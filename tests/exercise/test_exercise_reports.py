@@ -12,7 +12,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import write
-from reportgen.exercise.case import ExerciseCase, solution
+from reportgen.exercise.case import ExerciseCase
+from reportgen.exercise.solution_page import solution
 from reportgen.exercise.views import lettered
 from reportgen.formula import Chain
 from reportgen.report import Document, Equation, text_of

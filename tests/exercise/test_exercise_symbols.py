@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from reportgen import catalogue
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language, write
-from reportgen.exercise.case import ExerciseCase, solution
+from reportgen.exercise.case import ExerciseCase
+from reportgen.exercise.solution_page import solution
 from reportgen.formula.evaluation import evaluate
 from reportgen.report import text_of
 from tests.lanes import proof

@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.formula import ids, vocabulary
+from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ids import Name
 from tests.lanes import proof
 
 FILES = sorted(path for folder in ("", "plane-motion") for path in (Path("assignments") / folder).glob("*.yaml"))
+OF_DESIGNS = sorted(path for room in ("cam", "gears") for path in (Path("assignments") / room).glob("*.yaml"))
 FAMILIES = list(dict.fromkeys(name for name in vars(ids).values() if isinstance(name, Name)))
 BEFORE_OTHERS = frozenset({ids.formula, ids.far, ids.unit, ids.rule, ids.rest})
 """These put a word before any other id: all but the first of them are the only ones that read such an id."""
@@ -62,6 +63,28 @@ def test_every_row_of_the_vocabulary_that_reads_an_id_after_the_first_is_a_wider
     for id in every_id():
         rows = [row for row in vocabulary.ROWS if row.ids.read(id) is not None]
         assert rows in ([], rows[:1]) or [row.ids for row in rows] == [ids.percussion, ids.length], id
+
+
+@proof
+@pytest.mark.parametrize("path", OF_DESIGNS, ids=lambda path: path.stem)
+def test_the_ids_of_a_kind_of_work_all_begin_with_its_word_and_one_row_reads_each_first(path: Path) -> None:
+    for id, family in open_case(path).ledger.families.items():
+        rows = vocabulary.rows_of(id.partition(".")[0])
+        assert rows is not vocabulary.ROWS, id
+        narrow = [row.ids.text.count("{") for row in rows if id in row.ids]
+        assert narrow == sorted(narrow), f"{id}: a wider row stands before a narrower one"
+        assert vocabulary.KINDS[family.kind]
+
+
+def test_the_common_vocabulary_says_nothing_of_a_kind_of_work() -> None:
+    heads = vocabulary.heads()
+    assert {"cam", "gears", "train"} <= heads.keys()
+    assert [row.ids.text for row in vocabulary.ROWS if row.ids.text.partition(".")[0] in heads] == []
+    assert vocabulary.row("v.B").letter == "v"
+    assert vocabulary.row("cam.r0").kind == "cam length"
+    assert vocabulary.symbol("gears.x_min.2") == Symbol("x", "min2")
+    with pytest.raises(KeyError):
+        vocabulary.KINDS["no such kind"]
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from reportgen.gears.involute import Rack, Wheel
+from reportgen.gears.formulas import Rack
+from reportgen.gears.involute import Wheel
 from reportgen.gears.pair import GearPair, PairLimits
 from tests.lanes import matrix
 
@@ -32,7 +33,7 @@ def random_pairs(seed: int, count: int) -> list[GearPair]:
         z2 = int(rng.integers(z1, 120))
         rack, m = RACKS[rng.integers(len(RACKS))], float(rng.uniform(1, 20)) * 1e-3
         pair = GearPair(rack, m, (z1, z2), rng.uniform(-0.5, 1.0, 2))
-        if all(np.all(margin >= 0) for margin in pair.margins(PairLimits(epsilon=1.05, tip=0.05))):
+        if pair.keeps(PairLimits(epsilon=1.05, tip=0.05)):
             found.append(pair)
     return found
 
@@ -46,7 +47,7 @@ def gaps(pair: GearPair, turned: float) -> tuple[float, complex, complex]:
     one = np.concatenate(first.side(FINE)) * np.exp(1j * turned)
     # The mate's flank that faces the left one of the tooth: of the tooth above the space, its own left one.
     tooth = np.concatenate(second.side(FINE))
-    other = float(pair.a_w) + tooth * np.exp(1j * (math.pi - second.pitch / 2 - turned * first.z / second.z))
+    other = float(pair["a_w"]) + tooth * np.exp(1j * (math.pi - second.pitch / 2 - turned * first.z / second.z))
     r, θ = np.abs(one), np.unwrap(np.angle(one))
     within = (np.abs(other) >= r[0]) & (np.abs(other) <= r[-1])
     near = other[within]
@@ -59,12 +60,12 @@ def gaps(pair: GearPair, turned: float) -> tuple[float, complex, complex]:
 @pytest.mark.parametrize("seed", matrix(list(range(HUNDREDS)), [0]))
 def test_flanks_touch_on_the_line_of_action(seed: int) -> None:
     for pair in random_pairs(seed, 100):
-        r_b, r_w, α_w = pair.d_b[0] / 2, pair.d_w[0] / 2, float(pair.alpha_w)
+        r_b, r_w, α_w = pair["d_b"][0] / 2, pair["d_w"][0] / 2, float(pair["alpha_w"])
         first = pair.wheel(0)
         # With no turn the left flank crosses the base circle at this angle.
         base = float(first.half_angle(np.array(first.r_b)))
         for share in np.linspace(0.001, 0.999, 9):
-            ρ = float(pair.rho_p[0] + share * (pair.rho_a[0] - pair.rho_p[0]))
+            ρ = float(pair["rho_p"][0] + share * (pair["rho_a"][0] - pair["rho_p"][0]))
             # Rolled ρ from the base circle, the flank has the line of action for its normal.
             gap, at, normal = gaps(pair, ρ / r_b - α_w - base)
             assert abs(gap) < GAP

@@ -18,8 +18,10 @@ from reportgen.formula import refs
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import standing_on
 from reportgen.marking.marking import compare, mark
-from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
+from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.working import Change
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts

@@ -12,7 +12,7 @@ import pytest
 from reportgen import catalogue
 from reportgen import report as tree
 from reportgen.api import load
-from reportgen.base.words import sample
+from reportgen.base.kinds import sample
 from reportgen.cases import open_case, opened
 from reportgen.drawing import Label, Line, Polyline
 from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, walk
@@ -77,9 +77,9 @@ def test_every_value_recomputes_and_is_the_pair_s(name: str) -> None:
     both = ("d", "d_b", "d_w", "d_a", "d_f", "s", "s_a", "alpha_a", "rho_a", "rho_p", "rho_f", "x_min", "x")
     for one in both:
         values = [float(ledger[gears_ids.of_wheel(one, wheel)].values[0]) for wheel in (1, 2)]
-        assert values == pytest.approx(list(getattr(pair, one)), rel=1e-11, abs=1e-15), one
-    for id, value in (("alpha_w", pair.alpha_w), ("a_w", pair.a_w), ("epsilon", pair.epsilon), ("g", pair.path)):
-        assert float(ledger[f"gears.{id}"].values[0]) == pytest.approx(float(value), rel=1e-11), id
+        assert values == pytest.approx(list(pair[one]), rel=1e-11, abs=1e-15), one
+    for one in ("alpha_w", "a_w", "epsilon", "g"):
+        assert float(ledger[f"gears.{one}"].values[0]) == pytest.approx(float(pair[one]), rel=1e-11), one
     λ = ledger["gears.lambda.1"].values[0], ledger["gears.lambda.2"].values[-1]
     assert λ == pytest.approx(tuple(pair.sliding), rel=1e-9)
 
@@ -106,6 +106,16 @@ def test_tables_print_what_the_lines_say(name: str) -> None:
     assert len(values) > 80
     off = [one for one in values if (one.shown, one.unit) not in printed and (-one.shown, one.unit) not in printed]
     assert [one for one in off if one.shown != 0] == []
+
+
+@pytest.mark.parametrize("name", [file.stem for file in FILES])
+def test_a_summary_has_the_figures_of_the_table(name: str) -> None:
+    """The lines go on from 26.499821°; who sums up says 26.4998°."""
+    (paragraph,) = pair_case(name).summary()
+    assert isinstance(paragraph, tree.Paragraph)
+    told = [one.number for one in paragraph.inlines if isinstance(one, tree.Value)]
+    assert len(told) == 8
+    assert all(one.decimals is None or one.decimals <= 4 for one in told), told
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])
@@ -136,7 +146,7 @@ def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
     case = pair_case("pair-centre-distance")
     sheet, *wheels = drawing_sheets(case)
     assert sheet.name == "A2"
-    for wheel, made, tip in zip((0, 1), wheels, case.gears.d_a, strict=True):
+    for wheel, made, tip in zip((0, 1), wheels, case.gears["d_a"], strict=True):
         part = next(part for part in made.parts if part.layer == "profile")
         outline = next(item for item in part.scene.items if isinstance(item, Polyline))
         assert outline.smooth
@@ -151,7 +161,7 @@ def test_sheets_have_the_pair_and_each_wheel_in_true_size() -> None:
     starts = [item.start for item in drawn if isinstance(item, Line) and item.start.real == item.end.real]
     pitch_point = max(starts, key=starts.count)
     for points, side, d_w, d_a, d_f in zip(
-        teeth, (-1j, 1j), case.gears.d_w, case.gears.d_a, case.gears.d_f, strict=True
+        teeth, (-1j, 1j), case.gears["d_w"], case.gears["d_a"], case.gears["d_f"], strict=True
     ):
         radii = np.abs(points - pitch_point - side * d_w / 2 * MM / μ)
         # As a ruler measures it: to a tenth of a millimetre of paper.
@@ -184,7 +194,7 @@ def test_wheels_turn_in_their_ratio_and_touch_on_the_line_of_action() -> None:
     assert animation.knots[-1] == 360
     touching = animation.values[1].values.values
     # Over a turn the mean number of pairs is the contact ratio.
-    assert touching[:-1].mean() == pytest.approx(float(case.gears.epsilon), abs=0.02)
+    assert touching[:-1].mean() == pytest.approx(float(case.gears["epsilon"]), abs=0.02)
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])

@@ -12,8 +12,9 @@ from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.gears import train_ids
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Policy, marking_scheme
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from tests.marking import demo, students
 from tests.marking.designs import named, telling_and_texts
 

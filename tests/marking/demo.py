@@ -17,8 +17,9 @@ import numpy as np
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants
 from reportgen.formula.vocabulary import Chapter
-from reportgen.marking.marks import Answer, MarkingScheme, Place, Submission, marking_scheme
+from reportgen.marking.marks import Answer, Place, Submission
 from reportgen.marking.mistakes import mistakes_in
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.marking.sheet import NAMES, asked_positions
 from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx

@@ -12,8 +12,8 @@ from reportgen.base.units import write
 from reportgen.cases import open_case
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
-from reportgen.marking.marks import MarkingScheme
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.scheme import MarkingScheme
 
 
 def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:

@@ -21,8 +21,9 @@ from reportgen.cases import opened
 from reportgen.formula.ledger import follow
 from reportgen.marking.bands import PAPER_ERROR, measuring_errors
 from reportgen.marking.key import words_of
-from reportgen.marking.marks import Answer, MarkingScheme, Submission, marking_scheme
+from reportgen.marking.marks import Answer, Submission
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.marking.sheet import asked_positions, grid, info_page, page, rows_shown
 from reportgen.report.key import Key, KeyRow
 from reportgen.workbook import Book, Entry

@@ -14,8 +14,10 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import EVERYTHING, Ask, key_of
-from reportgen.marking.marks import Policy, Scale, Verdict, marking_scheme, read_policy
+from reportgen.marking.marks import Verdict
 from reportgen.marking.paper import answer_tables, task_of
+from reportgen.marking.policy import Policy, Scale, read_policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import PageBreak, text_of
 from reportgen.report.key import Key
@@ -167,7 +169,7 @@ def test_a_sheet_made_before_rows_had_words_is_read(tmp_path: Path) -> None:
 
 
 def test_the_batch_makes_tasks_anew_when_another_choice_is_ordered() -> None:
-    from reportgen.classes import run as manifest
+    from reportgen.classes import manifest
     from reportgen.classes.pool import Job, Outcome, making
     from tests.classes.little import little
 

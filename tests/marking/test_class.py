@@ -15,8 +15,8 @@ from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import EVERYTHING, Ask, key_of
 from reportgen.marking.marking import compare
-from reportgen.marking.marks import Policy, read_policy
 from reportgen.marking.mistakes import WRONG_DATUM
+from reportgen.marking.policy import Policy, read_policy
 from reportgen.workbook import read, write_csv
 from tests.lanes import proof
 from tests.marking import demo

@@ -12,8 +12,9 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.errors import CellMark, Problem
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Label
 from reportgen.marking.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
 from reportgen.marking.grades import class_document, grade_rows
@@ -40,7 +41,7 @@ def at(row: int, column: int) -> CellMark:
 
 def cell(id: str, position: int, verdict: Verdict, given: float | None, expected: float, **more: Any) -> Marked:
     points = float(verdict in (Verdict.right, Verdict.follows))
-    return Marked(id, position, verdict, given, expected, expected, 0.05, points, 1.0, **more)
+    return Marked(id, position, verdict, given, expected, expected, 0.05, points, 1.0, written=given, **more)
 
 
 def marking(language: Language = "en", student: str = "Nguyễn Văn A") -> Marking:

@@ -8,14 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.cases import opened
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import FLAGS_ONLY, TAKES, MarkingScheme, Policy, Submission, Verdict
+from reportgen.marking.marks import Submission, Verdict
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import FLAGS_ONLY, TAKES, Policy
+from reportgen.marking.scheme import MarkingScheme
 from tests.lanes import matrix, proof
 from tests.marking import hands, students
 

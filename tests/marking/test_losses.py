@@ -108,7 +108,7 @@ def test_a_finer_drawing_is_read_more_finely() -> None:
     wide, narrow = (next(cell.band for cell in one.cells if cell.id == "R.03") for one in (coarse, fine))
     assert narrow < wide / 2
     length = next(cell for cell in fine.cells if cell.id == "seg.23.R03")
-    assert length.expected == pytest.approx(492.11 / 20.92, rel=1e-3)
+    assert length.on_sheet.expected == pytest.approx(492.11 / 20.92, rel=1e-3)
 
 
 def test_the_bands_of_an_engine_know_its_strokes_and_the_scale_of_its_plans() -> None:

@@ -11,8 +11,10 @@ import pytest
 
 from reportgen.cases import open_case, opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Policy, Verdict, marking_scheme
+from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
 from reportgen.report.key import KeyRow
 from tests.lanes import matrix
 from tests.marking import students

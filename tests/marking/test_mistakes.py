@@ -10,8 +10,9 @@ import pytest
 
 from reportgen.cases import opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, MarkingScheme, Submission
+from reportgen.marking.marks import Marking, Submission
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, general_mistakes, mistakes_in
+from reportgen.marking.scheme import MarkingScheme
 from tests.lanes import proof
 from tests.marking import students
 from tests.marking.students import NAMES, World

@@ -14,7 +14,8 @@ import pytest
 
 from reportgen.cases import MachineCase, open_case
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, MarkingScheme, Verdict, marking_scheme
+from reportgen.marking.marks import Marking, Verdict
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.report.key import KeyRow
 from reportgen.results import results as results_of
 from tests.lanes import matrix

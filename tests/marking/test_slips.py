@@ -8,8 +8,10 @@ import pytest
 
 from reportgen.cases import opened
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, MarkingScheme, Policy
+from reportgen.marking.marks import Marking
 from reportgen.marking.mistakes import AGREED, Mistake
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme
 from tests.marking import students
 
 WORKED = (4, 12)

@@ -9,8 +9,9 @@ from typing import get_args
 
 import pytest
 
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.cases import open_case
 from reportgen.formula import vocabulary
 from reportgen.marking.key import key_of

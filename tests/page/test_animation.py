@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reportgen.drawing.animation import LEAST, MARGIN, PANEL, BarScale, MovingVector, Pane, Track
+from reportgen.drawing.animation import BARS, LEAST, MARGIN, PANEL, BarScale, MovingVector, Pane, Track
 from reportgen.formula import ids
-from reportgen.page.panel import BARS
 from reportgen.report.result_tables import reactions
 from tests.lanes import matrix
 from tests.page.made import MACHINES, Made, made

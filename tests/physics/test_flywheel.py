@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from reportgen import api, catalogue
-from reportgen.base.words import kinds
+from reportgen.base.kinds import kinds
 from reportgen.cases import open_case
 from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet

@@ -10,14 +10,15 @@ from typer.testing import CliRunner
 
 from reportgen import api
 from reportgen.assignment.common import Extent
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.classes.variants import make_variants
 from reportgen.cli import app
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import Contents, Document, Figure, Plate, Section, Table, plain
+from reportgen.report import Contents, Document, Figure, Plate, Section, Table, Text, plain
 from reportgen.report.extents import LEFT_OUT
+from reportgen.report.layout import contents
 from reportgen.report.numbering import unreferenced
 from reportgen.report.report import Report
 from reportgen.sheets import drawing_sheets, plates_by_set
@@ -127,6 +128,12 @@ def test_its_contents_and_its_look() -> None:
     assert [one.brief for one in full.blocks if isinstance(one, Contents)] == [False]
     assert [one.brief for one in short.blocks if isinstance(one, Contents)] == [True]
     assert (full.close, short.close) == (False, True)
+
+
+@pytest.mark.parametrize(("entries", "alone"), [(26, False), (38, True), (50, True), (53, False), (73, False)])
+def test_contents_leave_no_page_half_white(entries: int, alone: bool) -> None:
+    """About fifty lines fill a page; where few are left for the last one, what follows goes on below them."""
+    assert contents("", [Section(1, (Text("–"),))] * entries, brief=False).alone == alone
 
 
 # --- how long it is -------------------------------------------------------------------------------

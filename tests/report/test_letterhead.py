@@ -13,8 +13,8 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import TemplateError
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates
 from reportgen.workbook.letterhead import LARGEST, read_letterhead
 from tests.lanes import matrix, proof
 from tests.writers.word_file import W, WordFile
@@ -57,7 +57,7 @@ def school(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Put:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)
     (root / "ours").mkdir()
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
 
     def put(data: bytes) -> Path:
         (root / "ours" / "report.docx").write_bytes(data)
@@ -185,6 +185,10 @@ HEADER = f"<w:hdr {NAMESPACE}><w:p/></w:hdr>"
 STYLE = '<w:style w:type="paragraph" w:styleId="{}"><w:name w:val="{}"/></w:style>'
 
 
+def styled(inside: str) -> str:
+    return STYLE.format("A", "a").replace("</w:style>", f"{inside}</w:style>")
+
+
 REFUSED: Mapping[str, tuple[str, Callable[[bytes], bytes]]] = {
     "macros": ("letterhead-macros", lambda one: changed(one, {"word/vbaProject.bin": b"x"})),
     "template": ("letterhead-links", lambda one: changed(one, {"word/_rels/settings.xml.rels": EXTERNAL})),
@@ -238,16 +242,25 @@ REFUSED: Mapping[str, tuple[str, Callable[[bytes], bytes]]] = {
     ),
     "a size": (
         "letterhead-value",
-        lambda one: changed(
-            one,
-            {},
-            in_styles(STYLE.format("A", "a").replace("</w:style>", '<w:rPr><w:sz w:val="99999"/></w:rPr></w:style>')),
-        ),
+        lambda one: changed(one, {}, in_styles(styled('<w:rPr><w:sz w:val="99999"/></w:rPr>'))),
     ),
     "a margin in words": ("letterhead-value", lambda one: changed(one, {}, margin("left", "wide"))),
     "a margin beyond all": ("letterhead-margins", lambda one: changed(one, {}, margin("left", "999999999999"))),
     "a margin beyond the page": ("letterhead-margins", lambda one: changed(one, {}, margin("top", "16000"))),
     "a header below the page": ("letterhead-margins", lambda one: changed(one, {}, margin("header", "16000"))),
+    "a cell in a line": ("letterhead-part", lambda one: changed(one, {}, in_header("<w:tc><w:p/></w:tc>"))),
+    "a look behind its words": (
+        "letterhead-part",
+        lambda one: changed(one, {}, in_header("<w:r><w:t>a</w:t><w:rPr/></w:r>")),
+    ),
+    "a length in words": (
+        "letterhead-value",
+        lambda one: changed(one, {}, in_styles(styled("<w:pPr><w:ind w:left='far'/></w:pPr>"))),
+    ),
+    "a colour that is none": (
+        "letterhead-value",
+        lambda one: changed(one, {}, in_styles(styled("<w:rPr><w:color w:val='-0'/></w:rPr>"))),
+    ),
     "no styles": (
         "letterhead-damaged",
         lambda one: changed(one, {}, lambda name, part: b"<" if "styles" in name else part),

@@ -49,7 +49,8 @@ def test_no_word_of_others_is_run(tmp_path: Path) -> None:
     ours = tmp_path / "ours" / "en.md"
     ours.parent.mkdir()
     ours.write_text(
-        '%% words\nlisting: ["a {machine}\\nraise SystemExit(1)", b, c, d]\ngiven: {l.AB: "e\\nraise SystemExit(2)"}\n',
+        '%% words\nlisting: ["a {machine}\\nraise SystemExit(1)", b, c, d, e]\n'
+        'given: {l.AB: "e\\nraise SystemExit(2)"}\n',
         encoding="utf-8",
     )
     text = (ASSIGNMENTS / "slider-crank-01.yaml").read_text(encoding="utf-8")
@@ -104,6 +105,8 @@ def test_it_prints_what_solve_says(tmp_path: Path, name: str, told: Mapping[str,
     file = ASSIGNMENTS / f"{name}.yaml"
     api.build(file, tmp_path, listing=True, formats=("html",))
     table = tabulated(tmp_path, tmp_path / name / "report.py")
+    # It draws them, too, without a window.
+    assert (tmp_path / "alone" / "curves.png").read_bytes().startswith(b"\x89PNG")
     positions = api.solve(api.load(file))["positions"]
     for quantity, of in told.items():
         expected = np.array(of(positions))
@@ -111,10 +114,10 @@ def test_it_prints_what_solve_says(tmp_path: Path, name: str, told: Mapping[str,
 
 
 def test_the_shapers_program_is_short() -> None:
-    """About sixty lines, none longer than a page is wide."""
+    """About sixty lines and those that draw its curves, none longer than a page is wide."""
     tree = api.document(api.load(ASSIGNMENTS / "shaper-01.yaml").with_listing())
     (program,) = (block for block in tree.blocks if type(block).__name__ == "Listing")
-    assert len(program.lines) <= 60
+    assert len(program.lines) <= 80
     assert max(map(len, program.lines)) <= 100
 
 
@@ -122,3 +125,14 @@ def test_no_program_of_an_exercise(tmp_path: Path) -> None:
     exercise = next((ASSIGNMENTS / "plane-motion").glob("*.yaml"))
     with pytest.raises(NotOfferedError):
         api.build(exercise, tmp_path, listing=True, formats=("html",))
+
+
+def test_its_curves_are_those_of_displacement_velocity_acceleration_and_torque() -> None:
+    """Over the crank's angle from position 1, in degrees, a diagram a unit."""
+    tree = api.document(api.load(ASSIGNMENTS / "shaper-01.yaml").with_listing())
+    (program,) = (block for block in tree.blocks if type(block).__name__ == "Listing")
+    names: dict[str, Any] = {}
+    text = "\n".join(program.lines)
+    exec(text[: text.index("import sys")].replace("print(", "str("), names)
+    assert names["driver"] == pytest.approx(30.0 * np.arange(12))
+    assert names["curves"] == {"m": ["s_E"], "m/s": ["v_E"], "m/s2": ["a_E"], "N m": ["M"]}

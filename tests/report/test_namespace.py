@@ -12,7 +12,9 @@ import pytest
 from jinja2 import Environment, meta, nodes
 
 from reportgen import api
-from reportgen.base.words import SAMPLE, SECTION, load_words, search_path, sections, templates
+from reportgen.base.kinds import SAMPLE
+from reportgen.base.template_folders import search_path, templates
+from reportgen.base.words import SECTION, load_words, sections
 from reportgen.cases import opened
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from reportgen import api
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import Parenthesis, displayed

@@ -15,8 +15,9 @@ from reportgen.assignment.common import Extent
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase
 from reportgen.drawing import Circle, Label, Line, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.geometry import coincident
-from reportgen.drawing.labels import Canvas, finish, label
+from reportgen.drawing.labels import label
 from reportgen.drawing.positions import DOT
 from reportgen.drawing.sheet import ENLARGED, lettered
 from reportgen.formula import Chain, Symbol, vocabulary
@@ -113,6 +114,13 @@ def test_a_plan_is_as_large_as_it_says(name: str, kind: str) -> None:
             assert np.ptp(way(dots)) * plan.smaller == pytest.approx(
                 np.ptp(way(wanted)), abs=0.01 + 2 * ONE * plan.smaller
             )
+
+
+def test_a_short_plan_that_has_room_in_the_text_takes_no_page_of_its_own() -> None:
+    """A slider-crank is 194 mm long at the scale of the text; half as large it has room for all its letters."""
+    _, (plan,) = drawn("slider-crank-01", "short")
+    assert (plan.smaller, plan.turned) == (2.0, False)
+    assert figures.in_text(*plan.scenes)
 
 
 def blocks(document: Document, key: str) -> Figure | Plate:

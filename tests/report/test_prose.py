@@ -11,7 +11,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from reportgen.base.errors import TemplateError
-from reportgen.base.words import home, search_path, templates
+from reportgen.base.template_folders import search_path, templates
+from reportgen.base.words import home
 from reportgen.formula import Number, Symbol
 from reportgen.report import (
     BlankLine,

@@ -11,8 +11,10 @@ from typing import Any, get_args
 import pytest
 from jinja2 import Environment, nodes
 
+from reportgen.base.kinds import SAMPLE, kinds
+from reportgen.base.template_folders import kind_file, search_path
 from reportgen.base.units import Language
-from reportgen.base.words import SAMPLE, SECTION, Passage, kind_file, kinds, load_words, search_path, sections
+from reportgen.base.words import SECTION, Passage, load_words, sections
 from reportgen.formula import vocabulary
 from reportgen.formula.plain import formula
 from reportgen.machine import DyadKind

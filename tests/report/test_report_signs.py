@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from reportgen import api
-from reportgen.base.words import load_words, search_path
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Arc, Arrow, Scene
 from reportgen.drawing.forces import COUPLE_RADIUS
 from reportgen.formula import Chain, Expression, Number, Symbol, VectorEquation, walk

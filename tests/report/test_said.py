@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reportgen.base.words import templates
+from reportgen.base.template_folders import templates
 from reportgen.cases import MachineCase, open_case
 from reportgen.report import text_of
 from reportgen.report.comments import top_reactions

@@ -9,8 +9,9 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError, TemplateError
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import sections, templates
+from reportgen.base.words import sections
 from reportgen.report import text_of
 from reportgen.sheets import frame
 from reportgen.writers import latex, pdflatex
@@ -34,7 +35,7 @@ def test_a_school_overrides_one_section(tmp_path: Path, monkeypatch: pytest.Monk
     (root / "my-school" / "en.md").write_text(
         "%% foreword\n# Preface {{ unnumbered() }}\n\nAs our department asks.\n", encoding="utf-8"
     )
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
     text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
     assert "As our department asks." in text
     assert "Position plan" in text
@@ -52,7 +53,7 @@ def test_a_section_of_a_school_may_call_and_write_short(tmp_path: Path, monkeypa
         '{{ tables("tab.ours", "Our speeds", ["v.B"], positions) }}\n',
         encoding="utf-8",
     )
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
     text = text_of(api.document(api.load(with_school(tmp_path, "my-school"))))
     assert "shows A, O_1 and ω_1 = " in text
     assert "Our machine" in text
@@ -67,7 +68,7 @@ def test_a_section_that_no_report_has_is_a_located_fault(tmp_path: Path, monkeyp
     (root / "my-school" / "en.md").write_text(
         "%% dyads/senses\nOurs.\n\n%% cycle\nOurs.\n\n%% forewords\n# Preface\n", encoding="utf-8"
     )
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
     with pytest.raises(TemplateError, match=r"my-school/en\.md:7: no report has a section forewords"):
         api.document(api.load(with_school(tmp_path, "my-school")))
 

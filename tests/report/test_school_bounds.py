@@ -13,8 +13,9 @@ import pytest
 from reportgen import api
 from reportgen.base.errors import TemplateError
 from reportgen.base.limits import PATIENCE, TEMPLATES, Limits
+from reportgen.base.template_folders import search_path, templates
 from reportgen.base.units import Language
-from reportgen.base.words import templates
+from reportgen.base.words import load_words
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.report import text_of
@@ -36,7 +37,7 @@ def school(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> School:
     root = tmp_path / "templates"
     shutil.copytree(templates(), root)
     (root / "ours").mkdir()
-    monkeypatch.setattr("reportgen.base.words.templates", lambda: root)
+    monkeypatch.setattr("reportgen.base.template_folders.templates", lambda: root)
 
     def made(text: str, language: str = "en", sample: Path = SAMPLE) -> Path:
         (root / "ours" / f"{language}.md").write_text(text, encoding="utf-8")
@@ -264,6 +265,31 @@ def _pages(file: Path) -> None:
     drawing_sheets(case)
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("a: " + "[" * 100_000, r"4:15: too-deep"),
+        ("a: " + "{a: " * 50_000, r"4:45: too-deep"),
+        ('header: "\\x01"', "4:9: a control or private character"),
+        ('header: "\\ud800"', "4:9: a control or private character"),
+    ],
+)
+def test_words_that_would_end_the_program_are_a_located_fault(tmp_path: Path, words: str, told: str) -> None:
+    """The fast reader of the program's own words would end with the whole process."""
+    ours = tmp_path / "en.md"
+    ours.write_text(f"A note.\n\n%% words\n{words}\n", encoding="utf-8")
+    with pytest.raises(TemplateError, match=rf"en\.md:{told}"):
+        load_words((ours, *search_path("en")))
+
+
+def test_a_word_may_have_lines_and_any_sign(school: School) -> None:
+    """What joins its gaps with others is looked for by no sign that a word may have."""
+    file = school('A note.\n\n%% words\npointing: "{heading} | at {angle} | {angle}"\nheader: |\n  One\n  two\n')
+    case = api.open_case(file)
+    assert case.words["header"] == "One two"
+    assert " | at " in text_of(api.document(case.assignment))
+
+
 FORMED = {"en": "another form", "vi": "không cùng dạng"}
 
 
@@ -276,6 +302,7 @@ FORMED = {"en": "another form", "vi": "không cùng dạng"}
         ("cover:\n  title:", 5, "cover.title"),
         ("cover:\n  title: {a: b}", 5, "cover.title"),
         ("strokes: [One, Two]", 4, "strokes"),
+        ("strokes: [One, Two, Three, Four, Five]", 4, "strokes"),
         ("vector:\n  rows: [[One], Two, Three]", 5, "vector.rows"),
     ],
 )

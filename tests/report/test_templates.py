@@ -8,8 +8,10 @@ from typing import Any, get_args
 import pytest
 from jinja2 import Environment, nodes
 
+from reportgen.base.kinds import SAMPLE
+from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
-from reportgen.base.words import SAMPLE, SECTION, sections, templates
+from reportgen.base.words import SECTION, sections
 
 ROOT = templates()
 FILES = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))

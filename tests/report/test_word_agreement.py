@@ -14,8 +14,9 @@ import pytest
 
 from reportgen import api
 from reportgen import report as tree
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Label
 from reportgen.formula import Expression, VectorEquation
 from reportgen.formula import plain as plain_notation

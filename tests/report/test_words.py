@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.errors import TemplateError
-from reportgen.base.words import load_words, search_path
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
 
 
 def test_words_of_a_school_stand_before_the_common_ones(tmp_path: Path) -> None:

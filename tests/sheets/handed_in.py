@@ -6,7 +6,8 @@ from itertools import combinations
 
 from reportgen.base.errors import AssignmentError
 from reportgen.drawing import Label
-from reportgen.drawing.geometry import POINT, SCRIPT, bounds
+from reportgen.drawing.geometry import bounds
+from reportgen.drawing.label_size import POINT, SCRIPT
 from reportgen.drawing.sheet import CAPITAL, GAP, DrawingSheet, PlacedScene
 from tests.sheets.laid import laid, plates
 

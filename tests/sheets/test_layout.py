@@ -11,6 +11,7 @@ from reportgen.base.errors import AssignmentError
 from reportgen.drawing import Label, Line, Scene
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import GAP, Room, TooLargeError
+from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets import laid as divided
 from reportgen.sheets import plates_by_set
 from reportgen.sheets.frame import SIZES as PAPER
@@ -121,6 +122,23 @@ def test_what_belongs_together_stays_together() -> None:
     plates = [*boxes((200, 100)), *boxes((180, 60), (180, 60), family="v")]
     sheets = list(Packing(ROOM, ROOM).sheets(plates))
     assert [[part.name for part in sheet if "." not in part.name] for sheet in sheets] == [["1"], ["2", "3"]]
+
+
+def test_the_small_plans_of_all_positions_are_as_large_as_the_sheet_holds() -> None:
+    """In the report they are drawn to a tenth, and letters of points 2 mm apart stand in one row."""
+    first, *_ = laid("shaper-01", "A1").sheets
+    told = [
+        item.content
+        for part in plates(first)
+        for item in part.scene.items
+        if isinstance(item, Label)
+        and isinstance(item.content, Chain)
+        and item.content.note.split()[-2:] == ["0,1", "m/(s·mm)"]
+    ]
+    assert [str(chain.parts[0]) for chain in told] == [str(Symbol("μ", "v"))]
+    ((_, shown),) = (chain.parts for chain in told)
+    assert isinstance(shown, Number)
+    assert shown.value <= 0.05
 
 
 def test_a_table_of_results_only_fills_what_is_left() -> None:

@@ -341,7 +341,9 @@ def sample() -> Document:
         author="Đặng Thị Ẩn",
         header=("Bài tập lớn", "Đặng Thị Ẩn – A_B"),
         footer=("", "Trang"),
-        words=Words(figure="Hình", table="Bảng", contents="Mục lục", page="Trang", continued="tiếp theo"),
+        words=Words(
+            figure="Hình", table="Bảng", contents="Mục lục", page="Trang", continued="tiếp theo", save="Lưu hình"
+        ),
         blocks=blocks(),
     )
 

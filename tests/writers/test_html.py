@@ -12,7 +12,7 @@ import pytest
 
 from reportgen.base.units import Language
 from reportgen.drawing import Arrow, Circle, Label, Line, Scene
-from reportgen.drawing.geometry import POINT, SCRIPT, SMALL_CUT, box
+from reportgen.drawing.label_size import POINT, SCRIPT, SMALL_CUT, box
 from reportgen.formula import (
     Chain,
     Expression,

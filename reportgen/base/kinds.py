@@ -1,0 +1,47 @@
+"""Which kinds of assignments there are, what each is called, and a file to begin with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+from reportgen.base.errors import TemplateError
+from reportgen.base.template_folders import kind_file
+from reportgen.base.units import Language
+from reportgen.base.words import load_words, sections
+
+SAMPLE = "new"
+"""The section of a kind's words with the file to begin with."""
+
+
+@cache
+def kinds() -> Mapping[str, str]:
+    """The module of every kind, dotted, by the name that stands in a file, in alphabetical order.
+
+    A kind is a module in a room of the package that is called as its words are; in the catalogue before any other room.
+    """
+    package = Path(__file__).parents[1]
+    modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
+    named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
+    return {kind: named[kind] for kind in sorted(named) if kind_file("vi", kind).is_file()}
+
+
+def title(name: str, language: Language) -> str:
+    """The line of description of a kind, from its words."""
+    return str(load_words((kind_file(language, name),))["title"])
+
+
+def titles(language: Language) -> dict[str, str]:
+    """Each kind with its line of description."""
+    return {name: title(name, language) for name in kinds()}
+
+
+def sample(name: str, language: Language) -> str:
+    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
+    if name not in kinds():
+        raise KeyError(name)
+    file = kind_file(language, name)
+    if (section := sections(file).get(SAMPLE)) is None:
+        raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
+    return section.text

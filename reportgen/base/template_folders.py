@@ -1,0 +1,71 @@
+"""Where words, frames and examples are: the program's own folders, those of schools, and the order of reading."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from reportgen.base.files import OF_SCHOOL
+from reportgen.base.units import Language
+
+MACHINES = "catalogue"
+"""The folder beside `report.md` with a file for each kind of machine or exercise."""
+
+
+def templates() -> Path:
+    """The folder of words and frames: packed into the package, or beside it in a checkout."""
+    return _packed("templates", "templates")
+
+
+def samples() -> Path:
+    """The folder of examples, in the same way."""
+    return _packed("samples", "assignments")
+
+
+def _packed(name: str, beside: str) -> Path:
+    package = Path(__file__).resolve().parents[1]
+    packed = package / name
+    return packed if packed.is_dir() else package.parent / beside
+
+
+def school_files(folder: Path) -> list[Path]:
+    """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
+    patterns = OF_SCHOOL if os.path.isdir(folder) else ()
+    return sorted(path for pattern in patterns for path in folder.glob(pattern) if path.name != "blocks")
+
+
+def is_school(folder: Path) -> bool:
+    """Whether a folder holds a school's own words or its Word file."""
+    return any(path.suffix in (".md", ".docx") for path in school_files(folder))
+
+
+def schools() -> list[str]:
+    """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
+    own = {"vi", "en", "frames"}
+    return sorted(folder.name for folder in templates().iterdir() if folder.name not in own and is_school(folder))
+
+
+def school_folder(school: Path | str) -> Path:
+    """The folder of a school's own templates."""
+    return templates() / school
+
+
+def search_path(
+    language: Language, kind: str = "", school: Path | str = "", root: Path | None = None
+) -> tuple[Path, ...]:
+    """The places in which sections and words are looked for; the first that has a name wins.
+
+    The file of a school (its folder, or its name among the templates), then that of one kind of machine, then the
+    folder of the language.
+    """
+    root = root or templates()
+    return (
+        *((root / school / f"{language}.md",) if school else ()),
+        *((kind_file(language, kind, root),) if kind else ()),
+        root / language,
+    )
+
+
+def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
+    """The file with all words of one kind of machine."""
+    return (root or templates()) / language / MACHINES / f"{kind}.md"

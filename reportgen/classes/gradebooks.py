@@ -1,0 +1,236 @@
+"""Marks filled into the table that a learning platform gave for it: Moodle's grading worksheet, Canvas's gradebook.
+
+All else in the file stays byte for byte.  Moodle's grading worksheet has its headings in the teacher's language, so its
+columns are found by their place and content: the first one ends in each participant's number, and the grade stands
+before the column of the greatest grade, which is one number throughout.  Canvas's gradebook has English headings, a row
+"Points Possible", and a column `Title (id)` for each assignment.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.source import encoding_of
+from reportgen.base.units import Language
+from reportgen.base.words import as_error
+from reportgen.marking.policy import Scale
+from reportgen.workbook import read
+from reportgen.workbook.reading import BOOKS, SEPARATORS
+
+DECIMALS = 2
+"""Of a grade, where the table does not show how many it has."""
+
+_NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+_PARTICIPANT = re.compile(r"\D+(\d+)")
+_TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
+
+
+@dataclass(frozen=True, slots=True)
+class StudentResult:
+    """The result of one student: ids by which a row may name them, the platform's number ("" if unknown), the share."""
+
+    who: str
+    ids: frozenset[str]
+    number: str
+    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class _Cell:
+    """A cell of the file's text: where it begins and ends, what it says, whether in quotation marks."""
+
+    start: int
+    end: int
+    text: str
+    quoted: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """The table's students: each with the cell of the grade, the platform's number, what else the row says of them."""
+
+    rows: tuple[tuple[_Cell, str, frozenset[str]], ...]
+    highest: str
+    """The greatest grade, as the table writes it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Gradebook:
+    """A platform's table: its text between the `mark` of its encoding and the end, and where its grades go."""
+
+    path: Path
+    text: str
+    mark: bytes
+    encoding: str
+    separator: str
+    table: _Table
+
+    def filled(self, results: Sequence[StudentResult], scale: Scale) -> tuple[bytes, list[Fault]]:
+        """The file with the grades, and faults for students that it has no row for."""
+        changes: dict[_Cell, str] = {}
+        faults: list[Fault] = []
+        for student in results:
+            cells = _of(student, self.table.rows)
+            if len(cells) == 1:
+                changes[cells[0]] = _grade(scale.mark(student.share) / scale.highest, self.table.highest)
+            else:
+                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": student.who}))
+        return self.mark + _changed(self.text, changes, self.separator).encode(self.encoding), faults
+
+
+def read_gradebook(path: Path, column: str = "", language: Language | None = None) -> Gradebook:
+    """A platform's table; `column` chooses one of Canvas's assignments by its heading, title or id.
+
+    Raises `AssignmentError` if the file cannot be read or is neither of the two tables.
+    """
+    if path.suffix.lower() in BOOKS:
+        raise as_error([Fault("gradebook-no-csv", Mark(str(path)))], language)
+    # What cannot be read as CSV is refused here, with its place.
+    read(path, language)
+    data = path.read_bytes()
+    mark, encoding = encoding_of(data)
+    text = data.removeprefix(mark).decode(encoding)
+    separator = _separator(text)
+    rows = [row for row in _rows(text, separator) if any(cell.text.strip() for cell in row)]
+    table = _canvas(rows, column, path) if _is_canvas(rows) else _moodle(rows, path)
+    if isinstance(table, Fault):
+        raise as_error([table], language)
+    return Gradebook(path, text, mark, encoding, separator, table)
+
+
+def _of(student: StudentResult, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
+    """The cells of the rows that are the student's: by the platform's number if it is known, else by id or e-mail."""
+    if student.number and (cells := [cell for cell, number, _ in rows if number == student.number]):
+        return cells
+    return [cell for cell, _, names in rows if names & student.ids]
+
+
+def _grade(share: float, highest: str) -> str:
+    """A grade with the decimal mark and the decimals of the greatest one."""
+    whole, point, decimals = highest.partition("," if "," in highest else ".")
+    value = share * float(f"{whole}.{decimals or 0}")
+    shown = f"{value:.{len(decimals) if point else DECIMALS}f}"
+    return shown.replace(".", point or ".")
+
+
+def _names(texts: Sequence[str]) -> frozenset[str]:
+    return frozenset(text.strip().casefold() for text in texts if text.strip())
+
+
+# --- Moodle -----------------------------------------------------------------------------------------
+
+
+def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
+    """Moodle's grading worksheet: the grade is the column before that of the greatest grade."""
+    head, *body = rows or [()]
+    full = [row for row in body if len(row) == len(head)]
+    numbers = [match[1] if row and (match := _PARTICIPANT.fullmatch(row[0].text.strip())) else "" for row in full]
+    if not full or len(full) < len(body) or not all(numbers) or len(set(numbers)) < len(numbers):
+        return Fault("gradebook-unknown", Mark(str(path)))
+    columns = [[row[k].text.strip() for row in full] for k in range(len(head))]
+    # A scale of words has no greatest grade, and Moodle takes no numbers for it.
+    graded = [k for k in range(2, len(head)) if _is_greatest(columns[k], columns[k - 1])]
+    if len(graded) != 1:
+        return Fault("gradebook-no-column", Mark(str(path)))
+    (greatest,) = graded
+    table = zip(full, numbers, strict=True)
+    return _Table(
+        tuple(
+            (row[greatest - 1], number, _names([cell.text for cell in row[1 : greatest - 1]])) for row, number in table
+        ),
+        columns[greatest][0],
+    )
+
+
+def _is_greatest(column: Sequence[str], before: Sequence[str]) -> bool:
+    """Whether a column is one number throughout, and the one before it empty or no greater."""
+    if len(set(column)) != 1 or not _NUMBER.fullmatch(column[0]):
+        return False
+    return all(not text or (_NUMBER.fullmatch(text) and _value(text) <= _value(column[0])) for text in before)
+
+
+def _value(text: str) -> float:
+    return float(text.replace(",", "."))
+
+
+# --- Canvas -----------------------------------------------------------------------------------------
+
+
+def _is_canvas(rows: Sequence[Sequence[_Cell]]) -> bool:
+    head = [cell.text for cell in rows[0]] if rows else []
+    return "Section" in head and ("Student" in head[:1] or head[:2] == ["LastName", "FirstName"])
+
+
+def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table | Fault:
+    """Canvas's gradebook: one of its assignments, which `wanted` must name if there are several."""
+    head = [cell.text for cell in rows[0]]
+    mark = Mark(str(path))
+    points = next((row for row in rows[1:] if "Points Possible" in row[0].text), None)
+    if points is None or "ID" not in head:
+        return Fault("gradebook-unknown", mark)
+    titles = {k: match for k in range(head.index("Section") + 1, len(head)) if (match := _TITLE.fullmatch(head[k]))}
+    open_ones = {
+        k: match for k, match in titles.items() if k < len(points) and _NUMBER.fullmatch(points[k].text.strip())
+    }
+    chosen = [k for k, match in open_ones.items() if not wanted or wanted in (match[0], match[1], match[2])]
+    if len(chosen) != 1:
+        known = "; ".join(match[0] for match in open_ones.values())
+        return Fault("gradebook-which-column", mark, {"known": known or "–"})
+    (column,) = chosen
+    people = [head.index(name) for name in ("SIS User ID", "SIS Login ID") if name in head]
+    students = [
+        row for row in rows[1:] if row is not points and len(row) > column and row[head.index("ID")].text.strip()
+    ]
+    return _Table(
+        tuple(
+            (row[column], row[head.index("ID")].text.strip(), _names([row[k].text for k in people])) for row in students
+        ),
+        points[column].text.strip(),
+    )
+
+
+# --- the file ---------------------------------------------------------------------------------------
+
+
+def _separator(text: str) -> str:
+    header = next((line for line in text.splitlines() if line.strip()), "")
+    outside = re.sub(r'"[^"]*"?', "", header)
+    return max(SEPARATORS, key=outside.count)
+
+
+def _rows(text: str, separator: str) -> Iterator[list[_Cell]]:
+    """The cells of each line with their places; a quoted cell may hold separators and line ends."""
+    cell = re.compile(rf'"([^"]*+(?:""[^"]*+)*+)"|([^{re.escape(separator)}\r\n]*+)')
+    at = 0
+    row: list[_Cell] = []
+    while at < len(text):
+        match = cell.match(text, at)
+        assert match is not None, "any text begins with a cell, which may be empty"
+        quoted = match[1] is not None
+        row.append(_Cell(at, match.end(), match[1].replace('""', '"') if quoted else match[2], quoted))
+        at = match.end()
+        if text.startswith(separator, at):
+            at += 1
+            if at == len(text):
+                row.append(_Cell(at, at, "", False))
+            continue
+        yield row
+        row = []
+        at += 2 if text.startswith("\r\n", at) else 1
+    if row:
+        yield row
+
+
+def _changed(text: str, changes: Mapping[_Cell, str], separator: str) -> str:
+    """The text with other contents in some cells."""
+    parts: list[str] = []
+    at = 0
+    for cell in sorted(changes, key=lambda cell: cell.start):
+        new = changes[cell]
+        parts += [text[at : cell.start], f'"{new}"' if cell.quoted or separator in new else new]
+        at = cell.end
+    return "".join((*parts, text[at:]))

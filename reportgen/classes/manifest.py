@@ -1,0 +1,157 @@
+"""What a batch has made, and of what: the file that lets a second run do only what is missing or changed.
+
+`manifest.json` is replaced as a whole, at the beginning and at the end of a run.  In between each result is one line
+more in a journal beside it, which the next run reads if this one was killed: a line costs the same for the first and
+the thousandth student, and a torn one costs no other.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from reportgen.base.files import contents, put_file
+from reportgen.base.made import MADE_OF, Made, hash_of
+from reportgen.base.made import made_of as made_of_input
+from reportgen.classes.pool import Job, Outcome
+
+if TYPE_CHECKING:
+    pass
+
+NAME = "manifest.json"
+JOURNAL = ".manifest.journal"
+FORMAT = "reportgen-batch/1"
+ASK = "ask"
+"""What the answer sheet asks for decides the bytes of a product too, where a policy says so."""
+
+
+@dataclass(frozen=True, slots=True)
+class ManifestEntry:
+    """One product of one student: what it was made of, and its files with their SHA-256, or what failed."""
+
+    student: str
+    folder: str
+    product: str
+    made_of: Mapping[str, str | None] = field(default_factory=dict)
+    files: Mapping[str, str] = field(default_factory=dict)
+    problems: tuple[str, ...] = ()
+
+    def holds(self, job: Job, out: Path) -> bool:
+        """Whether the files are there and would be made of the same again; one that was edited is there, too."""
+        return (
+            not self.problems
+            and bool(self.files)
+            and (self.folder, self.made_of) == (job.folder, made_of(job))
+            and all(hash_of(out / self.folder / name) for name in self.files)
+        )
+
+    @property
+    def made(self) -> Made:
+        return Made(self.made_of, self.files)
+
+    def edited(self, out: Path) -> Iterator[Path]:
+        """The files that were changed since they were made, an answer sheet that is filled in."""
+        return self.made.edited(out / self.folder)
+
+
+_ENTRY = TypeAdapter(ManifestEntry)
+
+
+def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
+    """What the manifest keeps of an outcome: hashes and words, no times and no paths."""
+    hashes = {name: sha256(content).hexdigest() for name, content in outcome.files.items()}
+    problems = tuple(map(str, outcome.problems))
+    return ManifestEntry(job.student, job.folder, job.product, made_of(job), hashes, problems)
+
+
+def made_of(job: Job) -> dict[str, str | None]:
+    """What a job's product is made of, what the answer sheet asks for as `ASK`."""
+    how = job.making
+    return made_of_input(job.assignment, how.engine, how.language, how.templates, how.version, **{ASK: how.ask})
+
+
+def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
+    """The entries of a folder by student and product, with what a killed run left in its journal.
+
+    A file that cannot be understood counts as missing: its products are made again.
+    """
+    lines = map(_parsed, _text(out / JOURNAL).split("\n"))
+    entries = (_entry(line) for line in (*_lines(_parsed(_text(out / NAME))), *lines))
+    return {(entry.student, entry.product): entry for entry in entries if entry is not None}
+
+
+def write_manifest(out: Path, entries: Iterable[ManifestEntry]) -> Path:
+    """Replaces the manifest, sorted by student and product; then the journal has nothing to add."""
+    students: dict[str, Any] = {}
+    for entry in entries:
+        of_student = students.setdefault(entry.student, {"folder": entry.folder, "products": {}})
+        of_student["products"][entry.product] = _plain(entry)
+    content = {"format": FORMAT, "students": students}
+    target = out / NAME
+    text = json.dumps(content, ensure_ascii=False, indent=1, sort_keys=True) + "\n"
+    put_file(target, text.encode())
+    (out / JOURNAL).unlink(missing_ok=True)
+    return target
+
+
+@contextmanager
+def journal(out: Path) -> Iterator[Callable[[ManifestEntry], None]]:
+    """Records each entry as soon as its files stand; the next `write_manifest` removes the journal."""
+    with (out / JOURNAL).open("a", encoding="utf-8", newline="\n") as stream:
+
+        def record(entry: ManifestEntry) -> None:
+            head = {"student": entry.student, "folder": entry.folder, "product": entry.product}
+            stream.write(json.dumps(head | _plain(entry), ensure_ascii=False) + "\n")
+            stream.flush()
+
+        yield record
+
+
+def _plain(entry: ManifestEntry) -> dict[str, Any]:
+    common = {**entry.made_of, "state": "failed" if entry.problems else "done"}
+    details = {"problems": list(entry.problems), "files": dict(entry.files)}
+    return common | {name: some for name, some in details.items() if some}
+
+
+def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """The entries of a manifest as lines of a journal."""
+    students = content.get("students")
+    if content.get("format") != FORMAT or not isinstance(students, dict):
+        return
+    for student, of_student in students.items():
+        if isinstance(of_student, dict) and isinstance(of_student.get("products"), dict):
+            for product, plain in of_student["products"].items():
+                if isinstance(plain, dict):
+                    yield plain | {"student": student, "folder": of_student.get("folder"), "product": product}
+
+
+def _entry(line: dict[str, Any]) -> ManifestEntry | None:
+    """The entry of a line, unless the line is not of the form that `journal` gives."""
+    made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
+    try:
+        entry = _ENTRY.validate_python({**line, "made_of": made})
+    except ValidationError:
+        return None
+    return entry if all(Path(name).name == name for name in entry.files) else None
+
+
+def _parsed(text: str) -> dict[str, Any]:
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def _text(path: Path) -> str:
+    try:
+        return contents(path).decode("utf-8", "replace")
+    except FileNotFoundError:
+        return ""

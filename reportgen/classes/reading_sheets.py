@@ -1,0 +1,44 @@
+"""Sheets read as they were handed in, each in a process of its own time and memory.
+
+A file may be made so that reading it takes hours or all memory; that is the fault of whoever handed it in, and must
+not keep the others from their marks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
+from reportgen.base.limits import Limits
+from reportgen.base.units import Language
+from reportgen.base.words import as_problem
+from reportgen.classes.platforms import Handed
+from reportgen.classes.pool import each_within
+from reportgen.workbook import Page, read
+
+LIMITS = Limits(seconds=60.0, megabytes=1000)
+"""For one sheet: the largest that is not refused anyhow takes about an eighth of them."""
+
+Pages = tuple[Page, ...]
+
+
+def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator[tuple[Handed, Pages | list[Problem]]]:
+    """Each file with its pages, in their order, or with the faults for which it cannot be read."""
+    calls = ((one, language) for one in handed)
+    for (sheet, _), pages in each_within(LIMITS, _read, calls, __name__):
+        yield sheet, [_beyond(sheet.path, language)] if pages is None else pages
+
+
+def _read(call: tuple[Handed, Language | None]) -> Pages | list[Problem]:
+    """The pages of a file, in the process that reads it."""
+    sheet, language = call
+    try:
+        return read(sheet.path, language, sheet.data)
+    except AssignmentError as error:
+        return list(error.problems)
+
+
+def _beyond(path: Path, language: Language | None) -> Problem:
+    limits = {"seconds": f"{LIMITS.seconds:g}", "largest": str(LIMITS.megabytes)}
+    return as_problem(Fault("sheet-beyond-limits", Mark(str(path)), limits), language)

@@ -1,0 +1,73 @@
+"""From drafts to finished scenes.
+
+Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added.  `finish` places the
+labels, crops to the content and gives the `Scene`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+from reportgen.drawing import Content, Item, Scene, style
+from reportgen.drawing.geometry import bounds, corners_of, moved
+from reportgen.drawing.label_size import Box, box
+from reportgen.drawing.labels import Request, label_row, place
+
+MARGIN = 6.0
+
+
+@dataclass(frozen=True, slots=True)
+class Canvas:
+    """Items in the order of painting and the labels still to be placed."""
+
+    items: tuple[Item, ...] = ()
+    requests: tuple[Request, ...] = ()
+
+    def __add__(self, other: Canvas) -> Canvas:
+        return Canvas(self.items + other.items, self.requests + other.requests)
+
+    def moved(self, by: complex) -> Canvas:
+        """The draft shifted by a vector (mm); its labels must have been placed before."""
+        return Canvas(tuple(moved(item, by) for item in self.items))
+
+
+def settle(draft: Canvas) -> Canvas:
+    """The draft with its labels placed."""
+    return Canvas(draft.items + place(draft.items, draft.requests).items)
+
+
+def finish(
+    draft: Canvas,
+    *,
+    notes: Sequence[Content] = (),
+    title: str = "",
+    margin: float = MARGIN,
+    frame: tuple[complex, complex] | None = None,
+) -> Scene:
+    """The scene: labels placed, `notes` (the figure's scale) below, cropped with `margin` mm around.
+
+    `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
+    the same paper.
+    """
+    labels = place(draft.items, draft.requests)
+    done = Canvas(draft.items + labels.items)
+    low, high = corners_of((*bounds(done.items), *(frame or ())))
+    below = _notes([*labels.key, *((note,) for note in notes)], (low.real + high.real) / 2, low.imag - 3.0)
+    low, high = corners_of((low, high, *(bounds(below) if below else ())))
+    white = complex(margin, margin)
+    size = high + white - (low - white)
+    items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
+    return Scene(size.real, size.imag, items, title, margin, labels.crowded)
+
+
+def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:
+    """Lines of text, each of several parts, centred on x, the first below y."""
+    lines: list[Item] = []
+    for note in notes:
+        extent = reduce(Box.beside, (box(part, style.LABEL) for part in note))
+        height = extent.height + extent.depth
+        lines += label_row(complex(x, y - height / 2), note, style.LABEL)
+        y -= height + 1.5
+    return tuple(lines)

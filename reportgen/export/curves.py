@@ -1,0 +1,198 @@
+"""Quantities as curves over the way of the driver or over time, of several files, beside what was measured."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from reportgen.assignment import Assignment
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.units import MM, Language, QuantityFault, read_number, read_unit
+from reportgen.base.words import as_error
+from reportgen.drawing import Content, Diagram, PlottedCurve
+from reportgen.export.quantities import Found, quantity
+from reportgen.formula import Chain, Symbol
+from reportgen.report.case import Case
+from reportgen.report.equations import heading_of
+from reportgen.workbook import SheetCell, read
+
+Over = Literal["phi", "time"]
+POINTS = 360
+"""Of a turn."""
+AXES: Mapping[str, Over] = {"phi": "phi", "φ": "phi", "t": "time"}
+"""What the first column of a table is headed."""
+_HEAD = re.compile(r"\s*(.+?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)*)\))?\s*")
+"""What a column is headed: an id, and its unit in parentheses."""
+
+
+def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
+    """An assignment with so many positions a turn, those of its parts too, as far as they count theirs."""
+    from reportgen import catalogue
+
+    def counted(one: Assignment) -> Assignment:
+        return one.with_positions(count) if catalogue.kind(one.kind).counts_positions else one
+
+    parts = tuple(replace(part, alone=counted(part.alone)) for part in assignment.parts)
+    return replace(counted(assignment), parts=parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """A column of a table of measured values: of which quantity, over which angle (rad) or time (s), in SI units."""
+
+    id: str
+    over: Over
+    x: np.ndarray
+    values: np.ndarray
+    name: str
+
+
+def diagrams(
+    cases: Sequence[Case], of: Sequence[str], over: Over = "phi", measured: Sequence[Measured] = ()
+) -> dict[str, Diagram]:
+    """A diagram for each unit of the quantities, by the ids that it shows; several cases give several curves each.
+
+    Raises `UnknownNameError`, `NotOfferedError` for a quantity that is no curve.
+    """
+    by_unit: dict[tuple[str, bool], list[str]] = {}
+    for id in dict.fromkeys(quantity(cases[0], one).id for one in of):
+        found = quantity(cases[0], id)
+        slides = found.over(cases[0].assignment.language).slides
+        by_unit.setdefault((found.family.how.unit, slides), []).append(id)
+    return {"-".join(ids): _diagram(cases, ids, over, measured) for ids in by_unit.values()}
+
+
+def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Sequence[Measured]) -> Diagram:
+    curves = [
+        curve(quantity(case, id), over, case.assignment.id if len(cases) > 1 else "", cases[0].assignment.language)
+        for case in cases
+        for id in ids
+    ]
+    first = quantity(cases[0], ids[0])
+    speed = first.over(cases[0].assignment.language).speed
+    for one in measured:
+        if one.id in ids:
+            symbol, how = first.case.ledger.symbol(one.id), first.case.ledger[one.id].how
+            x = _across(one, over, speed)
+            curves.append(PlottedCurve(_told(symbol, one.name), x, one.values / how.scale, dots=True))
+    turn = over == "phi" and not _slides(first)
+    return Diagram(tuple(curves), axis_across(first, over), axis_up(first, ids), turn=turn)
+
+
+def curve(found: Found, over: Over, told: str, language: Language) -> PlottedCurve:
+    """A quantity over the driver's way (degrees, or mm) or over time (s), through the whole cycle; `told` behind it."""
+    motion, values = found.over(language), found.values / found.family.how.scale
+    gone = motion.gone
+    if not motion.slides:
+        # A cycle ends where it begins.
+        gone, values = np.append(gone, motion.whole), np.append(values, values[0])
+    per = motion.speed if over == "time" else 1 / MM if motion.slides else math.pi / 180
+    if per is None:
+        per = math.nan
+    return PlottedCurve(_told(found.family.symbol, told), gone / per, values)
+
+
+def _told(symbol: Symbol, name: str) -> Content:
+    return Chain((symbol,), name) if name else symbol
+
+
+def _slides(found: Found) -> bool:
+    motion = found.case.driver_motion
+    return motion is not None and motion.slides
+
+
+def axis_across(found: Found, over: Over) -> Chain:
+    """The axis of the driver's way or of time."""
+    words = found.case.words["figure"]
+    if over == "time":
+        return Chain((Symbol("t"),), "s")
+    return Chain((Symbol("s"),), words["way"]) if _slides(found) else Chain((Symbol("φ"),), words["cycle_angle"])
+
+
+def axis_up(found: Found, ids: Sequence[str]) -> Content:
+    """The axis of the quantities: the symbol of one, the unit, and in which sense they are positive, if in one."""
+    unit, motion = found.family.how.unit, found.case.driver_motion
+    ways = {motion.signed[id][1] if motion and id in motion.signed else None for id in ids}
+    note, words = unit, found.case.words
+    if len(ways) == 1 and (way := ways.pop()) is not None:
+        sense = heading_of(words, math.degrees(cmath.phase(way)))
+        note = str(words["figure"]["positive"]).format(title=unit, sense=sense)
+    return Chain((found.family.symbol,), note) if len(ids) == 1 else note
+
+
+# --- what was measured ------------------------------------------------------------------------------
+
+
+def _across(one: Measured, over: Over, speed: float | None) -> np.ndarray:
+    """Measured places on the axis: degrees or seconds."""
+    x = one.x
+    if one.over != over:
+        rate = math.nan if speed is None else speed
+        x = x * rate if over == "phi" else x / rate
+    return np.degrees(x) if over == "phi" else x
+
+
+def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:
+    """The columns of a table (CSV, XLSX) that a plot shows, each headed by an id and its unit, v.E (m/s).
+
+    The first column is phi (deg) from position 1, or t (s).  Raises `AssignmentError` for what cannot be read, and for
+    a table without a column that is plotted.
+    """
+    page = read(path, case.assignment.language)[0]
+    head, *rows = page.rows or ((),)
+    faults: list[Fault] = []
+    wanted = [quantity(case, one).id for one in of]
+    found: list[Measured] = []
+    over = AXES.get(_name_and_unit(head[0])[0]) if head else None
+    if over is None:
+        where = head[0].mark if head else Mark(str(path))
+        raise as_error([Fault("measured-no-axis", where)], case.assignment.language)
+    x = _column(head[0], rows, 0, "rad" if over == "phi" else "s", faults)
+    for place, cell in enumerate(head[1:], start=1):
+        name, _ = _name_and_unit(cell)
+        id = next((one for one, asked in zip(wanted, of, strict=True) if name in (one, asked)), None)
+        if id is not None:
+            unit = quantity(case, id).family.how.unit
+            found.append(Measured(id, over, x, _column(cell, rows, place, unit, faults), path.stem))
+    if not found:
+        faults.append(Fault("measured-nothing", head[0].mark, {"known": ", ".join(of)}))
+    if faults:
+        raise as_error(faults, case.assignment.language)
+    return found
+
+
+def _name_and_unit(cell: SheetCell) -> tuple[str, str]:
+    match = _HEAD.fullmatch(cell.text)
+    return (match[1], match[2] or "") if match else ("", "")
+
+
+def _column(
+    head: SheetCell, rows: Sequence[Sequence[SheetCell]], place: int, unit: str, faults: list[Fault]
+) -> np.ndarray:
+    """The numbers of a column in SI units; an empty cell is a gap."""
+    factor, given = 1.0, _name_and_unit(head)[1]
+    if unit and not given:
+        faults.append(Fault("missing-unit", head.mark, {"text": head.text, "unit": unit}))
+    elif given:
+        try:
+            factor = read_unit(given, unit)
+        except QuantityFault as fault:
+            faults.append(Fault(fault.code, head.mark, fault.arguments))
+    return np.array([_number(row[place], faults) if place < len(row) else math.nan for row in rows]) * factor
+
+
+def _number(cell: SheetCell, faults: list[Fault]) -> float:
+    if cell.blank or not cell.text.strip():
+        return math.nan
+    try:
+        return read_number(cell.text)
+    except QuantityFault as fault:
+        faults.append(Fault(fault.code, cell.mark, fault.arguments))
+        return math.nan

@@ -1,0 +1,104 @@
+"""Quantities of a case by their ids: arrays that know what they are, over the way of the driver."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from reportgen.base.errors import NotOfferedError, UnknownNameError
+from reportgen.base.units import Language
+from reportgen.base.words import unknown, word
+from reportgen.formula import Symbol
+from reportgen.formula.sheet import Family
+from reportgen.formula.vocabulary import KINDS
+from reportgen.report.case import Case, DriverMotion
+
+_IN_SI = {"°": "rad", "%": "", "cm": "m", "cm²": "m²", "N/cm²": "Pa", "N/(cm²·mm)": "Pa/m"}
+"""Of units in which values are printed, but for those in mm."""
+
+
+def si_unit(kind: str) -> str:
+    """The unit of a kind's values, which are in SI: m for what is printed in mm."""
+    unit = KINDS[kind].unit
+    return unit if KINDS[kind].scale == 1.0 else _IN_SI.get(unit, unit.replace("mm", "m"))
+
+
+class QuantityArray(np.ndarray):
+    """The values of a quantity in SI units; a vector of the plane is a complex number."""
+
+    name: str
+    symbol: Symbol | None
+    unit: str
+
+    @classmethod
+    def of(cls, values: np.ndarray, family: Family) -> QuantityArray:
+        """Values of a family, which may be others than its own."""
+        made = np.asarray(values).view(cls)
+        made.name, made.symbol, made.unit = family.id, family.symbol, si_unit(family.kind)
+        return made
+
+    def __array_finalize__(self, other: Any) -> None:
+        self.name, self.symbol = getattr(other, "name", ""), getattr(other, "symbol", None)
+        self.unit = getattr(other, "unit", "")
+
+    def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
+        """What is computed of it is a plain array: it has another unit."""
+        plain = np.asarray(array)
+        return plain[()] if return_scalar else plain
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A quantity of a case or of one of its parts, `over` the way of that one's driver."""
+
+    id: str
+    case: Case
+
+    @property
+    def family(self) -> Family:
+        return self.case.ledger[self.id]
+
+    @property
+    def values(self) -> np.ndarray:
+        """Its values; what moves on a line has its sign along it, as in the report's curves."""
+        over = self.case.driver_motion
+        return over.signed[self.id][0] if over is not None and self.id in over.signed else self.family.values
+
+    @property
+    def array(self) -> QuantityArray:
+        return QuantityArray.of(self.values, self.family)
+
+    def over(self, language: Language) -> DriverMotion:
+        """How the driver goes; raises `NotOfferedError` of what is no curve over its way."""
+        over = self.case.driver_motion
+        if over is None or len(self.family.values) != len(over.gone):
+            raise NotOfferedError(word("no_curve", language, text=self.id))
+        return over
+
+
+def quantity(case: Case, id: str) -> Found:
+    """A quantity by its id, or by its symbol in letters, M.cb for M_cb, that of the machine first.
+
+    Raises `UnknownNameError`.
+    """
+    cases = list(case.parts.values()) or [case]
+    for one in cases:
+        if id in one.ledger:
+            return Found(id, one)
+    for one in cases:
+        for own, family in one.ledger.families.items():
+            if not family.hidden and id == f"{family.symbol.base}.{family.symbol.sub}":
+                return Found(own, one)
+    raise UnknownNameError(unknown("no_quantity", id, list(shown(case)), case.assignment.language))
+
+
+def shown(case: Case) -> Iterator[str]:
+    """The ids of what is printed at the positions, numbers of the plane left out."""
+    for one in case.parts.values() or [case]:
+        over = one.driver_motion
+        for id, family in one.ledger.families.items():
+            if over is not None and len(family.values) == len(over.gone) and not (family.hidden or family.is_plane):
+                yield id

@@ -1,0 +1,154 @@
+"""Quantities over a range of parameters: the ledger evaluated once with one more axis, for the values in front.
+
+That needs every number that a quantity stands on to be given, to have a formula, or to be the same for all values.
+What else it may stand on, the load of a stroke that becomes longer, no formula of the ledger tells: then each value has
+a case of its own, as a file of its own would have.  The scales of plans may be any: what is laid off to one is measured
+to the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.assignment import Assignment
+from reportgen.export.quantities import QuantityArray, quantity
+from reportgen.formula import ids
+from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Family
+from reportgen.plans.sides import image
+from reportgen.report.case import Case
+
+SAME = 1e-13
+"""What differs by a smaller share is the same number worked out twice."""
+PROBED = 3
+"""So many values of the range, its ends among them, tell whether a number changes with it."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """Assignments that differ in values of parameters; None where `check` refuses a value."""
+
+    variants: Sequence[Assignment | None]
+    opened: Callable[[Assignment], Case]
+
+    def values(self, of: Sequence[str]) -> dict[str, QuantityArray]:
+        """The values in SI units [variants, positions] of some quantities, nan where a value is refused.
+
+        Raises `UnknownNameError` for an id that there is not.
+        """
+        found = [quantity(self._base, id) for id in of]
+        together = [one.id for one in found if one.case is self._base and self.is_told(one.id)]
+        values = self._evaluated(together)
+        for one in found:
+            if one.id not in values:
+                values[one.id] = self._one_by_one(one.id)
+        return {id: QuantityArray.of(values[one.id], one.family) for id, one in zip(of, found, strict=True)}
+
+    # --- a case a value
+
+    @cached_property
+    def _sound(self) -> list[Assignment]:
+        return [one for one in self.variants if one is not None]
+
+    @cached_property
+    def _probes(self) -> list[Case]:
+        """Cases of some values, the ends of the range among them."""
+        count = len(self._sound)
+        return [self.opened(self._sound[at]) for at in sorted({*np.linspace(0, count - 1, PROBED).astype(int)})]
+
+    @property
+    def _base(self) -> Case:
+        return self._probes[0]
+
+    def _one_by_one(self, id: str) -> np.ndarray:
+        rows = [None if one is None else quantity(self.opened(one), id).values for one in self.variants]
+        empty = np.full_like(next(row for row in rows if row is not None), np.nan)
+        return np.array([empty if row is None else row for row in rows])
+
+    # --- all values at once
+
+    @cached_property
+    def _given(self) -> Mapping[str, np.ndarray]:
+        """What a file gives, or its machine works out of it, for each sound value, by ids: [values, 1 or positions]."""
+        machine = getattr(catalogue.module(self._sound[0].kind), "machine", None)
+        if machine is None or self._sound[0].parts:
+            return {}
+        sheets = [machine(one).sheet.families for one in self._sound]
+        wanted = [id for id, family in self._base.ledger.families.items() if family.definition is None]
+        return {
+            id: np.array([sheet[id].values for sheet in sheets])
+            for id in wanted
+            if all(id in sheet and sheet[id].values.shape == sheets[0][id].values.shape for sheet in sheets)
+        }
+
+    def _needed(self, id: str) -> frozenset[str]:
+        """A quantity with all that it stands on, the corner of its plan among them if it has a sign along a line."""
+        ledger, signed = self._base.ledger, self._signed(id)
+        own = [id] if signed is None else [id, *signed[:2]]
+        return frozenset(other for one in own for other in (one, *ledger.ancestors(one)))
+
+    def _signed(self, id: str) -> tuple[str, str, complex] | None:
+        """Of what has a sign along a line: the corner of its plan, the plan's scale, the direction."""
+        motion = self._base.driver_motion
+        if motion is None or id not in motion.signed:
+            return None
+        rate, point = next((rate, read["point"]) for rate, name in ids.POINT_RATE.items() if (read := name.read(id)))
+        return ids.plan_point(rate, image(point)), ids.scale(rate), motion.signed[id][1]
+
+    def is_told(self, id: str) -> bool:
+        """Whether formulas and given data tell a quantity for every value, from what does not change besides."""
+        family = self._base.ledger[id]
+        if not self._given or family.is_plane or family.kind == "segment" or _is_scale(family):
+            return False
+        motions = [case.driver_motion for case in self._probes]
+        ways = {motion.signed[id][1] for motion in motions if motion is not None and id in motion.signed}
+        ledgers = [case.ledger for case in self._probes]
+        return len(ways) <= 1 and all(self._is_same(one, ledgers) for one in self._needed(id))
+
+    def _is_same(self, id: str, ledgers: Sequence[Ledger]) -> bool:
+        """Whether a number is worked out in one way for all values or, if no formula tells it, is one for all."""
+        first, *others = ledgers
+        if not all(id in ledger for ledger in others):
+            return False
+        family = first[id]
+        if family.definition is not None:
+            return all(ledger[id].definition == family.definition for ledger in others)
+        scale = np.abs(family.values).max()
+        return (
+            id in self._given
+            or _is_scale(family)
+            or all(
+                ledger[id].values.shape == family.values.shape
+                and np.abs(ledger[id].values - family.values).max() <= SAME * scale
+                for ledger in others
+            )
+        )
+
+    def _evaluated(self, wanted: Collection[str]) -> dict[str, np.ndarray]:
+        if not wanted:
+            return {}
+        ledger = self._base.ledger
+        needed = frozenset(other for id in wanted for other in self._needed(id))
+        changes = {id: values for id, values in self._given.items() if id in needed}
+        found = ledger.evaluate(changes, only=needed)
+        made = {}
+        for id in wanted:
+            values = found[id]
+            if signed := self._signed(id):
+                corner, scale, way = signed
+                values = np.real(np.conj(way) * found[corner]) * found[scale]
+            size = len(ledger[id].values)
+            rows = np.full((len(self.variants), size), np.nan, dtype=values.dtype)
+            rows[[one is not None for one in self.variants]] = values
+            made[id] = rows
+        return made
+
+
+def _is_scale(family: Family) -> bool:
+    """Whether it is the scale of a plan, which is chosen and changes by jumps."""
+    return family.kind.endswith(("scale", "on paper"))

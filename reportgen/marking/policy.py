@@ -1,0 +1,143 @@
+"""How strictly a class is marked: tolerances, points, what is asked, which flags cost marks, and the mark."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Decimal, Flag, Interval, TypedText, Whole, quantity
+from reportgen.assignment.reading import read_model
+from reportgen.base.units import Given, Language
+from reportgen.marking.bands import DIGITS, PAPER_ERROR
+from reportgen.marking.key import Ask
+
+TAKES = frozenset({"stock", "columns", "other-data", "classmate-sheet"})
+"""Kinds of flags that cost marks unless the policy says otherwise: what is beyond doubt."""
+FLAGS_ONLY = frozenset({"constant", "classmate"})
+"""Kinds that are told and cost nothing unless the policy says so."""
+
+
+@dataclass(frozen=True, slots=True)
+class Scale:
+    """How the mark of a sheet is told: the highest one, and the step to which marks are rounded."""
+
+    highest: float = 10.0
+    step: float = 0.1
+
+    def mark(self, share: float) -> float:
+        """The mark for a share of the points; half a step is rounded up."""
+        # 1e-9: a share such as 0.85 is a little off as a float.
+        return round(math.floor(share * self.highest / self.step + 0.5 + 1e-9) * self.step, 6)
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """What the sheet asks for, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
+
+    `take` says which kinds of flags cost marks, `overrule` gives the reason why a sheet keeps its marks in any case.
+    """
+
+    paper: float = PAPER_ERROR
+    digits: int = DIGITS
+    share: float = 0.005
+    right: float = 1.0
+    follows: float = 1.0
+    weights: Mapping[str, float] = field(default_factory=dict)
+    guard: bool = True
+    show_answers: bool = True
+    take: Mapping[str, bool] = field(default_factory=dict)
+    overrule: Mapping[str, str] = field(default_factory=dict)
+    ask: Ask = field(default_factory=Ask)
+    scale: Scale = field(default_factory=Scale)
+    parts: Mapping[str, float] = field(default_factory=dict)
+    """The shares of the parts of a coursework, by name; without them each value counts alike."""
+    file: Path | None = None
+
+    def takes(self, kind: str, assignment: str) -> bool:
+        """Whether a kind of flag costs marks on the sheet of an assignment."""
+        return assignment not in self.overrule and self.take.get(kind, kind in TAKES)
+
+    def worth(self, id: str) -> float:
+        """The points that a quantity is worth at one position."""
+        return next((weight for pattern, weight in self.weights.items() if fnmatchcase(id, pattern)), 1.0)
+
+
+class _Tolerance(Part):
+    paper: Annotated[Given | None, quantity("mm", least=0, most=5)] = None
+    digits: Annotated[int, Whole(2, 6)] = DIGITS
+    share: Annotated[float, Decimal(Interval(least=0, most=0.2))] = 0.005
+
+
+class _Points(Part):
+    right: Annotated[float, Decimal(Interval(least=0, most=100))] = 1.0
+    follows: Annotated[float, Decimal(Interval(least=0, most=100))] = 1.0
+
+
+class _Mark(Part):
+    highest: Annotated[float, Decimal(Interval(above=0, most=1000))] = Scale().highest
+    step: Annotated[float, Decimal(Interval(above=0, most=100))] = Scale().step
+
+
+class _PolicyFile(Part):
+    ask: Annotated[tuple[Annotated[str, TypedText()], ...], Field(min_length=1)] = Ask().patterns
+    by_section: Annotated[bool, Flag()] = False
+    tolerance: _Tolerance = _Tolerance()
+    points: _Points = _Points()
+    weights: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
+    mark: _Mark = _Mark()
+    guard: Annotated[bool, Flag()] = True
+    take: dict[str, Annotated[bool, Flag()]] = {}  # noqa: RUF012
+    overrule: dict[str, Annotated[str, TypedText()]] = {}  # noqa: RUF012
+    show_answers: Annotated[bool, Flag()] = True
+    parts: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
+
+
+def read_policy(path: Path, language: Language | None = None) -> Policy:
+    """The policy of a YAML file; raises `AssignmentError` with all its faults, located.
+
+    ask: ["*", "-seg.*"]     # sections and ids of the answer sheet; "-" leaves out, the last that fits decides
+    by_section: false        # each section of the printed sheet on pages of its own
+    tolerance:
+      paper: 0.5 mm          # how far off each end of a measured length may lie
+      digits: 3              # figures that values are computed with
+      share: 0.005           # of the quantity's maximum within a quarter turn
+    points: {right: 1, follows: 1}
+    weights:                 # by id of the quantity, the first pattern that fits; 0: not marked
+      "seg.*": 0.5
+      "M.eq": 5
+    mark: {highest: 10, step: 0.1}
+    guard: true              # sheets that are not the student's own work are told
+    take:                    # by kind of what is told: whether it costs marks
+      other-data: false
+    overrule:                # sheets that keep their marks, and why
+      K225520103023: has shown the drawings
+    show_answers: true       # the feedback tells the right values
+    parts:                   # what each part of a coursework counts; else as many points as values are asked for
+      machine: 6
+      cam: 4
+    """
+    content = read_model(path, _PolicyFile, language)
+    tolerance, points = content.tolerance, content.points
+    return Policy(
+        paper=PAPER_ERROR if tolerance.paper is None else tolerance.paper.si,
+        digits=tolerance.digits,
+        share=tolerance.share,
+        right=points.right,
+        follows=points.follows,
+        weights=content.weights,
+        guard=content.guard,
+        show_answers=content.show_answers,
+        take=content.take,
+        overrule=content.overrule,
+        ask=Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
+        scale=Scale(content.mark.highest, content.mark.step),
+        parts=content.parts,
+        file=path,
+    )

@@ -1,0 +1,190 @@
+"""One assignment opened for marking: what is asked, how far off it may be, what stands on what."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.formula import Product, Ref, vocabulary
+from reportgen.formula.ledger import Ledger, standing_on
+from reportgen.marking.bands import computed_bands, drawn_bands, is_chosen_length, is_direction
+from reportgen.marking.key import key_of
+from reportgen.marking.marks import Place
+from reportgen.marking.policy import Policy
+from reportgen.report.case import Case, Misconceptions
+from reportgen.report.key import Key, KeyRow, Role
+
+Values = Mapping[str, np.ndarray]
+"""Values (SI) by id, [N] or [1]."""
+
+ALMOST = 1e-12
+"""Room for rounding in a comparison with a band."""
+
+
+@dataclass(frozen=True)
+class MarkingScheme:
+    """An assignment opened for marking."""
+
+    key: Key
+    ledger: Ledger
+    misconceptions: Misconceptions
+    count: int
+    """Positions of one turn."""
+    policy: Policy
+    parts: tuple[MarkingScheme, ...] = ()
+    """Those of the parts of a coursework, each by its own ids."""
+
+    @cached_property
+    def bands(self) -> dict[str, np.ndarray]:
+        """The tolerances (SI) [N] of every row of the key.
+
+        They are the widest of drawing, rounding and a share of the quantity's maximum within a quarter turn.
+        """
+        return self.bands_at({})
+
+    @cached_property
+    def _computed(self) -> dict[str, np.ndarray]:
+        return computed_bands(self.ledger, self.policy.digits)
+
+    def bands_at(self, scales: Values) -> dict[str, np.ndarray]:
+        """The tolerances (SI) [N] where plans are drawn at multiples of the report's scales."""
+        policy = self.policy
+        drawn, computed = drawn_bands(self.ledger, policy.paper, scales), self._computed
+        return {
+            row.id: np.maximum(np.maximum(drawn[row.id], computed[row.id]), policy.share * self._size_near(row.id))
+            * (1 + ALMOST)
+            for row in self.key.rows
+        }
+
+    def size(self, id: str) -> float:
+        """The largest value of a quantity over the turn (SI); of an angle, a full turn."""
+        if is_direction(id):
+            return 2 * np.pi
+        values = np.abs(self.ledger[id].values)
+        return float(values[np.isfinite(values)].max(initial=0.0))
+
+    def _size_near(self, id: str) -> np.ndarray:
+        """The largest value of a quantity within a quarter turn of each position (SI) [N]; of an angle, a full turn.
+
+        So the pressure of combustion makes no room in the intake stroke.
+        """
+        values = np.nan_to_num(np.abs(self.ledger[id].values))
+        if is_direction(id) or len(values) == 1:
+            return np.full(len(values), self.size(id))
+        reach = min(-(-self.count // 4), len(values) // 2)
+        near: np.ndarray = np.max([np.roll(values, shift) for shift in range(-reach, reach + 1)], axis=0)
+        return near
+
+    def distance(self, id: str, values: np.ndarray | float, references: np.ndarray | float) -> np.ndarray:
+        """How far values (SI) lie apart: directions around the circle; what has no sense of its own by size."""
+        if self.is_unsigned(id):
+            values, references = np.abs(values), np.abs(references)
+        return np.asarray(vocabulary.distance(id, np.asarray(values), np.asarray(references)))
+
+    def is_unsigned(self, id: str) -> bool:
+        """Whether the sign of a quantity is not judged: an arm's, or one of which the sheet leaves the sense open."""
+        row = self.key.find(id)
+        return self.ledger[id].arm or (row is not None and row.open_sense)
+
+    @cached_property
+    def rows(self) -> dict[str, KeyRow]:
+        """The rows that a sheet may fill in."""
+        return {row.id: row for row in self.key.asked}
+
+    @cached_property
+    def judged(self) -> tuple[KeyRow, ...]:
+        """The rows that earn marks, in the ledger's order; how long the crank is drawn is the student's own choice."""
+        order = {id: index for index, id in enumerate(self.ledger.families)}
+        kept = (row for row in self.key.asked if row.kind != "segment" or row.role is not Role.scale)
+        return tuple(sorted(kept, key=lambda row: order[row.id]))
+
+    @cached_property
+    def before(self) -> dict[str, tuple[str, ...]]:
+        """Every quantity that a judged one stands on, nearest first."""
+        return {row.id: standing_on(self.ledger, row.id) for row in self.judged}
+
+    @cached_property
+    def alike(self) -> dict[str, tuple[str, ...]]:
+        """Of each judged row those before it that have its values at all positions."""
+        alike: dict[str, tuple[str, ...]] = {}
+        for number, row in enumerate(self.judged):
+            own = self.ledger[row.id]
+            before = (
+                earlier
+                for earlier in self.judged[:number]
+                if earlier.kind == row.kind and len(earlier.values) == len(row.values)
+            )
+            alike[row.id] = tuple(
+                earlier.id
+                for earlier in before
+                if np.allclose(own.values, self.ledger[earlier.id].values, rtol=1e-9, atol=0, equal_nan=True)
+            )
+        return alike
+
+    @cached_property
+    def makers(self) -> dict[str, tuple[str, str]]:
+        """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
+        makers: dict[str, tuple[str, str]] = {}
+        for row in self.judged:
+            scale = vocabulary.plan(row.id)
+            if row.single and scale in self.ledger and scale not in makers and makes_scale(self.ledger, row.id, scale):
+                value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
+                sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
+                size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
+                if size:
+                    makers[scale] = size, row.id
+        return makers
+
+    @cached_property
+    def sizes(self) -> dict[str, set[str]]:
+        """The quantities that each length of a plan stands for: μ times it, and the size of the vector laid as it."""
+        sizes: dict[str, set[str]] = {id: set() for id in self.ledger.families if vocabulary.plan(id)}
+        for id, family in self.ledger.families.items():
+            if isinstance(family.definition, Product) and len(family.definition.factors) == 2:
+                used = [factor.id for factor in family.definition.factors if isinstance(factor, Ref)]
+                for length in used:
+                    if vocabulary.plan(length) in used:
+                        sizes[length].add(id)
+            if id in sizes and family.of in self.ledger:
+                sizes[id].add(self.ledger[family.of].of)
+        return sizes
+
+    def stands_on(self, place: Place, places: Container[Place]) -> bool:
+        """Whether a value on the sheet stands on one at any of `places`."""
+        id, position = place
+        rows = (self.rows[before] for before in self.before[id] if before in self.rows)
+        return any((row.id, self.place(row, position)) in places for row in rows)
+
+    @cached_property
+    def _repeated(self) -> dict[str, bool]:
+        return {
+            row.id: not row.single and max(row.positions, default=0) <= self.count < len(row.values)
+            for row in self.key.rows
+        }
+
+    def repeats(self, row: KeyRow) -> bool:
+        """Whether a quantity is asked for in the first turn only, because all turns are the same."""
+        return self._repeated[row.id]
+
+    def place(self, row: KeyRow, position: int) -> int:
+        """The position at which the sheet asks for a quantity that one at `position` stands on."""
+        if row.single:
+            return 0
+        return (position - 1) % self.count + 1 if self.repeats(row) else position
+
+
+def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
+    """The marking scheme of an assignment, computed as its report is."""
+    parts = tuple(marking_scheme(part, policy) for part in case.parts.values())
+    return MarkingScheme(key_of(case), case.ledger, case.misconceptions, case.span.count, policy or Policy(), parts)
+
+
+def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:
+    """Whether a length on paper is the one that a scale was made from: the drawn crank, pa."""
+    if scale == "mu.l":
+        return is_chosen_length(ledger, ledger[id])
+    definition = ledger[id].definition
+    return isinstance(definition, Ref) and ledger[definition.id].definition is None

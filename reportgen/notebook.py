@@ -1,0 +1,274 @@
+"""What a script or a notebook holds: an assignment opened, its quantities as arrays, its figures, curves and tables."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen import api, catalogue
+from reportgen.assignment import Assignment
+from reportgen.assignment.reading import name_faults
+from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
+from reportgen.base.files import put_file, reported
+from reportgen.base.source import MappingNode, Scalar, Source, read_source, read_text
+from reportgen.base.source_text import at, put
+from reportgen.base.units import Given, Language
+from reportgen.base.words import as_error, language_of, unknown, word
+from reportgen.cases import opened
+from reportgen.drawing import Diagram, Scene
+from reportgen.drawing.sheet import sheets
+from reportgen.export import curves, figures
+from reportgen.export.curves import Over
+from reportgen.export.figures import MovingFigure
+from reportgen.export.quantities import QuantityArray, quantity, shown
+from reportgen.export.study import Study
+from reportgen.report import TEXT_WIDTH
+from reportgen.report.case import Case
+from reportgen.report.named_figures import NamedFigure, named_figures
+
+PARAMETERS = "parameters"
+UNNAMED = Path("assignment.yaml")
+"""What a text or a dict is called in messages."""
+
+
+def open(source: Path | str | Mapping[str, Any], language: Language | None = None) -> Model:
+    """An assignment to work with: a file by its path, or the content of one as a text of several lines or a dict.
+
+    Raises `AssignmentError` with all faults, located.
+    """
+    if isinstance(source, Mapping):
+        # JSON is YAML: each key has a line of its own.
+        return Model(read_text(json.dumps(source, ensure_ascii=False, indent=1), str(UNNAMED)), UNNAMED, language)
+    if isinstance(source, str) and "\n" in source:
+        return Model(read_text(source, str(UNNAMED)), UNNAMED, language)
+    return Model(read_source(Path(source)), Path(source), language)
+
+
+class Model:
+    """An opened assignment; `model["v.E"]` is a quantity at its positions, in SI units."""
+
+    def __init__(self, source: Source, path: Path, language: Language | None = None) -> None:
+        assignment, faults = catalogue.assess(source, path)
+        faults = [*name_faults(path), *faults]
+        if assignment is None or faults:
+            raise as_error(faults, language or language_of(source))
+        self._source, self._path, self._language = source, path, language
+        self.assignment: Assignment = assignment.with_language(language) if language else assignment
+
+    def __repr__(self) -> str:
+        return f"<{self.assignment.kind} {self.assignment.id}>"
+
+    @cached_property
+    def case(self) -> Case:
+        """All that is computed of it."""
+        return opened(self.assignment)
+
+    # --- numbers
+
+    @property
+    def ids(self) -> list[str]:
+        """The ids of what changes from position to position, as answer sheets and keys have them."""
+        return list(shown(self.case))
+
+    def __getitem__(self, id: str) -> QuantityArray:
+        """A quantity [N], or [1] of one that is the same at all positions; what moves on a line has its sign along it.
+
+        Raises `UnknownNameError`.
+        """
+        return quantity(self.case, id).array
+
+    def with_parameters(self, **values: Any) -> Model:
+        """The same with other parameters: texts with units, "260 mm", or numbers in SI units.
+
+        Names with dots lead into others, `**{"cutting.F": "900 N"}`.  Raises `AssignmentError` as for a file.
+        """
+        top = self._source.top
+        assert isinstance(top, MappingNode), "an assignment in order is a table"
+        for name, value in values.items():
+            where = (PARAMETERS, *name.split("."))
+            nearest = next(node for step in range(len(where), -1, -1) if (node := at(top, where[:step])) is not None)
+            changed = put(top, where, Scalar(self._written(where, value), nearest.mark))
+            assert isinstance(changed, MappingNode), "a key is put into a table"
+            top = changed
+        return Model(replace(self._source, top=top), self._path, self._language)
+
+    def _written(self, where: tuple[str, ...], value: Any) -> str:
+        """A value as a file has it: a number in the unit that stands there already."""
+        if isinstance(value, str):
+            return value
+        known: Any = self.assignment
+        for step in where:
+            fields = {(one.alias or name): name for name, one in getattr(type(known), "model_fields", {}).items()}
+            known = getattr(known, fields.get(step, step), None)
+        if isinstance(known, Given) and known.unit and known.value:
+            return f"{float(value) / (known.si / known.value)!r} {known.unit}"
+        return repr(value.item() if isinstance(value, np.generic) else value)
+
+    def study(self, *, of: Sequence[str], **values: Sequence[Any] | np.ndarray) -> dict[str, QuantityArray]:
+        """Quantities [values, positions] by their ids over ranges of parameters, which go side by side.
+
+        Numbers are in SI units.  A value that `check` refuses has nan.  Raises `UnknownNameError`, `ValueError` for
+        ranges of different lengths, `AssignmentError` where all values are refused.
+        """
+        rows = [dict(zip(values, row, strict=True)) for row in zip(*values.values(), strict=True)]
+        variants: list[Assignment | None] = []
+        refused: AssignmentError | None = None
+        for row in rows:
+            try:
+                variants.append(self.with_parameters(**row).assignment)
+            except AssignmentError as error:
+                refused = error
+                variants.append(None)
+        if refused is not None and not any(variants):
+            raise refused
+        return Study(variants, opened).values(of)
+
+    def table(self, positions: int | None = None) -> ResultTable:
+        """The results as a table, a row a position, of so many positions a turn; raises `NotOfferedError`."""
+        from reportgen.results.files import result_rows
+
+        head, *rows = result_rows(api.solve(self.assignment, positions))
+        return ResultTable(tuple(map(str, head)), tuple(map(tuple, rows)))
+
+    # --- figures and curves
+
+    def diagram(self, *of: str, over: Over = "phi", label: str = "") -> Diagram:
+        """Quantities of one unit as curves through a turn.
+
+        Raises `UnknownNameError`, `NotOfferedError` for what is no curve, `ValueError` for quantities of several units.
+        """
+        found = curves.diagrams([self._dense], of, over)
+        if len(found) != 1:
+            raise ValueError(f"one unit a chart, not {len(found)}")
+        (diagram,) = found.values()
+        if label:
+            diagram = replace(diagram, curves=tuple(replace(one, label=label) for one in diagram.curves))
+        return diagram
+
+    @cached_property
+    def _dense(self) -> Case:
+        return opened(curves.dense(self.assignment))
+
+    def plot(self, *of: str, ax: Any = None, over: Over = "phi", label: str = "", **look: Any) -> Any:
+        """Draw quantities of one unit on axes of matplotlib, on the current ones without `ax`, and give the axes back.
+
+        `look` is that of matplotlib's `plot`.
+        """
+        if ax is None:
+            from reportgen.writers import figure
+
+            ax = figure.current_axes()
+        return self.diagram(*of, over=over, label=label).on(ax, self.assignment.language, **look)
+
+    @property
+    def figures(self) -> list[str]:
+        """The names of its figures, then of what moves."""
+        return list(dict.fromkeys([*(one.name for one in self._still), *(one.name for one in self._moving)]))
+
+    def figure(self, name: str, at: str | int = "") -> ShownFigure:
+        """A figure by its name, v.4, or with a position `at` only what it shows, v; it shows itself in a notebook.
+
+        Raises `UnknownNameError`, `NotOfferedError`.
+        """
+        case, labels = api.worked_at(self.assignment, str(at)) if at != "" else (self.case, ())
+        still = self._still if case is self.case else named_figures(case.document())
+        moving = next((one for one in self._moving if one.name == name), None)
+        query = figures.FigureQuery((name,), labels)
+        scenes = (scene for _, scene in figures.drawings(still, query, self._moving, self.assignment.language))
+        return ShownFigure(name, tuple(scenes), self.assignment.language, moving)
+
+    @cached_property
+    def _still(self) -> tuple[NamedFigure, ...]:
+        return named_figures(self.case.document())
+
+    @cached_property
+    def _moving(self) -> tuple[MovingFigure, ...]:
+        return figures.moving(self.case)
+
+    def _repr_html_(self) -> str:
+        """Its given data, as a notebook shows it."""
+        rows = "".join(
+            f"<tr><td>{html.escape(name)}</td><td>{html.escape(str(getattr(value, 'text', value)))}</td></tr>"
+            for name, value in self.assignment.parameters
+            if value is not None
+        )
+        return f"<p><b>{html.escape(self.case.title)}</b> {html.escape(self.assignment.id)}</p><table>{rows}</table>"
+
+
+@dataclass(frozen=True, slots=True)
+class ShownFigure:
+    """A figure of a report, several drawings of it together, or what moves."""
+
+    name: str
+    scenes: tuple[Scene, ...]
+    language: Language
+    moving: MovingFigure | None = None
+
+    @property
+    def scene(self) -> Scene:
+        """Its drawings on one sheet, in rows as in the report."""
+        return self.scenes[0] if len(self.scenes) == 1 else sheets(self.scenes, TEXT_WIDTH, float("inf"), trim=0.0)[0]
+
+    @property
+    def diagrams(self) -> tuple[Diagram, ...]:
+        """What its charts are painted of; none of a drawing."""
+        return tuple(scene.diagram for scene in self.scenes if scene.diagram is not None)
+
+    def save(self, path: Path | str, dpi: int = 0, layers: Sequence[str] = figures.SHOWN) -> Path:
+        """Write it to a file, as the ending of its name says: svg, png, pdf, eps; of what moves also gif, mp4.
+
+        Raises `NotOfferedError` for another ending, `TypesetterError`, `OutputError`.
+        """
+        path = Path(path)
+        format = path.suffix.lower().removeprefix(".")
+        if format in figures.STILL:
+            (content,) = figures.drawn([self.scene], self.language, [format], dpi)[format]
+        elif format in figures.MOVING and self.moving is not None:
+            content = figures.animated(self.moving.frames(layers), self.language, format, dpi)
+        elif format in figures.MOVING:
+            raise NotOfferedError(word("figure_stands", self.language, text=self.name, known=""))
+        else:
+            raise UnknownNameError(unknown("no_format", format, figures.FORMATS, self.language))
+        with reported(path):
+            put_file(path, content)
+        return path
+
+    def _repr_svg_(self) -> str:
+        return figures.drawn([self.scene], self.language)["svg"][0].decode()
+
+
+@dataclass(frozen=True, slots=True)
+class ResultTable:
+    """Results, a row a position; a column has the way to its number in the JSON of `solve` as its name."""
+
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Any, ...], ...]
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        """A column of numbers; nan where there is none.  Raises `KeyError`."""
+        if column not in self.columns:
+            raise KeyError(column)
+        at = self.columns.index(column)
+        return np.array([np.nan if row[at] is None else row[at] for row in self.rows])
+
+    def to_dataframe(self) -> Any:
+        """It as a `pandas.DataFrame`; raises `ImportError` where pandas is not installed."""
+        import pandas
+
+        return pandas.DataFrame(list(self.rows), columns=list(self.columns))
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{html.escape(name)}</th>" for name in self.columns)
+        rows = "".join(f"<tr>{''.join(f'<td>{_cell(value)}</td>' for value in row)}</tr>" for row in self.rows)
+        return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else html.escape("" if value is None else str(value))
