@@ -96,6 +96,8 @@ class _Samples:
     def knots(self) -> np.ndarray:
         """The samples of one turn (rad), from 0 to a whole turn."""
         machine = self.machine
+        if machine.instants:
+            return np.linspace(0.0, FULL_TURN, machine.count + 1)
         own = np.mod(machine.cycle_angles[: machine.count], FULL_TURN * (1 + SAME_SAMPLE))
         wanted = np.concatenate((own, self._jumps()))
         grid = np.linspace(0.0, FULL_TURN, SAMPLES + 1)
@@ -120,6 +122,9 @@ class _Samples:
     @cached_property
     def angles(self) -> np.ndarray:
         """The cycle angles (rad) of all samples: those of a turn, turn after turn, to the end of the last."""
+        if self.machine.instants:
+            # The last sample closes the round that the page makes from the last instant to the first.
+            return np.append(self.machine.cycle_angles, self.machine.cycle_angles[0])
         turns = np.arange(self.machine.turns)[:, None] * FULL_TURN
         return np.append((turns + self.knots[:-1]).ravel(), self.machine.turns * FULL_TURN)
 
@@ -149,13 +154,14 @@ class _Samples:
         machine, report = self.machine, self.report
         panes = tuple(self.panes())
         layers = {item.layer for item in panes[0].items}
+        places = self.knots[:-1] if machine.instants else machine.cycle_angles
+        stands = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
         return Animation(
             knots=np.degrees(self.knots),
-            turns=machine.turns,
+            turns=1 if machine.instants else machine.turns,
             span=machine.span * MM,
-            positions=tuple(
-                (str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(machine.cycle_angles))
-            ),
+            positions=tuple((str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(places))),
+            instants=tuple(map(float, stands * MM if machine.span else np.degrees(stands))),
             shown=self.case.assignment.worked_positions[0] - 1,
             panes=panes,
             charts=tuple(self.charts()),
@@ -191,7 +197,7 @@ class _Samples:
         items = linkage_items(linkage, motion, shown, scale, look)
         low, high = extent(items)
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
-        items = path_items(linkage, motion, names, scale) + items
+        items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]
         for kind, rate, layer in (("velocity", "v", "velocities"), ("acceleration", "a", "accelerations")):
             arrows, per = self._rates(rate, layer, scale)
@@ -225,7 +231,7 @@ class _Samples:
     @cached_property
     def _one_turn(self) -> Motion:
         """The motion at the samples of one turn."""
-        return motion_at(self.machine, self.knots)
+        return motion_at(self.machine, self.angles if self.machine.instants else self.knots)
 
     def _rates(self, rate: str, layer: str, scale: float) -> tuple[list[MovingItem], float]:
         """The velocities or accelerations of the points as arrows at them, the longest as long as it may be, to scale.
@@ -367,6 +373,8 @@ class _Samples:
 
     def charts(self) -> Iterator[Chart]:
         report = self.report
+        if report.instants:
+            return
         for curves, title in curves_of_motion(report):
             tracks = tuple(Curve(symbol, self.turn(values)) for symbol, values in curves)
             yield _chart(report, over_a_turn(report, curves, title, half=True), tracks, title)
@@ -413,6 +421,8 @@ class _Samples:
         Of places it is bounded by h²/8 times the greatest second derivative by the driver's angle, which is the
         acceleration over ω²; of rates and forces it is what the middles between samples show, jumps left out.
         """
+        if self.machine.instants:
+            return Errors(0.0, 1.0, 0.0)
         middles = (self.angles[1:] + self.angles[:-1]) / 2
         steps = np.diff(self.angles)
         wide = steps > 4 * BESIDE
