@@ -52,7 +52,8 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
     *("centre", "pin", "others", "names", "arm", "kind", "rate", "drawn", "velocity"),
     *("velocity_segment", "acceleration_segment", "round_velocity", "round_acceleration"),
     *("velocity_lines", "acceleration_lines", "scale_lines"),
-    *("rate2", "accelerated", "normal_segment", "tangential_segment", "component_lines"),
+    *("rate2", "accelerated", "normal_segment", "component_lines", "component_segments"),
+    *("component_scale_lines", "acceleration_scale_lines"),
 )
 class DriverView:
     """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
@@ -85,8 +86,11 @@ class DriverView:
         faster = ids.angular_acceleration(DRIVER) if self.centre else ids.acceleration(self.pin)
         self.accelerated = faster in ledger and bool(ledger[faster].values[0])
         self.rate2 = ledger.symbol(faster if self.accelerated else ids.velocity(self.pin))
-        self.normal_segment, self.tangential_segment = (ids.relative_segment(part, self.pin) for part in "nt")
+        self.component_segments = [ids.relative_segment(part, self.pin) for part in "nt"]
+        self.normal_segment, tangential = self.component_segments
         self.component_lines = ledger.known(ids.acceleration(self.pin, part) for part in "nt")
+        self.component_scale_lines = ["mu.a", tangential]
+        self.acceleration_scale_lines = ["mu.a", self.acceleration_segment]
 
 
 @view("base", "omega", "epsilon")
