@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads
+from reportgen.catalogue import declared_loads, wide_sliders
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -27,6 +27,7 @@ def outline(
     *,
     curves: bool = True,
     further: bool = False,
+    faces: bool = False,
     sizes: str = "dimensions",
     load: str = "working",
     summary: tuple[str, ...] = (),
@@ -36,7 +37,8 @@ def outline(
     """The report's sections in order; without mass and load it ends with the kinematics.
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
-    kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind.
+    kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, and
+    sliders may have `faces`.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
@@ -45,7 +47,8 @@ def outline(
     inertia = ("loads",) if masses else ()
     wheel = () if flywheel is None else ("flywheel",)
     beside = ("further-loads",) if further else ()
-    return (*kinematics, load, *beside, *inertia, "groups", driver, *wheel, *CLOSING)
+    wide = ("faces",) if faces else ()
+    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *wheel, *CLOSING)
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
@@ -94,6 +97,7 @@ def driven(
     motion_at = crank_motion(linkage, positions, start)
     declared = declared_loads.loads(given.loads, linkage, motion_at, of_kind, through=not positions.at)
     loads = LoadsByKind.of((*of_kind, *declared))
+    faces = wide_sliders.entered(given.faces, linkage, q)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     for row in rows:
         # What a kind sets out by its name is its own load.
@@ -103,7 +107,11 @@ def driven(
     acts = LoadsByKind.of(of_kind).act
     if parts.get("load") == "cycle" and not acts:
         parts["load"] = "no-gas"
-    parts |= {"curves": not positions.at, "further": bool(rows) and (acts or parts.get("load") == "no-gas")}
+    parts |= {
+        "faces": bool(faces),
+        "curves": not positions.at,
+        "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
+    }
     fields: dict[str, Any] = {
         "count": positions.number,
         "turns": turns,
@@ -119,6 +127,7 @@ def driven(
         turn=positions.sign,
         speed=given.speed,
         acceleration=given.acceleration,
+        faces=faces,
         sheet=q,
         unevenness=given.unevenness,
         applied=loads.applied,

@@ -15,7 +15,7 @@ import numpy as np
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import declared_loads, linkage_checks
+from reportgen.catalogue import declared_loads, linkage_checks, wide_sliders
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import outline
 from reportgen.catalogue.given_sheet import GivenSheet
@@ -129,11 +129,13 @@ def machine(assignment: Assignment) -> Machine:
     q = _sheet(given, linkage, built, drawn.si if drawn else None)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
+    faces = wide_sliders.entered(given.faces, linkage, q)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
         built,
         sheet=q,
+        faces=faces,
         formulas=loops.write,
         compared=tuple(loops.compared),
         equations=loops.equations,
@@ -145,6 +147,7 @@ def machine(assignment: Assignment) -> Machine:
             loads.act,
             given.flywheel,
             curves=not positions.at,
+            faces=bool(faces),
             driver="crank" if crank else "slide",
         ),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,

@@ -27,7 +27,8 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
-from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading
+from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
+from reportgen.catalogue.wide_sliders import Face
 from reportgen.machine import DRIVER
 
 Unevenness = Annotated[Given, Ratio(Interval(least=1e-4, most=0.5))]
@@ -51,10 +52,11 @@ OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s":
 
 
 class UnderGravity(Part):
-    """Where a machine stands: gravity, which does not act in a horizontal plane."""
+    """Where a machine stands: gravity, which does not act in a horizontal plane; how wide its sliders are."""
 
     g: Gravity = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     plane: Literal["horizontal"] | None = None
+    faces: Annotated[dict[Link, Face], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
 
     @property
     def gravity(self) -> float:

@@ -13,11 +13,21 @@ import numpy as np
 from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
-from reportgen.machine.forces import Forces, Load, inertia_loads, mean_over, solve_forces, virtual_work_torque, weights
+from reportgen.machine.faces import Faces
+from reportgen.machine.forces import (
+    Forces,
+    Load,
+    inertia_loads,
+    mean_over,
+    reaction_name,
+    solve_forces,
+    virtual_work_torque,
+    weights,
+)
 from reportgen.machine.gas import indicated_work, stroke_at
 from reportgen.machine.laws import FULL_TURN, Stroke
-from reportgen.machine.loads import Applied, Piston, Torque
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.loads import Applied, Piston, Torque, carriers
+from reportgen.machine.motion import Motion, cross, solve_motion
 
 
 @dataclass(frozen=True)
@@ -51,6 +61,16 @@ class Analysis:
     @property
     def loads(self) -> tuple[Load, ...]:
         return (*self.inertia, *self.applied, *self.weights)
+
+    def at_ends(self, link: int) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+        """Of a slider with faces: the name of its reaction, whether it tilts [N], N₁ and N₂ (N) [N] where it does."""
+        faces, carrier = self.machine.faces[link], carriers(self.machine.linkage)[link]
+        name = reaction_name(carrier, link)
+        reaction = self.forces.reactions[name]
+        normal = cross(self.motion.slides[carrier, link].direction, reaction.force)
+        tilts = faces.tilts(normal, reaction.moment)
+        first, last = faces.ends(normal, reaction.moment)
+        return name, tilts, np.where(tilts, first, np.nan), np.where(tilts, last, np.nan)
 
     @cached_property
     def summary(self) -> Summary:
@@ -263,6 +283,8 @@ class Machine:
     """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
     acceleration: float = 0.0
     """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
+    faces: Mapping[int, Faces] = field(default_factory=dict)
+    """How wide sliders are, by their links."""
     instants: bool = False
     """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
     essential: tuple[str, ...] = ()

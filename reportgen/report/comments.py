@@ -209,7 +209,8 @@ def inertia_forces(report: Report) -> list[str]:
 def reaction_ids(report: Report) -> list[str]:
     """The reactions in all joints, each pair once."""
     names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
-    return report.known(ids.reaction(name) for name in (*names, "01"))
+    ends = (ids.face_reaction(name, number) for name in names for number in (1, 2))
+    return report.known((*(ids.reaction(name) for name in (*names, "01")), *ends))
 
 
 def greatest(report: Report, quantities: Iterable[str]) -> list[Peak]:

@@ -38,6 +38,7 @@ from reportgen.report import (
     plans,
     result_tables,
     tables,
+    wide_sliders,
 )
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
@@ -147,6 +148,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "driver_reactions": chapters.driver_reactions,
     "energy_bounds": chapters.energy_bounds,
     "further_loads": chapters.further_loads,
+    "wide_sliders": wide_sliders.wide_sliders,
     "gas_forces": chapters.gas_forces,
     "inertia_parts": chapters.inertia_parts,
     "lever_couples": chapters.lever_couples,
@@ -323,6 +325,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "gas": QuantityTable(result_tables.gas, "load_positions"),
     "inertia": QuantityTable(result_tables.inertia, "all_positions"),
     "R": QuantityTable(result_tables.reactions, "all_positions"),
+    "faces": RowTable(wide_sliders.rows, (20.0, 28.0, 28.0, 46.0, 28.0, 28.0)),
     "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
     "M": QuantityTable(result_tables.balance, "all_positions"),
@@ -401,6 +404,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "centre_state": centres.centre_state,
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
+    "face_state": wide_sliders.face_state,
     "first_turn": Report.first_turn,
     "parts": Report.parts,
     "force_list": equations.force_list,

@@ -265,6 +265,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("gravity in a plane", {"AB: 120 mm": "…\n  plane: horizontal\n  g: 9.8 m/s2"}, "6:6 plane-with-gravity"),
         ("a weight without gravity", {"AB: 120 mm": "…\n  g: 0 m/s2\n  G2: 3 N"}, "6:3 weight-without-gravity", "m2"),
         ("a load on no link", {"AB: 120 mm": "…\n  loads: [{by: constant, link: 4, M: 2 N m}]"}, "5:32 no-such-link"),
+        ("a face of no slider", {"AB: 120 mm": "…\n  faces: {3: {from: -1 mm, to: 2 mm}}"}, "5:11 no-slider"),
         (
             "a load at no point of its link",
             {"AB: 120 mm": "…\n  loads: [{by: constant, link: 3, at: B, F: 2 N}]"},
