@@ -291,19 +291,22 @@ def quantity(unit: str, **ends: float) -> Quantity:
 
 
 @dataclass(frozen=True, slots=True)
-class DriverPlace(Reader):
-    """Where a driver stands: the angle of a crank, or the way of a slider."""
+class Either(Reader):
+    """A quantity of one dimension or of another: the angle of a crank, or the way of a slider."""
+
+    first: Quantity
+    second: Quantity
 
     def read(self, value: object) -> Given:
         try:
-            return quantity("deg", least=-360, most=720, tiny=1e-6).read(value)
+            return self.first.read(value)
         except PydanticCustomError as wrong:
             if (wrong.context or {}).get("code") != "wrong-unit":
                 raise
-        return quantity("mm", above=-1e5, below=1e5, tiny=1e-4).read(value)
+        return self.second.read(value)
 
     def schema(self) -> dict[str, Any]:
-        return Quantity("deg").schema() | {"examples": ["50 deg", "40 mm"]}
+        return self.first.schema() | {"examples": [f"1 {one.unit}" for one in (self.first, self.second)]}
 
 
 OneLine = Annotated[str, TypedText()]
@@ -324,7 +327,8 @@ Mass = Annotated[Given, quantity("kg", least=0, most=1e6, tiny=1e-6)]
 MomentOfInertia = Annotated[Given, quantity("kg m2", least=0, most=1e7, tiny=1e-12)]
 Gravity = Annotated[Given, quantity("m/s2", least=0, most=100, tiny=1e-3)]
 Acceleration = Annotated[Given, quantity("m/s2", least=-1e5, most=1e5, tiny=1e-6)]
-Instant = Annotated[Given, DriverPlace()]
+DEGREES, WAY = quantity("deg", least=-360, most=720, tiny=1e-6), quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
+Instant = Annotated[Given, Either(DEGREES, WAY)]
 Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5, tiny=1e-6)]
 RodRatio = Annotated[Given, Ratio(Interval(least=0.001, below=1), inverse="inverse-ratio")]
 Share = Annotated[Given, Ratio(Interval(least=0, most=1, tiny=1e-6))]

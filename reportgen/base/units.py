@@ -37,6 +37,8 @@ _MOMENT: Dimension = (("kilogram", 1), ("meter", 2), ("second", -2))
 _TIME: Dimension = (("second", 1),)
 _VELOCITY: Dimension = (("meter", 1), ("second", -1))
 _ACCELERATION: Dimension = (("meter", 1), ("second", -2))
+_STIFFNESS: Dimension = (("kilogram", 1), ("second", -2))
+_TORSION: Dimension = (("kilogram", 1), ("meter", 2), ("radian", -1), ("second", -2))
 _ANGULAR_ACCELERATION: Dimension = (("radian", 1), ("second", -2))
 
 PLAIN: Mapping[str, tuple[float, Dimension]] = {
@@ -64,6 +66,9 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "cm/s2": (1e-2, _ACCELERATION),
     "mm/s2": (1e-3, _ACCELERATION),
     "rad/s2": (1.0, _ANGULAR_ACCELERATION),
+    "N/mm": (1e3, _STIFFNESS),
+    "N/m": (1.0, _STIFFNESS),
+    "N m/rad": (1.0, _TORSION),
 }
 """SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, wide_sliders
+from reportgen.catalogue import declared_loads, given_springs, wide_sliders
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -27,6 +27,7 @@ def outline(
     *,
     curves: bool = True,
     further: bool = False,
+    springs: bool = False,
     faces: bool = False,
     sizes: str = "dimensions",
     load: str = "working",
@@ -37,8 +38,8 @@ def outline(
     """The report's sections in order; without mass and load it ends with the kinematics.
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
-    kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, and
-    sliders may have `faces`.
+    kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
+    be `springs`, and sliders may have `faces`.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
@@ -46,7 +47,7 @@ def outline(
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()
     wheel = () if flywheel is None else ("flywheel",)
-    beside = ("further-loads",) if further else ()
+    beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
     wide = ("faces",) if faces else ()
     return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *wheel, *CLOSING)
 
@@ -96,18 +97,20 @@ def driven(
     turns = own.get("turns", assignment.turns)
     motion_at = crank_motion(linkage, positions, start)
     declared = declared_loads.loads(given.loads, linkage, motion_at, of_kind, through=not positions.at)
-    loads = LoadsByKind.of((*of_kind, *declared))
+    of_springs, springs = given_springs.loads(given.springs, linkage, q, (*of_kind, *declared))
+    loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
-    for row in rows:
-        # What a kind sets out by its name is its own load.
-        q.lines = {name: tuple(id for id in lines if id != row.id) for name, lines in q.lines.items()}
-    own["facts"] = {**own.get("facts", {}), "declared": rows}
+    further = {*(row.id for row in rows), *(load.name for load in of_springs)}
+    # What a kind sets out by its name is its own load.
+    q.lines = {name: tuple(id for id in lines if id not in further) for name, lines in q.lines.items()}
+    own["facts"] = {**own.get("facts", {}), "declared": rows, "springs": springs}
     parts = dict(sections or {})
     acts = LoadsByKind.of(of_kind).act
     if parts.get("load") == "cycle" and not acts:
         parts["load"] = "no-gas"
     parts |= {
+        "springs": bool(springs),
         "faces": bool(faces),
         "curves": not positions.at,
         "further": bool(rows) and (acts or parts.get("load") == "no-gas"),

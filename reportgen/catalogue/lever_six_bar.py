@@ -15,6 +15,7 @@ from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length,
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly
+from reportgen.catalogue.declared_loads import against
 from reportgen.catalogue.driven import driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
 from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet
@@ -25,7 +26,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import ConstantLaw, Law, Stroke, opposing
+from reportgen.machine.laws import ConstantLaw, Law, Stroke
 from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_points
 
 TURNS = 1
@@ -275,7 +276,7 @@ def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: f
     size, sense = given.force.P.si, given.force.sense
     motion_at = crank_motion(linkage, positions, start, given.speed)
     if sense == "opposing":
-        law: Law = opposing(size, lambda angle: motion_at(angle).points["F"].v.real)
+        law: Law = against(size, lambda motion: motion.points["F"].v.real, motion_at, through=not positions.at)
     else:
         law = ConstantLaw(size if sense == "right" else -size)
     return (Applied("P5", 5, "F", fixed(1 + 0j), law),)

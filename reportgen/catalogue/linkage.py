@@ -15,7 +15,7 @@ import numpy as np
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions, of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import declared_loads, linkage_checks, wide_sliders
+from reportgen.catalogue import declared_loads, given_springs, linkage_checks, wide_sliders
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import outline
 from reportgen.catalogue.given_sheet import GivenSheet
@@ -65,7 +65,7 @@ def _check_weights(draft: Draft) -> Iterator[Finding]:
 
 CHECKS = (
     _check_speed,
-    needs_loads(("masses", "loads")),
+    needs_loads(("masses", "loads", "springs")),
     _check_flywheel,
     steady_flywheel("parameters", "driver", "epsilon1"),
     _check_weights,
@@ -123,10 +123,10 @@ def machine(assignment: Assignment) -> Machine:
         labels=labels,
     )
     declared = _loads(given, linkage, _motion_at(built), through=not positions.at)
-    loads = LoadsByKind.of(declared)
+    q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
+    of_springs, springs = given_springs.loads(given.springs, linkage, q, declared)
+    loads = LoadsByKind.of((*declared, *of_springs))
     acting = tuple(load.name for load in declared if load.name not in loads.idle)
-    drawn = assignment.drawing.crank
-    q = _sheet(given, linkage, built, drawn.si if drawn else None)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
     faces = wide_sliders.entered(given.faces, linkage, q)
@@ -147,11 +147,12 @@ def machine(assignment: Assignment) -> Machine:
             loads.act,
             given.flywheel,
             curves=not positions.at,
+            springs=bool(springs),
             faces=bool(faces),
             driver="crank" if crank else "slide",
         ),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
-        facts=facts(given, tuple(load.name for load in declared), acting),
+        facts={**facts(given, tuple(load.name for load in declared), acting), "springs": springs},
     )
 
 

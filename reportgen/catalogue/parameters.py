@@ -28,6 +28,7 @@ from reportgen.assignment.fields import (
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
+from reportgen.catalogue.given_springs import Spring
 from reportgen.catalogue.wide_sliders import Face
 from reportgen.machine import DRIVER
 
@@ -52,10 +53,11 @@ OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s":
 
 
 class UnderGravity(Part):
-    """Where a machine stands: gravity, which does not act in a horizontal plane; how wide its sliders are."""
+    """Where a machine stands: gravity, none in a horizontal plane; its springs; how wide its sliders are."""
 
     g: Gravity = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     plane: Literal["horizontal"] | None = None
+    springs: Annotated[tuple[Spring, ...], Field(max_length=MOST_LOADS)] = ()
     faces: Annotated[dict[Link, Face], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
 
     @property
@@ -94,7 +96,7 @@ class Driven(UnderGravity):
     ) -> None:
         of_masses, of_moments, of_shares = (tuple(sorted({DRIVER, *links})) for links in (masses, moments, shares))
         cls.links = {"G": of_masses, "m": of_masses, "J": of_moments, "s": of_shares}
-        cls.required, cls.evened = tuple(required), (*loads, "loads")
+        cls.required, cls.evened = tuple(required), (*loads, "loads", "springs")
         # A field of pydantic is an annotation with a default, which the body of the class would have had.
         for letter, numbers in cls.links.items():
             for number in numbers:

@@ -13,6 +13,7 @@ UNITS = {
     "m/s2": "m/s²",
     "rad/s2": "rad/s²",
     "N/cm2": "N/cm²",
+    "N m/rad": "N·m/rad",
 }
 """Units as they are printed, by what is typed."""
 

@@ -105,8 +105,9 @@ class Law(ABC):
     Who tells of a load asks its law here, never which class it has.
     """
 
-    kind: Literal["constant", "opposing", "tabled", "cutting"]
-    """How the load behaves: the same always, always against the motion, as in its table, while a tool cuts."""
+    kind: Literal["constant", "opposing", "tabled", "cutting", "spring"]
+    """How the load behaves: the same always, always against the motion, as in its table, while a tool
+    cuts, as a spring is stretched."""
 
     @abstractmethod
     def value(self, angle: Floats, motion: Motion) -> Floats:

@@ -167,7 +167,7 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
             q.give(ids.pressure(force.link), state.pressure, exact=False, written=_between_nodes(q, state))
         _size(q, force, analysis)
     for torque in machine.torques:
-        _size(q, torque, analysis, Symbol("M", str(torque.link)))
+        _size(q, torque, analysis)
 
 
 def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:

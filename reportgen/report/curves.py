@@ -142,6 +142,20 @@ def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: 
     return charts.plotted(diagram, half=half, area=report.area)
 
 
+def springs(report: Report) -> FigureScenes:
+    """The forces of springs over the cycle, those of torsion springs in a diagram of their own."""
+    by_kind: dict[str, list[Shown]] = {}
+    analysed = {load.name: load.law for load in report.loads}
+    cycle = report.dense_cycle
+    for row in report.own["springs"]:
+        # Both ends of a spring have one force.
+        name = row.loads[0]
+        values = analysed[name].value(cycle.cycle_angle, cycle.motion)
+        by_kind.setdefault(report.ledger[name].kind, []).append((report.ledger.symbol(name), values))
+    drawn = (over_the_cycle(report, shown, axis(shown[0][0], kind)).scene for kind, shown in by_kind.items())
+    return FigureScenes(tuple(drawn))
+
+
 # --- torque and forces over the cycle
 
 

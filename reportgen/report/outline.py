@@ -148,6 +148,8 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "driver_reactions": chapters.driver_reactions,
     "energy_bounds": chapters.energy_bounds,
     "further_loads": chapters.further_loads,
+    "spring_lines": chapters.spring_lines,
+    "spring_loads": chapters.spring_loads,
     "wide_sliders": wide_sliders.wide_sliders,
     "gas_forces": chapters.gas_forces,
     "inertia_parts": chapters.inertia_parts,
@@ -202,6 +204,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "lever": ("fig.lever", force_figures.lever),
     "polar": ("fig.polar", curves.polar),
     "torque": ("fig.M", curves.torque),
+    "springs": ("fig.springs", curves.springs),
     # the flywheel
     "flywheel-torque": ("fig.Mr", curves.flywheel_torque),
     "flywheel-work": ("fig.Jr", curves.flywheel_work),

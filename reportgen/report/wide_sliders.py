@@ -8,7 +8,8 @@ import numpy as np
 
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.machine.loads import carriers
-from reportgen.report.groups import NamedPoint, WideSlider
+from reportgen.report.groups import WideSlider
+from reportgen.report.prose import NamedPoint
 from reportgen.report.report import Report
 from reportgen.report.tables import bare
 
