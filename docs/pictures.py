@@ -8,9 +8,13 @@ from __future__ import annotations
 
 import json
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -19,7 +23,7 @@ from typing import Any
 import pymupdf
 from PIL import Image
 
-from reportgen import api
+from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
 from reportgen.report import Document, Figure
 
@@ -53,6 +57,15 @@ AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
 BELOW = {"cam": 8.0}
 """More room below what has labels there (pt)."""
+
+DRAW = """
+const bar = document.getElementById(arguments[0]).closest(".field").querySelector("[type=range]");
+bar.value = arguments[1];
+bar.dispatchEvent(new Event("input", { bubbles: true }));
+"""
+"""Draws the slider of a field to a value."""
+SETTLED, FORM_MS = 0.6, 160
+"""What a frame of the form waits for (s), and how long it is shown (ms)."""
 
 
 def document(file: Path) -> Document:
@@ -99,11 +112,13 @@ def save(page: pymupdf.Page, name: str, dpi: int, clip: pymupdf.Rect | None = No
     few_colours.save(ROOT / "docs" / f"{name}.png", optimize=True)
 
 
-def moving() -> None:
-    """Save what a page shows of a machine over one turn as `docs/moving.gif`."""
+@contextmanager
+def browser() -> Iterator[Any]:
+    """A browser without a window; None where there is none, which is said."""
     chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
     if chromium is None or chromedriver is None:
-        print("docs/moving.gif is left as it is: chromium and chromedriver are not installed", file=sys.stderr)
+        print("what moves is left as it is: chromium and chromedriver are not installed", file=sys.stderr)
+        yield None
         return
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service
@@ -115,25 +130,67 @@ def moving() -> None:
         "no-sandbox",
         "disable-gpu",
         "hide-scrollbars",
+        "force-prefers-reduced-motion",
         "window-size={},{}".format(*WINDOW),
     ):
         options.add_argument(f"--{argument}")
     driver = webdriver.Chrome(options=options, service=Service(chromedriver))
-    frames = []
     try:
-        with tempfile.TemporaryDirectory() as folder:
-            driver.get(api.build(MOVING, folder, language="en", formats=["html"]).as_uri())
-            driver.execute_script("moving.pause(); document.querySelector('[data-layer=velocities]').click();")
-            shown = driver.find_element("css selector", "#moving .theatre")
-            for angle in range(0, 360, STEP):
-                driver.execute_script("moving.seek(arguments[0])", angle)
-                picture = Image.open(BytesIO(shown.screenshot_as_png)).convert("RGB")
-                smaller = picture.resize((FRAME_WIDTH, picture.height * FRAME_WIDTH // picture.width))
-                frames.append(smaller.quantize(FRAME_COLOURS, Image.Quantize.FASTOCTREE))
+        yield driver
     finally:
         driver.quit()
+
+
+def frame(png: bytes) -> Image.Image:
+    """A screenshot as a frame of what moves."""
+    picture = Image.open(BytesIO(png)).convert("RGB")
+    smaller = picture.resize((FRAME_WIDTH, picture.height * FRAME_WIDTH // picture.width))
+    return smaller.quantize(FRAME_COLOURS, Image.Quantize.FASTOCTREE)
+
+
+def save_moving(frames: list[Image.Image], name: str, duration: int) -> None:
     first, *others = frames
-    first.save(ROOT / "docs" / "moving.gif", save_all=True, append_images=others, duration=FRAME_MS, loop=0)
+    first.save(ROOT / "docs" / name, save_all=True, append_images=others, duration=duration, loop=0)
+
+
+def moving() -> None:
+    """Save what a page shows of a machine over one turn as `docs/moving.gif`."""
+    with browser() as driver, tempfile.TemporaryDirectory() as folder:
+        if driver is None:
+            return
+        frames = []
+        driver.get(api.build(MOVING, folder, language="en", formats=["html"]).as_uri())
+        driver.execute_script("moving.pause(); document.querySelector('[data-layer=velocities]').click();")
+        shown = driver.find_element("css selector", "#moving .theatre")
+        for angle in range(0, 360, STEP):
+            driver.execute_script("moving.seek(arguments[0])", angle)
+            frames.append(frame(shown.screenshot_as_png))
+        save_moving(frames, "moving.gif", FRAME_MS)
+
+
+def form() -> None:
+    """Save the form of a machine, a slider of which is drawn, as `docs/edit.gif`."""
+    with browser() as driver, tempfile.TemporaryDirectory() as folder:
+        if driver is None:
+            return
+        file = Path(folder) / "shaper.yaml"
+        file.write_text(catalogue.sample("shaper", "en"), encoding="utf-8")
+        command = [sys.executable, "-m", "reportgen.cli", "edit", str(file), "--no-open"]
+        served = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        assert served.stdout is not None
+        frames = []
+        try:
+            driver.get(served.stdout.readline().strip())
+            driver.execute_script("moving.pause(); document.getElementById('f:parameters.l4').focus();")
+            lengths = [*range(100, 150, 10), *range(150, 50, -10), *range(50, 110, 10)]
+            for length in lengths:
+                driver.execute_script(DRAW, "f:parameters.l4", length)
+                time.sleep(SETTLED)
+                frames.append(frame(driver.get_screenshot_as_png()))
+        finally:
+            served.send_signal(signal.SIGINT)
+            served.wait()
+        save_moving(frames, "edit.gif", FORM_MS)
 
 
 def word_page() -> None:
@@ -172,6 +229,7 @@ def main() -> None:
     sheets = api.sheet_files(LAID_OUT, language="en", size="A1", sets=("kinematics",), formats=("pdf",))
     save(pymupdf.open(stream=sheets["sheet-1.pdf"])[0], "sheet", SHEET_DPI)
     moving()
+    form()
     curves()
     for kind in kinds():
         file = SHOWN.get(kind) or min(SAMPLE.parent.glob(f"{kind}-*.yaml"))

@@ -138,17 +138,17 @@ class MachineCase(MachineAnalysis):
     @property
     def driver_motion(self) -> DriverMotion:
         """Sliders on the ground have signed velocities and accelerations, positive as in the report's curves."""
-        from reportgen.report.report import Report
 
         machine, points = self.analysis.machine, self.analysis.motion.points
         signed = {
             name(pin): (np.real(np.conj(way) * getattr(points[pin], rate)), way)
-            for pin, way in Report(self).slider_senses.items()
+            for pin, way in self._report.slider_senses.items()
             for rate, name in ids.POINT_RATE.items()
         }
         slides = bool(machine.span)
         gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
-        return DriverMotion(gone, machine.way, abs(machine.speed), slides, signed)
+        called = self.words["figure"]["way" if slides else "cycle_angle"]
+        return DriverMotion(gone, machine.way, called, abs(machine.speed), slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:

@@ -181,7 +181,7 @@ class Model:
         still = self._still if case is self.case else named_figures(case.document())
         moving = next((one for one in self._moving if one.name == name), None)
         query = figures.FigureQuery((name,), labels)
-        scenes = (scene for _, scene in figures.drawings(still, query, self._moving, self.assignment.language))
+        scenes = (scene for _, scene in figures.drawings(still, query, lambda: self._moving, self.assignment.language))
         return ShownFigure(name, tuple(scenes), self.assignment.language, moving)
 
     @cached_property

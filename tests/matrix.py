@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache, partial
+from html import unescape
 from pathlib import Path
 from typing import Literal, get_args
 
@@ -31,9 +32,11 @@ from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.marking.key import Ask, key_of
+from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
 from reportgen.report.case import Case
 from reportgen.report.key import Key
+from reportgen.report.named_figures import named_figures
 from tests.marking.filled import filled
 
 OWN: Language | Literal[""] = ""
@@ -44,6 +47,8 @@ CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYP
     ".eps": b"%!PS-Adobe-3.0 EPSF-3.0",
 }
 """What files begin with."""
+LONGEST_FORM = 60_000
+"""Bytes of a form."""
 MOST = 8
 """Cases that are kept at once: those of one coursework and its parts."""
 
@@ -205,15 +210,17 @@ def sheet(at: Desk) -> None:
 
 
 def figure(at: Desk) -> None:
-    """The first figure of its report, as its list names it; every one of what moves stands in the list, too."""
+    """The first figure of its report; every one of what moves stands in the list, too."""
     from reportgen.export.figures import MOVING, STILL
 
-    lines = at.run("figure", at.file, "--list").splitlines()
-    moving = open_case(at.file, at.language or None).animations()
-    assert sum("/".join(MOVING) in line for line in lines) == sum(len(one.panes) for one in moving)
-    name = lines[0].split()[0]
+    case = open_case(at.file, at.language or None)
+    name = named_figures(case.document())[0].name
+    if at.brief:
+        lines = at.run("figure", at.file, "--list").splitlines()
+        assert lines[0].split()[0] == name
+        assert sum("/".join(MOVING) in line for line in lines) == sum(len(one.panes) for one in case.animations())
     formats = at.formats(STILL, "svg")
-    paths = at.made("figure", *([name] if at.brief else []), "--format", formats)
+    paths = at.made("figure", name, "--format", formats)
     assert {path.suffix[1:] for path in paths} == set(formats.split(","))
     assert paths[0].stem.startswith(name)
 
@@ -274,8 +281,24 @@ def watch(at: Desk) -> None:
     assert len(watched.revision.panels) >= len(open_case(at.file).animations())
 
 
+def edit(at: Desk) -> None:
+    """The form of the file, without a fault and not too long; its first value changed and undone, byte for byte."""
+    session = EditSession(partial(open_case, at.file, at.spoken), at.spoken, path=at.file)
+    before, form = at.file.read_bytes(), session.form()
+    assert "data-goto" not in form
+    assert len(form.encode()) <= LONGEST_FORM
+    field = re.search(r'data-w="([^"]*)" data-was="([^"]+)"', form)
+    assert field
+    where, was = json.loads(unescape(field[1])), unescape(field[2])
+    assert "refused" not in session.edit({"op": "set", "where": where, "value": "new", "was": was})
+    assert at.file.read_bytes() != before
+    assert 'aria-invalid="true"' in session.form()
+    session.edit({"op": "undo"})
+    assert at.file.read_bytes() == before
+
+
 COMMANDS: tuple[Callable[[Desk], None], ...] = (
-    *(check, solve, solve_json, solve_format, build, sheet, figure, plot, key, task, compare, grade, watch),
+    *(check, solve, solve_json, solve_format, build, sheet, figure, plot, key, task, compare, grade, watch, edit),
 )
 BY_ENGINE, BY_EXTENT = {build, key, task, grade}, {build}
 """Commands that typeset what they make, and that which makes it in two extents."""

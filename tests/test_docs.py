@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import re
@@ -291,6 +292,16 @@ def test_every_machine_is_shown_and_all_its_keys_are_explained() -> None:
     (row,) = [line for line in text.splitlines() if line.startswith("| `flywheel` |")]
     with_flywheel = {kind for kind in kinds() if "flywheel" in catalogue.kind(kind).parameters.model_fields}
     assert set(re.findall(r"`([a-z-]+)`", row)) - {"flywheel"} == with_flywheel
+
+
+def test_tables_of_keys_are_written_of_the_words() -> None:
+    """`make pictures` has written them: nothing is said twice."""
+    spec = importlib.util.spec_from_file_location("keys", ROOT / "docs" / "keys.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert module.written(text_of("docs/machines.md")) == text_of("docs/machines.md")
 
 
 def test_every_key_of_the_results_is_explained() -> None:

@@ -1,8 +1,4 @@
-"""The part of an assignment file that every kind of machine shares, and checks for any kind to put in its list.
-
-Such checks look at several values at once.  They read the plain content, not the models, wherever they can:
-so they also speak when some other value of the file is wrong.
-"""
+"""The part of an assignment file that every kind of machine shares, as models."""
 
 from __future__ import annotations
 
@@ -28,8 +24,6 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding, UnknownNameError
-from reportgen.base.files import school_strays
-from reportgen.base.template_folders import is_school
 from reportgen.base.units import Given, Language
 from reportgen.base.words import named_school, unknown
 
@@ -394,100 +388,3 @@ def number_of(named: int | str, labels: Sequence[str]) -> int:
     if isinstance(named, str):
         return labels.index(named) + 1 if named in labels else 0
     return named if named <= len(labels) else 0
-
-
-def worked_positions(turns: int, names: Labels | None = None) -> Check:
-    """Worked positions lie in the cycle of `turns` turns, each is named once."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        report, positions = draft.sections.get("report"), draft.sections.get("positions")
-        if report is None or positions is None or (worked := named_worked(report, positions)) is None:
-            return
-        labels = labels_of(names, draft.sections.get("parameters"), positions, turns)
-        met: set[int] = set()
-        for index, named in enumerate(worked):
-            place, number = ("report", "worked_positions", index), number_of(named, labels)
-            if number in met:
-                yield Finding("repeated", place, {"text": str(named)})
-            elif number:
-                met.add(number)
-            elif isinstance(named, str):
-                yield Finding("no-such-label", place, {"text": named, "known": ", ".join(labels)})
-            else:
-                yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
-
-    return check
-
-
-def instants(draft: Draft) -> Iterator[Finding]:
-    """Instants stand alone, each once: evenly spaced positions have a number and a start."""
-    positions = draft.at("positions")
-    if not isinstance(positions, dict) or positions.get("at") is None:
-        return
-    for key in ("count", "start"):
-        if positions.get(key) is not None:
-            yield Finding("both-given", ("positions", key), {"first": "at", "second": key}, at="key")
-    at = positions["at"]
-    for index, text in enumerate(at if isinstance(at, list) else ()):
-        if text in at[:index]:
-            yield Finding("repeated", ("positions", "at", index), {"text": str(text)})
-
-
-def school_of(path: Path) -> Check:
-    """The school's folder of the file at `path` lies beside it or below, with words in it, and there is one."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        named, where = draft.at("report", "templates"), ("report", "templates")
-        if not isinstance(named, str):
-            return
-        folder = path.parent / named
-        if school_strays(folder, path.parent):
-            yield Finding("path-outside", where, {"text": named})
-        elif not is_school(folder):
-            yield Finding("no-templates", where, {"place": str(folder.absolute())})
-        else:
-            yield from one_of("report", "school", "templates", required=False)(draft)
-
-    return check
-
-
-def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
-    """A check of the parameters alone, made where each of them is in order by itself."""
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        if "parameters" in draft.sections:
-            yield from look(draft.sections["parameters"])
-
-    return check
-
-
-def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
-    """As `of_parameters`, of what only a whole turn asks for: at single instants a machine need but stand."""
-    every = of_parameters(look)
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        if draft.at("positions", "at") is None:
-            yield from every(draft)
-
-    return check
-
-
-def one_of(section: str, *names: str, required: bool = True) -> Check:
-    """Of several keys that say the same thing, one stands in the section (at most one unless `required`).
-
-    A section of a section is named by its path, as "parameters.driver".
-    """
-    where = tuple(section.split("."))
-
-    def check(draft: Draft) -> Iterator[Finding]:
-        content = draft.at(*where)
-        if not isinstance(content, dict):
-            return
-        given = [name for name, value in content.items() if name in names and value is not None]
-        if len(given) > 1:
-            first, second = given[:2]
-            yield Finding("both-given", (*where, second), {"first": first, "second": second}, at="key")
-        elif required and not given:
-            yield Finding("missing-key", (*where, names[0]), {"key": " | ".join(names)})
-
-    return check

@@ -17,10 +17,13 @@ from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import school_strays
+from reportgen.base.moments import moment
 from reportgen.base.source import STRANGE, Quoted
 from reportgen.base.template_folders import school_folder, schools, templates
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
 
+UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
+"""What a schema says beside the standard: the unit of a quantity, its bounds in it, a unit that names one like it."""
 LONGEST_TEXT = 300
 MOST_WORKED = 720
 _UNIT_PATTERN = r"[A-Za-zµ°ºđ][^,]*"
@@ -106,7 +109,8 @@ class Quantity(Reader):
         return given
 
     def schema(self) -> dict[str, Any]:
-        return {"type": "string", "pattern": rf"^\s*{NUMBER}\s*{_UNIT_PATTERN}$", "examples": [f"1 {self.unit}"]}
+        typed = {"type": "string", "pattern": rf"^\s*{NUMBER}\s*{_UNIT_PATTERN}$", "examples": [f"1 {self.unit}"]}
+        return {**typed, UNIT_KEY: self.unit, RANGE_KEY: self.interval.schema()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,7 +140,7 @@ class UnitOf(Reader):
         return _measured(lambda text: Given(read_unit(text, self.unit), 1.0, text.strip(), text), value)
 
     def schema(self) -> dict[str, Any]:
-        return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit]}
+        return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit], UNIT_NAME_KEY: self.unit}
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +161,8 @@ class Ratio(Reader):
 
     def schema(self) -> dict[str, Any]:
         number = {"type": "number", **self.interval.schema()}
-        return {"anyOf": [number, {"type": "string", "pattern": rf"^\s*{NUMBER}\s*(/\s*{NUMBER}\s*)?$"}]}
+        typed = {"type": "string", "pattern": rf"^\s*{NUMBER}\s*(/\s*{NUMBER}\s*)?$", RANGE_KEY: self.interval.schema()}
+        return {"anyOf": [number, typed]}
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +242,20 @@ class Day(Reader):
 
     def schema(self) -> dict[str, Any]:
         return {"type": ["string", "null"], "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}$", "format": "date"}
+
+
+@dataclass(frozen=True, slots=True)
+class Until(Reader):
+    """A moment until which something lasts, `2026-11-20 23:59`; a day alone lasts to its end."""
+
+    def read(self, value: object) -> datetime.datetime:
+        text = _text(value, "moment")
+        if (found := moment(text, end=True)) is None:
+            raise fault("moment", text=text)
+        return found
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,7 +57,9 @@ def read(
         own = own or list(_no_part(source, find))
         assignment, wrong = (None, own) if own else assess(source, Path(source.file))
         if assignment is None:
-            faults += wrong
+            # A part in place has its faults in this very file, one in a file of its own has them there.
+            here = (PARTS, index) if part.file is None else ()
+            faults += [replace(fault, where=(*here, *fault.where)) for fault in wrong]
             continue
         head = find(assignment.kind).part
         numbers[head] += 1

@@ -6,7 +6,6 @@ import os
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -14,20 +13,10 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment import parts
-from reportgen.assignment.common import (
-    PARTS,
-    Assignment,
-    Draft,
-    Drawing,
-    Kind,
-    Positions,
-    file_model,
-    instants,
-    school_of,
-    sections,
-    worked_positions,
-)
+from reportgen.assignment.checks import instants, school_of, worked_positions
+from reportgen.assignment.common import PARTS, Assignment, Draft, Drawing, Kind, Positions, sections
 from reportgen.assignment.fields import RESERVED
+from reportgen.assignment.schema import keys_at
 from reportgen.base.errors import Fault, Finding, Mark, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
@@ -39,7 +28,6 @@ from reportgen.base.words import as_error, close_or_known, language_of
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
 _CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
-_FORMS = {"object": "table", "array": "list"}
 
 
 def assess(
@@ -244,7 +232,7 @@ def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any
             name = str(context["discriminator"]).strip("'")
             return Finding("missing-key", (*where, name), {"key": name})
         case "extra_forbidden":
-            return _unknown(where, _keys_at(schema, where[1:-1]))
+            return _unknown(where, keys_at(schema, where[1:-1]))
         case "literal_error" | "union_tag_invalid":
             tag = str(context.get("discriminator", "")).strip("'")
             allowed = str(context.get("expected", context.get("expected_tags"))).replace(" or ", ", ")
@@ -280,62 +268,6 @@ def _real(location: Where, content: Any) -> Iterator[str | int]:
         yield step
 
 
-@cache
-def _file_schema(kind: Kind) -> dict[str, Any]:
-    """The JSON Schema of a whole file of a kind."""
-    return file_model(kind).model_json_schema(by_alias=True)
-
-
-def known_keys(kind: Kind, where: Where) -> list[str]:
-    """The keys that a table at `where` in a file of a kind may have; none if no table stands there."""
-    return _keys_at(_file_schema(kind), where)
-
-
-def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
-    """What a file of a kind may hold at `where`: "table", "list", "scalar"; empty for an unknown place."""
-    kinds_of_node = [one.get("type", "string") for one in _at(_file_schema(kind), where)]
-    types = [name for type_ in kinds_of_node for name in (type_ if isinstance(type_, list) else [type_])]
-    return frozenset(_FORMS.get(str(name), "scalar") for name in types if name != "null")
-
-
-def _keys_at(schema: dict[str, Any], where: Where) -> list[str]:
-    """Keys that a JSON Schema allows at a place; of alternatives, all their keys."""
-    return list(dict.fromkeys(name for one in _at(schema, where) for name in one.get("properties", {})))
-
-
-def _at(schema: dict[str, Any], where: Where) -> list[dict[str, Any]]:
-    """The alternatives that a JSON Schema allows at a place."""
-    level = list(_alternatives(schema, schema))
-    for step in where:
-        inner = [inner for one in level for inner in _inside(one, step)]
-        level = [alternative for one in inner for alternative in _alternatives(one, schema)]
-    return level
-
-
-def _inside(schema: dict[str, Any], step: str | int) -> Iterator[dict[str, Any]]:
-    """What a JSON Schema says of a key, of an item of a list, or of any key of a table of names."""
-    if isinstance(step, int):
-        if isinstance(schema.get("items"), dict):
-            yield schema["items"]
-    elif step in schema.get("properties", {}):
-        yield schema["properties"][step]
-    elif isinstance(schema.get("additionalProperties"), dict):
-        yield schema["additionalProperties"]
-    else:
-        yield from schema.get("patternProperties", {}).values()
-
-
-def _alternatives(part: dict[str, Any], schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """A part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
-    if "$ref" in part:
-        yield from _alternatives(schema["$defs"][part["$ref"].rsplit("/", 1)[-1]], schema)
-    elif choices := [*part.get("oneOf", ()), *part.get("anyOf", ())]:
-        for choice in choices:
-            yield from _alternatives(choice, schema)
-    else:
-        yield part
-
-
 def _placed(finding: Finding, top: MappingNode) -> Fault:
     """The finding with its mark; what is missing stands at the key it is missing under."""
     node: Node = top
@@ -350,7 +282,7 @@ def _placed(finding: Finding, top: MappingNode) -> Fault:
             node = node.items[step]
             key_mark = node.mark
             continue
-        return Fault(finding.code, key_mark, finding.arguments)
+        return Fault(finding.code, key_mark, finding.arguments, finding.where)
     unwritten = isinstance(node, Scalar) and node.null
     mark: Mark = key_mark if finding.at == "key" or unwritten else node.mark
-    return Fault(finding.code, mark, finding.arguments)
+    return Fault(finding.code, mark, finding.arguments, finding.where)

@@ -72,6 +72,15 @@ class Fault:
     code: str
     mark: Mark
     arguments: Mapping[str, str] = field(default_factory=dict)
+    where: Where = field(default=(), compare=False)
+    """The place in the content of its file, as far as there is one."""
+
+    @property
+    def remedies(self) -> tuple[str, ...]:
+        """What may stand there instead, as it would be typed."""
+        if self.code == "missing-unit":
+            return (f"{self.arguments['text'].strip()} {self.arguments['unit']}",)
+        return tuple(dict.fromkeys(self.arguments[name] for name in ("fixed", "other") if name in self.arguments))
 
     @property
     def wordless(self) -> str:
@@ -93,7 +102,8 @@ class Finding:
 class Problem:
     """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
 
-    A file in order may have warnings, and notes on how it was understood.  `advice` is what a hint is called.
+    A file in order may have warnings, and notes on how it was understood.  `advice` is what a hint is called;
+    `where` and `remedies` are those of its fault.
     """
 
     code: str
@@ -102,6 +112,8 @@ class Problem:
     hint: str | None = None
     level: Level = "error"
     advice: str = "hint"
+    where: Where = field(default=(), compare=False)
+    remedies: tuple[str, ...] = field(default=(), compare=False)
 
     def in_file(self, file: str) -> Problem:
         """The same problem, its file named as `file`."""

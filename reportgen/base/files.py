@@ -27,13 +27,13 @@ SETS = {
     "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
     "plots": r".+\.(svg|png|pdf|eps)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
-    "feedback": r"feedback\.(pdf|xlsx)",
-    "class": r"grades\.csv|class\.pdf|feedback\.zip",
+    "feedback": r"feedback\.(pdf|xlsx|txt)",
+    "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")
 """A link in these folders stands for what is open, even where it leads to a regular file."""
-_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
+_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|txt|zip|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
 """What `_beside` makes."""
 
 
@@ -55,6 +55,22 @@ def put_files(folder: Path, files: Mapping[str, bytes], gone: Collection[Path] =
 def put_file(target: Path, content: bytes) -> None:
     """Put `content` in place of a file in one step: a reader sees the old or the new, never a half."""
     put_set({target: content})
+
+
+def renew_file(target: Path, content: bytes) -> None:
+    """As `put_file`, for a user's own file: what a link leads to is renewed, with the rights that it has.
+
+    Raises `OSError`, for a file that may not be written, too.
+    """
+    real = Path(os.path.realpath(target))
+    with ExitStack() as temporary, _named(target):
+        mode = stat.S_IMODE(real.stat().st_mode)
+        if not mode & 0o222 or not os.access(real, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(target))
+        written = _beside(real, temporary)
+        written.write_bytes(content)
+        written.chmod(mode)
+        written.replace(real)
 
 
 def put_set(files: Mapping[Path, bytes], gone: Collection[Path] = ()) -> None:

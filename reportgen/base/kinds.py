@@ -6,10 +6,9 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import kind_file
 from reportgen.base.units import Language
-from reportgen.base.words import load_words, sections
+from reportgen.base.words import load_words
 
 SAMPLE = "new"
 """The section of a kind's words with the file to begin with."""
@@ -35,13 +34,3 @@ def title(name: str, language: Language) -> str:
 def titles(language: Language) -> dict[str, str]:
     """Each kind with its line of description."""
     return {name: title(name, language) for name in kinds()}
-
-
-def sample(name: str, language: Language) -> str:
-    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
-    if name not in kinds():
-        raise KeyError(name)
-    file = kind_file(language, name)
-    if (section := sections(file).get(SAMPLE)) is None:
-        raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
-    return section.text

@@ -12,7 +12,7 @@ import codecs
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import islice
 from operator import attrgetter
 from pathlib import Path
@@ -49,14 +49,23 @@ _SYNTAX = (
 )
 
 
+Span = tuple[int, int]
+"""Where a node begins and ends in the text of its source: characters before it, and before what follows."""
+NOWHERE: Span = (-1, -1)
+
+
 @dataclass(frozen=True, slots=True)
 class Scalar:
-    """A piece of text; `null` when nothing was written, `quoted` when it stands in quotation marks."""
+    """A piece of text; `null` when nothing was written, `quoted` when it stands in quotation marks.
+
+    As of every node, `span` says between which characters of the source it was written.
+    """
 
     text: str
     mark: Mark
     null: bool = False
     quoted: bool = False
+    span: Span = field(default=NOWHERE, compare=False, repr=False)
 
 
 class Quoted(str):
@@ -69,6 +78,7 @@ class Quoted(str):
 class SequenceNode:
     items: tuple[Node, ...]
     mark: Mark
+    span: Span = field(default=NOWHERE, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +87,7 @@ class MappingNode:
 
     entries: tuple[tuple[Scalar, Node], ...]
     mark: Mark
+    span: Span = field(default=NOWHERE, compare=False, repr=False)
 
     def find(self, key: object) -> tuple[Scalar, Node] | None:
         return next((entry for entry in self.entries if entry[0].text == key), None)
@@ -282,14 +293,19 @@ def _mark(place: yaml.Mark, file: str) -> Mark:
 
 def _node(node: yaml.Node, file: str, faults: list[Fault]) -> Node:
     mark = _mark(node.start_mark, file)
+    start, end = node.start_mark.index, node.end_mark.index
     if isinstance(node, yaml.SequenceNode):
-        return SequenceNode(tuple(_node(item, file, faults) for item in node.value), mark)
+        items = tuple(_node(item, file, faults) for item in node.value)
+        # A list in block form ends with its last item, not where the next thing begins.
+        return SequenceNode(items, mark, (start, end if node.flow_style or not items else items[-1].span[1]))
     if isinstance(node, yaml.MappingNode):
-        return MappingNode(tuple(_entries(node, file, faults)), mark)
+        entries = tuple(_entries(node, file, faults))
+        return MappingNode(entries, mark, (start, end if node.flow_style or not entries else entries[-1][1].span[1]))
     style = getattr(node, "style", None) or None  # libyaml calls that of a plain scalar ""
     if style is None and "\t" in node.value:
         faults.append(Fault("tab", mark))
-    return Scalar(node.value, mark, null=style is None and node.value in _NULL, quoted=style in ("'", '"'))
+    null, in_marks = style is None and node.value in _NULL, style in ("'", '"')
+    return Scalar(node.value, mark, null=null, quoted=in_marks, span=(start, end))
 
 
 def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator[tuple[Scalar, Node]]:
@@ -305,7 +321,7 @@ def _entries(node: yaml.MappingNode, file: str, faults: list[Fault]) -> Iterator
             faults.append(Fault("duplicate-key", key.mark, {"key": key.text, "line": str(seen[name].line)}))
             continue
         seen[name] = key.mark
-        yield Scalar(name, key.mark), value
+        yield Scalar(name, key.mark, span=key.span), value
 
 
 def _rejoined(node: yaml.MappingNode) -> list[tuple[yaml.Node, yaml.Node]]:

@@ -86,7 +86,7 @@ def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], dept
         if entry is None or span is None:
             # Before the blank lines that separate this table from what follows it.
             full = text.rstrip("\n") + "\n" if text.strip() else text
-            text = full + _entry(key, value, depth) + text[len(full) :]
+            text = full + entry_text(key, value, depth) + text[len(full) :]
         elif value is entry[1]:
             text += _joined(span)
         elif isinstance(value, MappingNode) and isinstance(entry[1], MappingNode) and _is_block(entry[0], entry[1]):
@@ -94,7 +94,7 @@ def _block(table: MappingNode, original: MappingNode, lines: Sequence[str], dept
             text += _joined(lines[start : entry[1].mark.line - 1])
             text += _block(value, entry[1], lines[: start + len(span)], entry[1].mark.column - 1)
         else:
-            text += _with_comment(_entry(key, value, depth), span, value)
+            text += _with_comment(entry_text(key, value, depth), span, value)
     return text
 
 
@@ -128,36 +128,37 @@ def _with_comment(entry: str, span: Sequence[str], value: Node) -> str:
     return _joined([entry.rstrip("\n") + (comment[0] if comment else ""), *reversed(after)])
 
 
-def _entry(key: Scalar, value: Node, depth: int) -> str:
-    """A key and its value, in one line if that is short or there is nothing in it."""
+def entry_text(key: Scalar, value: Node, depth: int) -> str:
+    """A key and its value so far to the right, in one line if that is short or there is nothing in it."""
     name, space = quoted(key.text), " " * depth
-    flow = _flow(value)
-    if isinstance(value, Scalar) or flow in ("[]", "{}") or len(space) + len(name) + len(flow) + 2 <= WIDTH:
-        return f"{space}{name}: {flow}".rstrip() + "\n"
+    line = flow(value)
+    if isinstance(value, Scalar) or line in ("[]", "{}") or len(space) + len(name) + len(line) + 2 <= WIDTH:
+        return f"{space}{name}: {line}".rstrip() + "\n"
     if isinstance(value, MappingNode):
         return f"{space}{name}:\n{_lines(value, depth + 2)}"
-    return _joined([f"{space}{name}:", *(line for item in value.items for line in _item(item, depth + 2))])
+    return _joined([f"{space}{name}:", *(line for item in value.items for line in item_lines(item, depth + 2))])
 
 
-def _item(item: Node, depth: int) -> list[str]:
-    """An item of a list in one line; a long table with tables in it by its entries."""
-    flow = _flow(item)
+def item_lines(item: Node, depth: int) -> list[str]:
+    """An item of a list, so far to the right, in one line; a long table with tables in it by its entries."""
+    line = flow(item)
     nested = isinstance(item, MappingNode) and any(isinstance(value, MappingNode) for _, value in item.entries)
-    if depth + 2 + len(flow) <= WIDTH or not isinstance(item, MappingNode) or not nested:
-        return [f"{' ' * depth}- {flow}"]
+    if depth + 2 + len(line) <= WIDTH or not isinstance(item, MappingNode) or not nested:
+        return [f"{' ' * depth}- {line}"]
     first, *others = _lines(item, depth + 2).splitlines()
     return [f"{' ' * depth}- {first.lstrip()}", *others]
 
 
 def _lines(table: MappingNode, depth: int) -> str:
-    return "".join(_entry(key, value, depth) for key, value in table.entries)
+    return "".join(entry_text(key, value, depth) for key, value in table.entries)
 
 
-def _flow(node: Node) -> str:
+def flow(node: Node) -> str:
+    """A node in one line."""
     match node:
         case Scalar(text, null=null, quoted=in_marks):
             return "" if null else quoted(text, in_marks)
         case SequenceNode(items):
-            return f"[{', '.join(_flow(item) for item in items)}]"
+            return f"[{', '.join(flow(item) for item in items)}]"
         case MappingNode(entries):
-            return "{" + ", ".join(f"{quoted(key.text)}: {_flow(value)}".rstrip() for key, value in entries) + "}"
+            return "{" + ", ".join(f"{quoted(key.text)}: {flow(value)}".rstrip() for key, value in entries) + "}"

@@ -276,7 +276,9 @@ def as_problem(fault: Fault, language: Language | None, level: Level = "error") 
     hints = (str(table["hints"][key]) for key in keys if table["hints"].get(key))
     hint = next((hint for hint in hints if gaps(hint) <= arguments.keys()), None)
     advice = hint.format_map(arguments) if hint else None
-    return Problem(fault.code, message, fault.mark, advice, level, str(table["words"]["hint"]))
+    called = str(table["words"]["hint"])
+    problem = Problem(fault.code, message, fault.mark, advice, level, called)
+    return replace(problem, where=fault.where, remedies=fault.remedies)
 
 
 def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentError:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reportgen.assignment.common import Draft, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Draft
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM
 from reportgen.cam import file
@@ -36,6 +37,21 @@ def case(assignment: Assignment) -> CamCase:
     from reportgen.cam.case import CamCase
 
     return CamCase(assignment)
+
+
+def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]]:
+    """The rows that `solve` prints of a position of the results: lengths in mm, pressure angles in degrees."""
+    radius, (x, y) = position["curvature_radius"], position["profile"]
+    angle, lengths = math.degrees(position["pressure_angle"]), {"ρ": radius, "x": x, "y": y}
+    return {
+        "follower": _in_mm(position.get("follower", {})),
+        "swing": position.get("swing", {}),
+        "profile": {"α": angle, **_in_mm(lengths)},
+    }
+
+
+def _in_mm(lengths: Mapping[str, float | None]) -> dict[str, float | None]:
+    return {name: None if length is None else length * MM for name, length in lengths.items()}
 
 
 # --- what cannot be -------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ class CamCase(SolvedCam):
 
     @property
     def driver_motion(self) -> DriverMotion:
-        return DriverMotion(self.solution.φ, 2 * np.pi, self.speed)
+        return DriverMotion(self.solution.φ, 2 * np.pi, str(self.words["cam"]["angle"]), self.speed)
 
     @property
     def misconceptions(self) -> Misconceptions:

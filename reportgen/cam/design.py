@@ -111,23 +111,20 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
     Where the limit of the rise alone leaves s₀ free (e ≥ c₁), the return decides by what is usual with a spring.
     """
     assert limits.rise is not None
-    t1 = math.tan(limits.rise)
-    rise = touch(motion, "rise", lambda s, ds: valued(formulas.rise_intercept, s, ds, t1))
-    back, t2 = None, math.inf
-    if limits.back is not None or (e is not None and e >= rise.bound):
-        t2 = math.tan(limits.back or USUAL_BY_SPRING)
-        back = touch(motion, "return", lambda s, ds: valued(formulas.return_intercept, s, ds, t2))
-    c1, c2 = rise.bound, back.bound if back else 0.0
-
-    high = float(valued(formulas.apex_height, c1, c2, t1, t2))
-    across = float(valued(formulas.apex_offset, c1, high, t1))
-    apex = complex(across, high) if back else None
+    α1, α2 = limits.rise, limits.back or USUAL_BY_SPRING
+    rise = touch(motion, "rise", lambda s, ds: valued(formulas.rise_intercept, s, ds, α1))
+    c1, back, apex = rise.bound, None, None
+    if limits.back is not None or (e is not None and e >= c1):
+        back = touch(motion, "return", lambda s, ds: valued(formulas.return_intercept, s, ds, α2))
+        high = float(valued(formulas.apex_height, c1, back.bound, α1, α2))
+        apex = complex(float(valued(formulas.apex_offset, c1, high, α1)), high)
 
     def by_rise(offset: float) -> float:
-        return float(valued(formulas.height_by_rise, c1, offset, t1))
+        return float(valued(formulas.height_by_rise, c1, offset, α1))
 
     def by_return(offset: float) -> float:
-        return float(valued(formulas.height_by_return, c2, offset, t2))
+        # Where nothing limits the return, the follower only stays above the cam's centre.
+        return 0.0 if back is None else float(valued(formulas.height_by_return, back.bound, offset, α2))
 
     def at(rule: Rule, s0: float, offset: float) -> Least:
         r0 = float(valued(formulas.base_radius, s0, offset))
@@ -136,14 +133,15 @@ def least_translating(motion: FollowerMotion, limits: CamLimits, e: float | None
     if e is not None:
         return at("rise", by_rise(e), e) if by_rise(e) >= by_return(e) else at("return", by_return(e), e)
     # The nearest point of the region to the origin: the foot on one line, if the other allows it, else the apex.
-    foot = float(valued(formulas.foot_of_rise, c1, t1))
-    if (s0 := float(valued(formulas.height_on_rise, foot, t1))) >= by_return(foot):
+    foot = float(valued(formulas.foot_of_rise, c1, α1))
+    if (s0 := float(valued(formulas.height_on_rise, foot, α1))) >= by_return(foot):
         return at("rise", s0, foot)
     if back is not None:
-        foot = float(valued(formulas.foot_of_return, c2, t2))
-        if (s0 := float(valued(formulas.height_on_return, foot, t2))) >= by_rise(foot):
+        foot = float(valued(formulas.foot_of_return, back.bound, α2))
+        if (s0 := float(valued(formulas.height_on_return, foot, α2))) >= by_rise(foot):
             return at("return", s0, foot)
-    return at("apex", high, across)
+    assert apex is not None, "without a limit of the return the foot on the line of the rise is the nearest"
+    return at("apex", apex.imag, apex.real)
 
 
 def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int, a: float) -> Least | None:
@@ -162,7 +160,8 @@ def least_oscillating(motion: FollowerMotion, limits: CamLimits, arm: float, opp
     ψ0 = max(touch.bound for touch in touches)
     if not 0 < ψ0 <= most or ψ0 + motion.stroke >= math.pi:
         return None
-    return Least(rule, triangle(a, arm, ψ0), a=a, psi0=ψ0, most=most, rise=touches[0], back=back)
+    r0 = float(valued(formulas.base_radius_of_arm, a, arm, ψ0))
+    return Least(rule, r0, a=a, psi0=ψ0, most=most, rise=touches[0], back=back)
 
 
 def bounded(
@@ -174,11 +173,10 @@ def bounded(
     limit − arccos c to limit + arccos c; else cos(q + limit) ≤ c: q from arccos c − limit to 2π − arccos c − limit.
     """
     side = opposite if phase == "rise" else -opposite
-
     lowest_by = formulas.lowest_against if side > 0 else formulas.lowest_with
-
-    cosine = formulas.cosine_aside(Ref("l"), formulas.factor(Ref("ds"), opposite), Ref("cos"), Ref("a"))
-    known = {"l": arm, "cos": math.cos(limit), "a": a}
+    highest_by = formulas.highest_against if side > 0 else formulas.highest_with
+    cosine = formulas.cosine_aside(Ref("l"), formulas.factor(Ref("ds"), opposite), Ref("limit"), Ref("a"))
+    known = {"l": arm, "limit": limit, "a": a}
 
     def share(ds: Floats) -> Floats:
         return np.asarray(evaluate(cosine, {"ds": ds, **known}))
@@ -188,16 +186,11 @@ def bounded(
         aside = np.arccos(np.clip(c, -1, 1))
         return np.where(side * c > 1, np.inf, valued(lowest_by, limit, aside, s))
 
-    def most(s: Floats, ds: Floats) -> Floats:
+    def highest(s: Floats, ds: Floats) -> Floats:
         aside = np.arccos(np.clip(share(ds), -1, 1))
-        return (limit + aside if side > 0 else 2 * math.pi - aside - limit) - s
+        return np.asarray(valued(highest_by, limit, aside, s))
 
-    return touch(motion, phase, lowest), -touch(motion, phase, lambda s, ds: -most(s, ds)).bound
-
-
-def triangle(a: float, arm: float, angle: float) -> float:
-    """The third side of a triangle (m): a² + l² − 2al cos ψ as (a − l)² + 4al sin²(ψ/2), which is never negative."""
-    return math.hypot(a - arm, 2 * math.sqrt(a * arm) * math.sin(angle / 2))
+    return touch(motion, phase, lowest), -touch(motion, phase, lambda s, ds: -highest(s, ds)).bound
 
 
 def best_distance(motion: FollowerMotion, limits: CamLimits, arm: float, opposite: int) -> Least:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from reportgen.cam import cam_ids
-from reportgen.formula import Expression, Ref, acos, asin, atan, cos, signed, sin, sqrt
+from reportgen.formula import PI, Expression, Ref, acos, asin, atan, cos, signed, sin, sqrt, tan
 from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
@@ -71,54 +71,54 @@ def _written(formula: Callable[..., Expression], count: int) -> Expression:
 # --- the least cam of a translating follower: s₀ ≥ (c₁ − e)/tan [α] and s₀ ≥ (c₂ + e)/tan [α′] ----
 
 
-def rise_intercept(s: Expression, ds: Expression, t: Expression) -> Expression:
+def rise_intercept(s: Expression, ds: Expression, α: Expression) -> Expression:
     """c₁ = s′ − s tan [α], greatest where the limit line of the rise touches."""
-    return ds - s * t
+    return ds - s * tan(α)
 
 
-def return_intercept(s: Expression, ds: Expression, t: Expression) -> Expression:
+def return_intercept(s: Expression, ds: Expression, α: Expression) -> Expression:
     """c₂ = −s′ − s tan [α′], greatest where the limit line of the return touches."""
-    return -ds - s * t
+    return -ds - s * tan(α)
 
 
-def height_by_rise(c: Expression, e: Expression, t: Expression) -> Expression:
+def height_by_rise(c: Expression, e: Expression, α: Expression) -> Expression:
     """The least s₀ that the rise allows at an offset e."""
-    return (c - e) / t
+    return (c - e) / tan(α)
 
 
-def height_by_return(c: Expression, e: Expression, t: Expression) -> Expression:
+def height_by_return(c: Expression, e: Expression, α: Expression) -> Expression:
     """The least s₀ that the return allows at an offset e."""
-    return (c + e) / t
+    return (c + e) / tan(α)
 
 
-def apex_height(c1: Expression, c2: Expression, t1: Expression, t2: Expression) -> Expression:
+def apex_height(c1: Expression, c2: Expression, α1: Expression, α2: Expression) -> Expression:
     """s₀ where both limit lines meet."""
-    return (c1 + c2) / (t1 + t2)
+    return (c1 + c2) / (tan(α1) + tan(α2))
 
 
-def apex_offset(c1: Expression, high: Expression, t1: Expression) -> Expression:
+def apex_offset(c1: Expression, high: Expression, α1: Expression) -> Expression:
     """e where both limit lines meet."""
-    return c1 - high * t1
+    return c1 - high * tan(α1)
 
 
-def foot_of_rise(c: Expression, t: Expression) -> Expression:
+def foot_of_rise(c: Expression, α: Expression) -> Expression:
     """e of the point of the rise's limit line that is nearest to the follower's lowest point."""
-    return c / (1 + t**2)
+    return c / (1 + tan(α) ** 2)
 
 
-def foot_of_return(c: Expression, t: Expression) -> Expression:
+def foot_of_return(c: Expression, α: Expression) -> Expression:
     """e of the point of the return's limit line that is nearest to the follower's lowest point."""
-    return -(c / (1 + t**2))
+    return -(c / (1 + tan(α) ** 2))
 
 
-def height_on_rise(e: Expression, t: Expression) -> Expression:
+def height_on_rise(e: Expression, α: Expression) -> Expression:
     """s₀ of that nearest point of the rise's line."""
-    return e * t
+    return e * tan(α)
 
 
-def height_on_return(e: Expression, t: Expression) -> Expression:
+def height_on_return(e: Expression, α: Expression) -> Expression:
     """s₀ of that nearest point of the return's line."""
-    return -(e * t)
+    return -(e * tan(α))
 
 
 def base_radius(s0: Expression, e: Expression) -> Expression:
@@ -129,9 +129,9 @@ def base_radius(s0: Expression, e: Expression) -> Expression:
 # --- the least cam of an oscillating follower -----------------------------------------------------
 
 
-def cosine_aside(arm: Expression, k: Expression, cosine: Expression, a: Expression) -> Expression:
+def cosine_aside(arm: Expression, k: Expression, α: Expression, a: Expression) -> Expression:
     """l k cos [α]/a, the cosine of the angle by which the arm may lie aside of the limit line."""
-    return arm * k * cosine / a
+    return arm * k * cos(α) / a
 
 
 def lowest_against(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
@@ -142,6 +142,21 @@ def lowest_against(limit: Expression, aside: Expression, ψ: Expression) -> Expr
 def lowest_with(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
     """The lowest ψ₀ of a phase in which the arm turns as the cam does."""
     return aside - limit - ψ
+
+
+def highest_against(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
+    """The highest ψ₀ of a phase in which the arm turns against the cam."""
+    return limit + aside - ψ
+
+
+def highest_with(limit: Expression, aside: Expression, ψ: Expression) -> Expression:
+    """The highest ψ₀ of a phase in which the arm turns as the cam does."""
+    return 2 * PI - aside - limit - ψ
+
+
+def base_radius_of_arm(a: Expression, arm: Expression, ψ0: Expression) -> Expression:
+    """r₀ = √(a² + l² − 2al cos ψ₀), by the law of cosines."""
+    return sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0))
 
 
 # --- the cam --------------------------------------------------------------------------------------

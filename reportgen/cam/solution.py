@@ -20,7 +20,7 @@ from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
 from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
 from reportgen.cam.profile import Cam, CamProfile
-from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, cos, sqrt, tan
+from reportgen.formula import PI, Expression, Number, Operand, Ref, Symbol, acos, as_expression, branch, tan
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 from reportgen.report.case import Misconceptions, with_another
@@ -317,38 +317,38 @@ class CamSheet:
         assert least is not None
         assert least.rise is not None
         s, ds = self._touch("rise", least.rise)
-        t1 = tan(q["cam.limit.rise"])
-        c1 = q.define(cam_ids.intercept(1), formulas.rise_intercept(s, ds, t1))
-        c2, t2 = None, None
+        α1 = q["cam.limit.rise"]
+        c1 = q.define(cam_ids.intercept(1), formulas.rise_intercept(s, ds, α1))
+        c2, α2 = None, None
         if least.back is not None:
             s, ds = self._touch("return", least.back)
-            t2 = tan(q["cam.limit.return"])
-            c2 = q.define(cam_ids.intercept(2), formulas.return_intercept(s, ds, t2))
+            α2 = q["cam.limit.return"]
+            c2 = q.define(cam_ids.intercept(2), formulas.return_intercept(s, ds, α2))
         if not self.given.seeks("e"):
             top = c1 if least.rule == "rise" else c2
             assert top is not None
-            limit = t1 if least.rule == "rise" else t2
+            limit = α1 if least.rule == "rise" else α2
             assert limit is not None
             if not self.cam.e:
-                q.define("cam.least.r0", top / limit)
+                q.define("cam.least.r0", top / tan(limit))
                 return
             height = formulas.height_by_rise if least.rule == "rise" else formulas.height_by_return
             s0 = q.define("cam.least.s0", height(top, q["cam.e"], limit))
             q.define("cam.least.r0", formulas.base_radius(s0, q["cam.e"]))
             return
-        if c2 is not None and t2 is not None:
-            high = q.define("cam.apex.s0", formulas.apex_height(c1, c2, t1, t2))
-            across = q.define("cam.apex.e", formulas.apex_offset(c1, high, t1))
+        if c2 is not None and α2 is not None:
+            high = q.define("cam.apex.s0", formulas.apex_height(c1, c2, α1, α2))
+            across = q.define("cam.apex.e", formulas.apex_offset(c1, high, α1))
         if least.rule == "apex":
             s0, e = q.define("cam.least.s0", high), q.define("cam.least.e", across)
         elif least.rule == "rise":
-            e = q.define("cam.least.e", formulas.foot_of_rise(c1, t1))
-            s0 = q.define("cam.least.s0", formulas.height_on_rise(e, t1))
+            e = q.define("cam.least.e", formulas.foot_of_rise(c1, α1))
+            s0 = q.define("cam.least.s0", formulas.height_on_rise(e, α1))
         else:
             assert c2 is not None
-            assert t2 is not None
-            e = q.define("cam.least.e", formulas.foot_of_return(c2, t2))
-            s0 = q.define("cam.least.s0", formulas.height_on_return(e, t2))
+            assert α2 is not None
+            e = q.define("cam.least.e", formulas.foot_of_return(c2, α2))
+            s0 = q.define("cam.least.s0", formulas.height_on_return(e, α2))
         q.define("cam.least.r0", formulas.base_radius(s0, e))
 
     def _oscillating(self) -> None:
@@ -362,8 +362,8 @@ class CamSheet:
                 continue
             ψ, dψ = self._touch(phase, touch)
             limit = q[cam_ids.limit(phase)]
-            aside = acos(formulas.cosine_aside(arm, factor(dψ, self.σ), cos(limit), a))
+            aside = acos(formulas.cosine_aside(arm, factor(dψ, self.σ), limit, a))
             lowest = formulas.lowest_against if side > 0 else formulas.lowest_with
             found[phase] = lowest(limit, aside, ψ)
         ψ0 = q.define("cam.least.psi0", found[least.rule])
-        q.define("cam.least.r0", sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0)))
+        q.define("cam.least.r0", formulas.base_radius_of_arm(a, arm, ψ0))

@@ -8,28 +8,33 @@ positions than the evenly spaced ones; `WARNINGS`, checks of what is allowed but
 
 A kind that is no machine has its module in a room of its own, found by its words likewise; it gives `case` in place of
 `machine`, which makes a case of its own.  `PART` is the name that the ids of a kind begin with which can be a part of a
-coursework; its words have under `index` what symbols get that an earlier part has too.  Ids of its own are in a module
-called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
+coursework; its words have under `index` what symbols get that an earlier part has too.  `table_rows` gives what `solve`
+prints of a position where that is not its entries as they are; `results` in its words has the titles.  Ids of its own
+are in a module called by that name, `cam_ids` (`reportgen.formula.vocabulary.heads`).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from reportgen.assignment import reading
-from reportgen.assignment.common import Assignment, Kind, file_model, named_worked
-from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem
-from reportgen.base.kinds import kinds
+from reportgen.assignment.common import Assignment, Kind, named_worked
+from reportgen.assignment.fields import UNIT_KEY
+from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
+from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, TemplateError
+from reportgen.base.field_words import also, choice_words, field_words, remarked
+from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
-from reportgen.base.template_folders import samples
-from reportgen.base.units import Language, measures
-from reportgen.base.words import as_error, as_problem, language_of, word
+from reportgen.base.template_folders import kind_file, samples
+from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
+from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
 from reportgen.catalogue import assembly, declared_loads, given_springs, wide_sliders
 from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
@@ -111,9 +116,13 @@ def load(path: Path | str, language: Language | None = None) -> Assignment:
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    source = read_source(Path(path))
-    assignment, faults = assess(source, Path(path))
-    faults = [*reading.name_faults(Path(path)), *faults]
+    return _in_order(read_source(Path(path)), Path(path), language)
+
+
+def _in_order(source: Source, path: Path, language: Language | None) -> Assignment:
+    """The assignment of nodes that were read from `path`; raises `AssignmentError`."""
+    assignment, faults = assess(source, path)
+    faults = [*reading.name_faults(path), *faults]
     if assignment is None or faults:
         raise as_error(faults, language or language_of(source))
     return assignment.with_language(language) if language else assignment
@@ -126,8 +135,13 @@ def check(path: Path | str, language: Language | None = None) -> list[Problem]:
 
 def examine(path: Path | str, language: Language | None = None) -> list[Problem]:
     """All faults of an assignment file; of one without, its warnings, and which positions labels stand for."""
+    return problems_of(read_source(Path(path)), Path(path), language)
+
+
+def problems_of(source: Source, path: Path, language: Language | None = None) -> list[Problem]:
+    """As `examine`, of nodes that were read from `path`."""
     try:
-        assignment = load(path, language)
+        assignment = _in_order(source, path, language)
     except AssignmentError as error:
         return list(error.problems)
     warnings = getattr(module(assignment.kind), "WARNINGS", ())
@@ -135,9 +149,9 @@ def examine(path: Path | str, language: Language | None = None) -> list[Problem]
         "warning": [finding for warning in warnings for finding in warning(assignment)],
         "note": list(_understood_positions(assignment)),
     }
-    source, spoken = read_source(Path(path)), assignment.language
+    spoken = assignment.language
     problems = [as_problem(one, spoken, level) for level in by_level for one in reading.placed(source, by_level[level])]
-    doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, Path(path)))
+    doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, path))
     problems += [as_problem(one, spoken, "warning") for one in doubtful]
     return sorted(problems, key=lambda problem: problem.mark)
 
@@ -173,26 +187,40 @@ def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
         yield Finding("positions", ("report", "worked_positions"), {"known": "; ".join(understood)})
 
 
-def schema() -> dict[str, Any]:
-    """JSON Schema (draft-07, which every editor knows) of an assignment file of any kind."""
-    from pydantic import BaseModel
-    from pydantic.json_schema import JsonSchemaMode, models_json_schema
-
-    # All at once: models of one name in different kinds get names of their own.
-    models: list[tuple[type[BaseModel], JsonSchemaMode]] = [(file_model(kind(name)), "validation") for name in kinds()]
-    references, definitions = models_json_schema(models, by_alias=True)
-    modern = {"title": "reportgen assignment", "oneOf": [references[model] for model in models], **definitions}
-    return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
+def schema(language: Language | None = None) -> dict[str, Any]:
+    """JSON Schema (draft-07, which every editor knows) of a file of any kind, its keys told in a language."""
+    spoken_in = language or spoken()
+    return schema_of(map(kind, kinds()), lambda name: field_words(name, spoken_in))
 
 
-def _as_draft_07(part: Any) -> Any:
-    """A schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not share."""
-    match part:
-        case dict():
-            return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}
-        case list():
-            return [_as_draft_07(item) for item in part]
-        case str():
-            return part.replace("#/$defs/", "#/definitions/")
-        case _:
-            return part
+# --- a file to begin with ---------------------------------------------------------------------------
+
+
+def sample(name: str, language: Language) -> str:
+    """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
+    known = kind(name)
+    file = kind_file(language, name)
+    if (section := sections(file).get(SAMPLE)) is None:
+        raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
+    words = field_words(name, language)
+    return remarked(section.text, words, lambda path, value: _more(known, path.split("."), value, language))
+
+
+def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> str:
+    """What a remark says beside the words of a key: among what it chooses, and by which key the same may be said."""
+    schema, words = file_schema(known), choice_words(language)
+    choices = list(dict.fromkeys(choice for one in places(schema, schema, tuple(path)) for choice in choices_of(one)))
+    said = [f"{choice} ({words[choice]})" if words.get(choice, choice) != choice else choice for choice in choices]
+    listed = f": {' | '.join(said)}" if len(said) > 1 else ""
+    others = alternatives_to(known, path)
+    instead = "".join(f", {also(language)}  {_instead(schema, [*path[:-1], other], value)}" for other in others)
+    return listed + instead
+
+
+def _instead(schema: dict[str, Any], path: Sequence[str], value: str) -> str:
+    """Another key that says the same as one with this value; with its own value, if it is of the same dimension."""
+    units = [one[UNIT_KEY] for one in places(schema, schema, tuple(path)) if UNIT_KEY in one]
+    with suppress(QuantityFault):
+        for unit in units:
+            return f"{path[-1]}: {read_quantity(value, unit).si / read_unit(unit, unit):.3g} {unit}"
+    return path[-1]

@@ -97,9 +97,9 @@ def driven(
     turns = own.get("turns", assignment.turns)
     motion_at = crank_motion(linkage, positions, start)
     declared = declared_loads.loads(given.loads, linkage, motion_at, of_kind, through=not positions.at)
-    of_springs, springs = given_springs.loads(given.springs, linkage, q, (*of_kind, *declared))
+    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
-    faces = wide_sliders.entered(given.faces, linkage, q)
+    faces = wide_sliders.entered(given.faces, linkage, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in of_springs)}
     # What a kind sets out by its name is its own load.

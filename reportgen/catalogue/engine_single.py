@@ -14,7 +14,8 @@ from typing import Annotated, ClassVar
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters, one_of
+from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.fields import Gravity, Interval, Length, Offset, Ratio, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given

@@ -12,7 +12,8 @@ from typing import Annotated
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Draft, Positions, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.fields import Angle, Length, Offset, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given

@@ -15,7 +15,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from typing import Literal
 
-from reportgen.assignment.common import Assignment, Part, of_turning
+from reportgen.assignment.checks import of_turning
+from reportgen.assignment.common import Assignment, Part
 from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given

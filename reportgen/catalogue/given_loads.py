@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from reportgen.assignment.checks import increasing, same_length
 from reportgen.assignment.common import Part, Positions
 from reportgen.assignment.fields import (
     CycleAngles,
@@ -18,7 +19,6 @@ from reportgen.assignment.fields import (
     Values,
     quantity,
 )
-from reportgen.assignment.rows import increasing, same_length
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import against
 from reportgen.formula import ids

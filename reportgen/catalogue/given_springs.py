@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Either, Quantity, Reader, Whole, fault, quantity
@@ -13,13 +13,11 @@ from reportgen.base.shown import view
 from reportgen.base.units import Given, measures
 from reportgen.catalogue.declared_loads import LAST_LINK, Link, Name, PointName, named, on_link, pins
 from reportgen.catalogue.typed import as_typed
+from reportgen.catalogue.wide_sliders import Datum
 from reportgen.formula import Number, Symbol, ids
 from reportgen.machine import GROUND, Linkage
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.springs import Anchor, SpringLaw, TorsionLaw
-
-if TYPE_CHECKING:
-    from reportgen.catalogue.given_sheet import GivenSheet
 
 COORDINATE = quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
 STIFFNESS = quantity("N/mm", least=0, most=1e9, tiny=1e-9)
@@ -161,9 +159,9 @@ def _other_point(linkage: Linkage, spring: Spring) -> str | None:
 
 
 def loads(
-    springs: Sequence[Spring], linkage: Linkage, sheet: GivenSheet, others: Sequence[Applied | Torque]
+    springs: Sequence[Spring], linkage: Linkage, datum: Datum, others: Sequence[Applied | Torque]
 ) -> tuple[tuple[Applied | Torque, ...], tuple[SpringRow, ...]]:
-    """The loads of the springs beside `others`, and what words tell of them; their data are entered on the sheet.
+    """The loads of the springs beside `others`, and what words tell of them; their data are entered.
 
     Faulty springs, which the file's checks tell, are left out.
     """
@@ -173,9 +171,9 @@ def loads(
         if list(faults([spring], linkage)) or not spring.c.si:
             continue
         kinds = ("torsional stiffness", "angle") if spring.twists else ("stiffness", "length")
-        sheet.datum(ids.spring_rate(number), spring.c, Symbol("c", str(number)), kinds[0])
+        datum(ids.spring_rate(number), spring.c, Symbol("c", str(number)), kinds[0])
         slack = Symbol("φ" if spring.twists else "l", f"{number},0")
-        sheet.datum(ids.spring_free(number), spring.free, slack, kinds[1])
+        datum(ids.spring_free(number), spring.free, slack, kinds[1])
         own = _loads(number, spring, linkage, (*others, *made))
         made += own
         rows.append(_row(number, spring, tuple(load.name for load in own)))
@@ -209,5 +207,15 @@ def _row(number: int, spring: Spring, made: tuple[str, ...]) -> SpringRow:
     lines = (ids.spring_turn(number),) if spring.twists else lengths
     point = spring.about or spring.at or ""
     return SpringRow(
-        number, spring.link, point, to.link, to.name, x, y, as_typed(spring.c), as_typed(spring.free), made, lines
+        number,
+        link=spring.link,
+        point=point,
+        other=to.link,
+        to=to.name,
+        x=x,
+        y=y,
+        rate=as_typed(spring.c),
+        slack=as_typed(spring.free),
+        loads=made,
+        lines=lines,
     )

@@ -10,7 +10,8 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from reportgen.assignment.common import Assignment, Part, Positions, of_parameters, of_turning, one_of
+from reportgen.assignment.checks import of_parameters, of_turning, one_of
+from reportgen.assignment.common import Assignment, Part, Positions
 from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given

@@ -12,7 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions, of_parameters, one_of
+from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
 from reportgen.catalogue import declared_loads, given_springs, linkage_checks, wide_sliders
@@ -43,12 +44,6 @@ BOX = (0.210, 0.260)
 STEPS = 72
 
 
-def _check_speed(draft: Draft) -> Iterator[Finding]:
-    """A crank has a speed, in one way."""
-    if draft.at("parameters", "driver", "type") == "crank":
-        yield from one_of("parameters.driver", "n", "omega1")(draft)
-
-
 @of_parameters
 def _check_flywheel(given: Parameters) -> Iterator[Finding]:
     """A flywheel turns with a crank."""
@@ -64,7 +59,7 @@ def _check_weights(draft: Draft) -> Iterator[Finding]:
 
 
 CHECKS = (
-    _check_speed,
+    one_of("parameters.driver", "n", "omega1", form=("type", "crank")),
     needs_loads(("masses", "loads", "springs")),
     _check_flywheel,
     steady_flywheel("parameters", "driver", "epsilon1"),
@@ -124,12 +119,12 @@ def machine(assignment: Assignment) -> Machine:
     )
     declared = _loads(given, linkage, _motion_at(built), through=not positions.at)
     q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
-    of_springs, springs = given_springs.loads(given.springs, linkage, q, declared)
+    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, declared)
     loads = LoadsByKind.of((*declared, *of_springs))
     acting = tuple(load.name for load in declared if load.name not in loads.idle)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
-    faces = wide_sliders.entered(given.faces, linkage, q)
+    faces = wide_sliders.entered(given.faces, linkage, q.datum)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(

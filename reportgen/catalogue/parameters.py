@@ -11,7 +11,8 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field
 
-from reportgen.assignment.common import Check, Draft, Part, one_of
+from reportgen.assignment.checks import one_of
+from reportgen.assignment.common import Check, Draft, Part
 from reportgen.assignment.fields import (
     AngularAcceleration,
     AngularVelocity,

@@ -9,7 +9,8 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import Annotated
 
-from reportgen.assignment.common import Assignment, Part, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Assignment, Part
 from reportgen.assignment.fields import Interval, Length, Ratio, Share, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given, nice_up

@@ -8,7 +8,8 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterator
 
-from reportgen.assignment.common import Assignment, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Assignment
 from reportgen.assignment.fields import Angle, Coordinate, Length, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given

@@ -11,7 +11,8 @@ import math
 from collections.abc import Iterator
 from typing import Literal
 
-from reportgen.assignment.common import Assignment, Positions, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Assignment, Positions
 from reportgen.assignment.fields import Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Mapping
 
 from pydantic import Field
 
@@ -12,13 +11,13 @@ from reportgen.assignment.fields import Coordinate
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import listed
-from reportgen.formula import ids
+from reportgen.formula import Symbol, ids
 from reportgen.machine import Linkage
 from reportgen.machine.faces import Faces
 from reportgen.machine.loads import carriers
 
-if TYPE_CHECKING:
-    from reportgen.catalogue.given_sheet import GivenSheet
+Datum = Callable[[str, Given, Symbol | str, str], object]
+"""Enters a quantity as typed on a sheet: its id, what is given, its symbol, its kind."""
 
 
 class Face(Part):
@@ -40,15 +39,15 @@ def faults(faces: Mapping[int, Face], linkage: Linkage) -> Iterator[Finding]:
             yield Finding("face-turned", (*where, "to"), {"text": face.to.text, "from": face.from_.text})
 
 
-def entered(faces: Mapping[int, Face], linkage: Linkage, sheet: GivenSheet) -> dict[int, Faces]:
-    """The faces, whose data are entered on the sheet; faulty ones, which the file's checks tell, are left out."""
+def entered(faces: Mapping[int, Face], linkage: Linkage, datum: Datum) -> dict[int, Faces]:
+    """The faces, whose data are entered; faulty ones, which the file's checks tell, are left out."""
     sliders, found = carriers(linkage), {}
     for link, face in faces.items():
         if link not in sliders or face.from_.si >= face.to.si:
             continue
-        sheet.datum(ids.face_from(link), face.from_)
-        sheet.datum(ids.face_to(link), face.to)
+        datum(ids.face_from(link), face.from_, "", "")
+        datum(ids.face_to(link), face.to, "", "")
         if face.below.si:
-            sheet.datum(ids.face_below(link), face.below)
+            datum(ids.face_below(link), face.below, "", "")
         found[link] = Faces(face.from_.si, face.to.si, face.below.si)
     return found

@@ -1,39 +1,34 @@
-"""A whole class marked: filled sheets in, each student's own sheet and feedback back, grades and the class page.
+"""A whole class marked: filled sheets in, a marking for each of them, and for everybody else the reason why not.
 
 One sheet that cannot be read never stops the others; nobody's data goes into another's files.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import groupby
 from pathlib import Path
 
-from reportgen import api
-from reportgen.api import Engine
-from reportgen.base.errors import AssignmentError, Fault, Mark, Problem, ReportgenError
-from reportgen.base.files import overwritten, put_files, reported, scratch
-from reportgen.base.kinds import title
+from reportgen.base.errors import Fault, Problem, ReportgenError
 from reportgen.base.units import Language
-from reportgen.base.words import as_problem, counted, word
+from reportgen.base.words import as_problem
 from reportgen.cases import open_case
-from reportgen.classes.gradebooks import Gradebook, StudentResult
-from reportgen.classes.platforms import Owner, handed_in, zipped
+from reportgen.classes.collecting import Collected, Refused, collect, named_after
+from reportgen.classes.corrections import Correction, applied
+from reportgen.classes.gradebooks import Gradebook, Participant
+from reportgen.classes.lateness import Handing, days_late
+from reportgen.classes.platforms import Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
-from reportgen.classes.roster import RosterEntry, assignment_files, comparable, folder_name, read_roster
-from reportgen.marking.feedback import feedback_book, feedback_document
-from reportgen.marking.grades import class_document, grade_rows, person
+from reportgen.classes.roster import RosterEntry, assignment_files, comparable, read_roster
+from reportgen.marking.grades import person
 from reportgen.marking.guard import Classmate
 from reportgen.marking.marking import mark
-from reportgen.marking.marks import Marking, Submission
+from reportgen.marking.marks import Marking, Submission, Unmarked
 from reportgen.marking.parts import check_shares
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme, marking_scheme
-from reportgen.marking.sheet import read_submission
 from reportgen.report.key import Key
-from reportgen.workbook import write_csv, write_xlsx
 
 
 @dataclass(frozen=True)
@@ -70,36 +65,36 @@ class Classroom:
                 continue
         return tuple(keys)
 
+    def participant(self, key: Key, owner: Owner | None = None) -> Participant:
+        """What a platform may know the student of a key by."""
+        email = self.people[stem].card.get("email") if (stem := comparable(key.id)) in self.people else None
+        ids = (key.student.get("id", key.id), email)
+        return Participant(person(key), frozenset(id.casefold() for id in ids if id), owner.number if owner else "")
+
 
 @dataclass(frozen=True, slots=True)
 class Graded:
-    """What marking a class gave: markings by assignment, faults of sheets, keys of those who handed nothing in.
+    """What marking a class gave: markings by assignment, all that is told, and who has no marks.
 
-    `owners` are those who handed the sheets in, by assignment, where they come from a learning platform; `emails`
-    are known from a roster.
+    `owners` are those who handed the sheets in, by assignment, where they come from a learning platform; `known` is
+    what its table may know each student by.
     """
 
     markings: tuple[Marking, ...]
     problems: tuple[Problem, ...]
-    missing: tuple[Key, ...]
+    unmarked: tuple[Unmarked, ...]
     owners: Mapping[str, Owner] = field(default_factory=dict)
-    emails: Mapping[str, str] = field(default_factory=dict)
+    known: Mapping[str, Participant] = field(default_factory=dict)
 
-    def results(self) -> list[StudentResult]:
-        """The share of each student, with what a platform may know him or her by."""
-        return [
-            StudentResult(
-                person(marking.key),
-                frozenset(
-                    one.casefold()
-                    for one in (marking.key.student.get("id", marking.key.id), self.emails.get(marking.key.id))
-                    if one
-                ),
-                self.owners[marking.key.id].number if marking.key.id in self.owners else "",
-                marking.share,
-            )
-            for marking in self.markings
-        ]
+    @property
+    def missing(self) -> tuple[Key, ...]:
+        """The keys of those who handed nothing in."""
+        return tuple(one.key for one in self.unmarked if not one.reasons)
+
+    @property
+    def refused(self) -> tuple[Key, ...]:
+        """The keys of those of whose files none could be marked."""
+        return tuple(one.key for one in self.unmarked if one.reasons)
 
 
 def grade(
@@ -108,10 +103,13 @@ def grade(
     policy: Policy,
     language: Language | None = None,
     roster: Path | None = None,
+    corrections: Iterable[Correction] = (),
+    gradebook: Gradebook | None = None,
 ) -> Graded:
     """Mark the sheets of files, folders and downloads of a platform, with names from a roster if there is one.
 
-    Raises `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
+    `corrections` hold over what is found; the `gradebook` of the platform says when each was handed in.  Raises
+    `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
     """
     files = assignment_files(assignments, language)
     students = read_roster(roster, language).students if roster else ()
@@ -119,52 +117,60 @@ def grade(
     room = Classroom(files, policy, language, people)
     policy.ask.check(room.keys, language)
     check_shares(policy, room.keys, language)
-    sheets: dict[str, Submission] = {}
-    owners: dict[str, Owner] = {}
-    problems: list[Problem] = []
     faults: list[Fault] = []
-    for handed, pages in read_sheets(handed_in(submissions, faults), language):
-        path, owner = handed.path, handed.owner
-        if isinstance(pages, list):
-            problems += pages
-            continue
-        try:
-            submission = read_submission(path, lambda name: room.scheme(name).key, language, pages)
-            name = room.scheme(submission.assignment).key.student.get("name", "")
-            if owner and not owner.may_be(name):
-                fault = Fault("sheet-other-hands", Mark(str(path)), {"text": name, "owner": owner.name})
-                problems.append(as_problem(fault, language))
-                continue
-            earlier = sheets.get(submission.assignment)
-            if earlier is not None:
-                kept, left = _preferred(Path(earlier.file), path, submission.assignment)
-                fault = Fault("sheet-twice", Mark(str(left)), {"text": submission.assignment, "first": kept.name})
-                problems.append(as_problem(fault, language))
-                if kept != path:
-                    continue
-            named = _named(path, room.files)
-            if named not in (None, comparable(submission.assignment)):
-                about = {"named": room.files[named].stem, "text": submission.assignment}
-                problems.append(as_problem(Fault("sheet-named-otherwise", Mark(str(path)), about), language))
-            sheets[submission.assignment] = submission
-            owners.pop(submission.assignment, None)
-            if owner:
-                owners[submission.assignment] = owner
-        except AssignmentError as error:
-            problems += error.problems
+    handed = read_sheets(handed_in(submissions, faults), language)
+    collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
+    sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
     markings = {name: mark(asked_of(room.scheme(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
-    missing = tuple(key for key in room.keys if key.id not in markings)
-    order = {name: index for index, name in enumerate(room.files)}
+    order = {name: index for index, name in enumerate(files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
-    problems += [as_problem(fault, language) for fault in faults]
-    emails = {
-        key.id: people[stem].card["email"]
-        for key in room.keys
-        if (stem := comparable(key.id)) in people and "email" in people[stem].card
-    }
-    return Graded(tuple(marked), tuple(problems), missing, owners, emails)
+    marked, misfits = applied(marked, room.keys, corrections, language)
+    owners = collected.owners
+    known = {key.id: room.participant(key, owners.get(key.id)) for key in room.keys}
+    late: Sequence[Problem] = ()
+    if policy.late is not None:
+        days, late = days_late(policy.late, _handings(collected, known, people), gradebook, language)
+        marked = [replace(marking, days_late=days.get(marking.key.id, 0)) for marking in marked]
+    reasons = _reasons(collected.refused, room, gradebook)
+    unmarked = [Unmarked(key, reasons.get(key.id, ())) for key in room.keys if key.id not in markings]
+    problems = (*collected.problems, *(as_problem(fault, language) for fault in faults), *misfits, *late)
+    return Graded(tuple(marked), problems, tuple(unmarked), owners, known)
+
+
+def _handings(
+    collected: Collected, known: Mapping[str, Participant], people: Mapping[str, RosterEntry]
+) -> dict[str, Handing]:
+    """What is known of when each sheet was handed in."""
+    handings: dict[str, Handing] = {}
+    for name, (_, handed) in collected.sheets.items():
+        entry = people.get(comparable(name))
+        late = handed.owner is not None and handed.owner.late
+        handings[name] = Handing(known[name], str(handed.path), entry.handed_in if entry else None, late)
+    return handings
+
+
+def _reasons(refused: Iterable[Refused], room: Classroom, gradebook: Gradebook | None) -> dict[str, tuple[str, ...]]:
+    """Why files of a student are not marked, by assignment; a file that is nobody's for certain is left out."""
+    reasons: dict[str, tuple[str, ...]] = {}
+    for file in refused:
+        if key := _student_of(file, room, gradebook):
+            reasons[key.id] = (*reasons.get(key.id, ()), *file.reasons)
+    return reasons
+
+
+def _student_of(refused: Refused, room: Classroom, gradebook: Gradebook | None) -> Key | None:
+    """Whose a file is that cannot tell it itself: by whom the platform or the name of the file names."""
+    if owner := refused.handed.owner:
+        names = gradebook.names(owner.number) if gradebook else frozenset()
+        fitting = [key for key in room.keys if room.participant(key).ids & names]
+        own = [(key, key.student.get("name", "")) for key in room.keys]
+        fitting = fitting or [key for key, name in own if name and owner.name and owner.may_be(name)]
+    else:
+        stem = named_after(refused.handed.path, room.files)
+        fitting = [key for key in room.keys if comparable(key.id) == stem]
+    return fitting[0] if len(fitting) == 1 else None
 
 
 def asked_of(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
@@ -174,79 +180,3 @@ def asked_of(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
     key = policy.ask.of(scheme.key, filled)
     beyond = {row.id: 0.0 for row in key.asked if not policy.ask.wants(row)}
     return replace(scheme, key=key, policy=replace(policy, weights={**beyond, **policy.weights}))
-
-
-def _named(path: Path, known: Container[str]) -> str | None:
-    """The assignment that a sheet's file, or else its folder, is named after, as a `comparable` stem."""
-    return next((name for name in map(comparable, (path.stem, path.parent.name)) if name in known), None)
-
-
-def _preferred(first: Path, second: Path, assignment: str) -> tuple[Path, Path]:
-    """Of two sheets of one assignment the one to mark and the other; a file named like the assignment wins."""
-    own = [comparable(path.stem) == comparable(assignment) for path in (first, second)]
-    return (second, first) if own == [False, True] else (first, second)
-
-
-def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
-    """Every file of a graded class with its content: two for each student, two for the instructor.
-
-    What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
-    students.
-    """
-    returned: dict[str, bytes] = {}
-    for marking in graded.markings:
-        key = marking.key
-        # As the batch names it, or the assignment's own stem.
-        folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
-        sheet = write_xlsx(feedback_book(marking, policy.show_answers))
-        yield folder / "feedback.xlsx", sheet
-        tree = feedback_document(marking, title(key.kind, key.language), policy.show_answers)
-        page = api.typeset(tree, engine)[1]
-        yield folder / "feedback.pdf", page
-        if owner := graded.owners.get(key.id):
-            returned |= {f"{owner.prefix}feedback.xlsx": sheet, f"{owner.prefix}feedback.pdf": page}
-    if returned:
-        yield Path("feedback.zip"), zipped(returned)
-    if graded.markings:
-        key = graded.markings[0].key
-        spoken = language or key.language
-        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.missing, policy.scale))
-        named = title(key.kind, spoken)
-        overview = class_document(graded.markings, named, spoken, graded.missing, policy.scale)
-        yield Path("class.pdf"), api.typeset(overview, engine)[1]
-
-
-def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
-    """Write every file of a graded class below `out`, those of a folder together; raises `OutputError`."""
-    with reported(out), scratch(out):
-        made = files_of(graded, policy, engine, language)
-        for folder, files in groupby(made, key=lambda file: file[0].parent):
-            yield from put_files(out / folder, {path.name: content for path, content in files})
-
-
-def filled_gradebook(path: Path, out: Path) -> Path:
-    """Where a platform's table goes when it is filled in: the file that was downloaded stays as it is."""
-    taken = path.name == "grades.csv" or any(overwritten([out / path.name], [path]))
-    return out / (f"filled-{path.name}" if taken else path.name)
-
-
-def put_gradebook(
-    graded: Graded, gradebook: Gradebook, policy: Policy, out: Path, language: Language | None
-) -> tuple[Path, list[Problem]]:
-    """Write a platform's table with the marks below `out`, under its own name, and tell whom it has no row for.
-
-    Raises `OutputError`.
-    """
-    content, faults = gradebook.filled(graded.results(), policy.scale)
-    (written,) = put_files(out, {filled_gradebook(gradebook.path, out).name: content})
-    return written, [as_problem(fault, language) for fault in faults]
-
-
-def summary(graded: Graded, language: Language | None) -> Iterator[str]:
-    """A line for each student marked, and how many handed nothing in."""
-    for marking in graded.markings:
-        points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
-        who, firsts = person(marking.key), len(marking.first_errors)
-        yield word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
-    if graded.missing:
-        yield counted("graded_missing", language, len(graded.missing))

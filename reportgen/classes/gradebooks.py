@@ -2,27 +2,35 @@
 
 All else in the file stays byte for byte.  Moodle's grading worksheet has its headings in the teacher's language, so its
 columns are found by their place and content: the first one ends in each participant's number, and the grade stands
-before the column of the greatest grade, which is one number throughout.  Canvas's gradebook has English headings, a row
+before the column of the greatest grade, which is one number throughout; behind it come the dates of the submission and
+of the grade, and then the comment that the student reads.  Canvas's gradebook has English headings, a row
 "Points Possible", and a column `Title (id)` for each assignment.
 """
 
 from __future__ import annotations
 
+import html
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
+from reportgen.base.moments import moment
 from reportgen.base.source import encoding_of
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
-from reportgen.marking.policy import Scale
 from reportgen.workbook import read
 from reportgen.workbook.reading import BOOKS, SEPARATORS
 
+OWN = '<p class="reportgen">'
+"""How what the program wrote into a comment begins: it is replaced where the table comes back."""
+_OWN = re.compile(rf"{OWN}.*?</p>", re.DOTALL)
 DECIMALS = 2
 """Of a grade, where the table does not show how many it has."""
+
+SUBMITTED, COMMENTS = "last modified (submission)", "feedback comments"
+"""How Moodle heads the date of the submission and the comments in English."""
 
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _PARTICIPANT = re.compile(r"\D+(\d+)")
@@ -30,13 +38,21 @@ _TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
 
 
 @dataclass(frozen=True, slots=True)
-class StudentResult:
-    """The result of one student: ids by which a row may name them, the platform's number ("" if unknown), the share."""
+class Participant:
+    """A student by what a platform's table may know of him or her: ids, and the platform's number, "" if unknown."""
 
     who: str
     ids: frozenset[str]
     number: str
-    share: float
+
+
+@dataclass(frozen=True, slots=True)
+class StudentResult:
+    """The result of one student: the `mark` as a share of the highest one, and a comment in lines."""
+
+    student: Participant
+    mark: float
+    comment: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +66,25 @@ class _Cell:
 
 
 @dataclass(frozen=True, slots=True)
-class _Table:
-    """The table's students: each with the cell of the grade, the platform's number, what else the row says of them."""
+class _Row:
+    """A student of the table: the cell of the grade, the platform's number, what else the row says of the student.
 
-    rows: tuple[tuple[_Cell, str, frozenset[str]], ...]
+    `handed_in` says when, as the platform writes it, and `comment` is the cell that the student reads.
+    """
+
+    grade: _Cell
+    number: str
+    names: frozenset[str]
+    handed_in: str = ""
+    comment: _Cell | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """The table's students and the greatest grade, as the table writes it."""
+
+    rows: tuple[_Row, ...]
     highest: str
-    """The greatest grade, as the table writes it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,17 +98,39 @@ class Gradebook:
     separator: str
     table: _Table
 
-    def filled(self, results: Sequence[StudentResult], scale: Scale) -> tuple[bytes, list[Fault]]:
-        """The file with the grades, and faults for students that it has no row for."""
+    @property
+    def has_comments(self) -> bool:
+        """Whether it has a column of comments that the students read."""
+        return any(row.comment for row in self.table.rows)
+
+    def filled(self, results: Sequence[StudentResult]) -> tuple[bytes, list[Fault]]:
+        """The file with the grades and comments, and faults for students that it has no row for."""
         changes: dict[_Cell, str] = {}
         faults: list[Fault] = []
-        for student in results:
-            cells = _of(student, self.table.rows)
-            if len(cells) == 1:
-                changes[cells[0]] = _grade(scale.mark(student.share) / scale.highest, self.table.highest)
-            else:
-                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": student.who}))
+        for result in results:
+            row = self._row_of(result.student)
+            if row is None:
+                faults.append(Fault("gradebook-no-row", Mark(str(self.path)), {"text": result.student.who}))
+                continue
+            changes[row.grade] = _grade(result.mark, self.table.highest)
+            if row.comment and result.comment:
+                changes[row.comment] = _commented(row.comment.text, result.comment)
         return self.mark + _changed(self.text, changes, self.separator).encode(self.encoding), faults
+
+    def handed_in(self, student: Participant) -> str:
+        """When a student handed in, as the platform writes it; "" where it does not say it."""
+        row = self._row_of(student)
+        return row.handed_in if row else ""
+
+    def names(self, number: str) -> frozenset[str]:
+        """What the row of a platform's number says of its student."""
+        return next((row.names for row in self.table.rows if number and row.number == number), frozenset())
+
+    def _row_of(self, student: Participant) -> _Row | None:
+        """The one row that is a student's: by the platform's number if it is known, else by id or e-mail."""
+        rows = [row for row in self.table.rows if student.number and row.number == student.number]
+        rows = rows or [row for row in self.table.rows if row.names & student.ids]
+        return rows[0] if len(rows) == 1 else None
 
 
 def read_gradebook(path: Path, column: str = "", language: Language | None = None) -> Gradebook:
@@ -102,19 +153,18 @@ def read_gradebook(path: Path, column: str = "", language: Language | None = Non
     return Gradebook(path, text, mark, encoding, separator, table)
 
 
-def _of(student: StudentResult, rows: Sequence[tuple[_Cell, str, frozenset[str]]]) -> list[_Cell]:
-    """The cells of the rows that are the student's: by the platform's number if it is known, else by id or e-mail."""
-    if student.number and (cells := [cell for cell, number, _ in rows if number == student.number]):
-        return cells
-    return [cell for cell, _, names in rows if names & student.ids]
-
-
 def _grade(share: float, highest: str) -> str:
     """A grade with the decimal mark and the decimals of the greatest one."""
     whole, point, decimals = highest.partition("," if "," in highest else ".")
     value = share * float(f"{whole}.{decimals or 0}")
     shown = f"{value:.{len(decimals) if point else DECIMALS}f}"
     return shown.replace(".", point or ".")
+
+
+def _commented(present: str, lines: Sequence[str]) -> str:
+    """A comment as a platform shows it, HTML in one line, behind what somebody else wrote there before."""
+    own = f"{OWN}{'<br>'.join(map(html.escape, lines))}</p>"
+    return _OWN.sub("", present).rstrip() + own
 
 
 def _names(texts: Sequence[str]) -> frozenset[str]:
@@ -137,13 +187,31 @@ def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
     if len(graded) != 1:
         return Fault("gradebook-no-column", Mark(str(path)))
     (greatest,) = graded
-    table = zip(full, numbers, strict=True)
+    heads = [" ".join(cell.text.casefold().split()) for cell in head]
+    dated = [k for k in range(greatest + 1, len(head)) if _is_dated(columns[k])]
+    # One date alone may be that of the grade.
+    submitted = heads.index(SUBMITTED) if SUBMITTED in heads else dated[0] if len(dated) > 1 else None
+    # The comments stand behind the date of the grade.
+    last = max(dated, default=len(head))
+    comments = heads.index(COMMENTS) if COMMENTS in heads else last + 1 if last + 1 < len(head) else None
     return _Table(
         tuple(
-            (row[greatest - 1], number, _names([cell.text for cell in row[1 : greatest - 1]])) for row, number in table
+            _Row(
+                row[greatest - 1],
+                number,
+                _names([cell.text for cell in row[1 : greatest - 1]]),
+                "" if submitted is None else row[submitted].text.strip(),
+                None if comments is None else row[comments],
+            )
+            for row, number in zip(full, numbers, strict=True)
         ),
         columns[greatest][0],
     )
+
+
+def _is_dated(column: Sequence[str]) -> bool:
+    """Whether a column holds dates, or the stroke that stands for none, and nothing else."""
+    return all(text in ("-", "–") or moment(text) for text in column)
 
 
 def _is_greatest(column: Sequence[str], before: Sequence[str]) -> bool:
@@ -187,7 +255,8 @@ def _canvas(rows: Sequence[Sequence[_Cell]], wanted: str, path: Path) -> _Table 
     ]
     return _Table(
         tuple(
-            (row[column], row[head.index("ID")].text.strip(), _names([row[k].text for k in people])) for row in students
+            _Row(row[column], row[head.index("ID")].text.strip(), _names([row[k].text for k in people]))
+            for row in students
         ),
         points[column].text.strip(),
     )
@@ -231,6 +300,7 @@ def _changed(text: str, changes: Mapping[_Cell, str], separator: str) -> str:
     at = 0
     for cell in sorted(changes, key=lambda cell: cell.start):
         new = changes[cell]
-        parts += [text[at : cell.start], f'"{new}"' if cell.quoted or separator in new else new]
+        quoted = cell.quoted or any(sign in new for sign in (separator, '"', "\n"))
+        parts += [text[at : cell.start], '"{}"'.format(new.replace('"', '""')) if quoted else new]
         at = cell.end
     return "".join((*parts, text[at:]))

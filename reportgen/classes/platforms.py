@@ -10,12 +10,14 @@ from __future__ import annotations
 import io
 import re
 import stat
+import time
 import unicodedata
 import zipfile
 from bisect import bisect_right
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Mark
@@ -33,8 +35,8 @@ MOST_BYTES = 2_000_000_000
 
 _MOODLE_FOLDER = re.compile(r"(?P<name>.+)_(?P<number>\d+)_assignsubmission_file_?")
 _MOODLE_FILE = re.compile(r"(?P<prefix>(?P<name>.+?)_(?P<number>\d+)_assignsubmission_file_).+")
-_CANVAS = re.compile(r"(?P<prefix>(?P<name>\w+?)(?:_LATE)?_(?P<number>\d+)_\d+_).+")
-_CANVAS_BLIND = re.compile(r"(?P<prefix>(?:LATE_)?anon_(?P<number>[A-Za-z0-9]+)_\d+_).+")
+_CANVAS = re.compile(r"(?P<prefix>(?P<name>\w+?)(?P<late>_LATE)?_(?P<number>\d+)_\d+_).+")
+_CANVAS_BLIND = re.compile(r"(?P<prefix>(?P<late>LATE_)?anon_(?P<number>[A-Za-z0-9]+)_\d+_).+")
 _DRIVE = re.compile(r"[A-Za-z]:")
 
 
@@ -42,12 +44,14 @@ _DRIVE = re.compile(r"[A-Za-z]:")
 class Owner:
     """Who handed a file in, as the platform says: a number of its own, a name ("" if it tells none).
 
-    `prefix` begins the names of the files that are given back: a folder, or the beginning of a file's name.
+    `prefix` begins the names of the files that are given back: a folder, or the beginning of a file's name.  `late`
+    says that the platform calls it late, without a date.
     """
 
     number: str
     name: str
     prefix: str
+    late: bool = field(default=False, compare=False)
 
     def may_be(self, name: str) -> bool:
         """Whether it can be the student of that name, whatever the order of names, case and accents."""
@@ -59,17 +63,23 @@ class Owner:
 
 @dataclass(frozen=True, slots=True)
 class Handed:
-    """A file that may be a sheet: `path` names it, `data` is its content where it comes from an archive."""
+    """A file that may be a sheet: `path` names it, `data` is its content where it comes from an archive.
+
+    `when` is the year, month, day, hour, minute and second of its last change.  What was handed in without a sheet has
+    the `fault`.
+    """
 
     path: Path
     owner: Owner | None = None
     data: bytes | None = None
+    when: tuple[int, ...] = ()
+    fault: Fault | None = None
 
 
 def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
     """The answer sheets among files, in folders and archives, one at a time.
 
-    Faults are added for archives that are refused and for students without a file that can be a sheet.
+    Faults are added for archives that are refused.
     """
     for path in paths:
         if path.is_dir():
@@ -79,12 +89,19 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
             faults += [Fault("path-outside", Mark(str(file)), {"text": file.name}) for file in strays]
             named = [(file.relative_to(path.parent).as_posix(), file) for file in inside]
             owners = _owners([name for name, _ in named])
-            yield from (Handed(file, owners[name]) for name, file in named if _is_sheet(name))
-            faults += _without_sheet(path.parent, owners)
+            yield from (Handed(file, owners[name], when=_changed(file)) for name, file in named if _is_sheet(name))
+            yield from _without_sheet(path.parent, owners)
         elif path.suffix.lower() == ARCHIVE and path.is_file():
             yield from _from_archive(path, faults)
         else:
-            yield Handed(path, owner_of(path.as_posix()))
+            yield Handed(path, owner_of(path.as_posix()), when=_changed(path))
+
+
+def _changed(path: Path) -> tuple[int, ...]:
+    """When a file was last changed; who reads it tells of one that is not there."""
+    with suppress(OSError):
+        return time.localtime(path.stat().st_mtime)[:6]
+    return ()
 
 
 def files_read(paths: Sequence[Path]) -> Iterator[Path]:
@@ -104,7 +121,8 @@ def owner_of(name: str) -> Owner | None:
             return Owner(match["number"], match["name"], f"{part}/")
     for pattern in (_MOODLE_FILE, _CANVAS_BLIND, _CANVAS):
         if match := pattern.fullmatch(path.name):
-            return Owner(match["number"], match.groupdict().get("name") or "", match["prefix"])
+            said = match.groupdict()
+            return Owner(match["number"], said.get("name") or "", match["prefix"], bool(said.get("late")))
     return None
 
 
@@ -113,7 +131,7 @@ def _owners(names: Sequence[str]) -> dict[str, Owner | None]:
     owners = {name: owner_of(name) for name in names}
     known = {(owner.number, owner.name) for owner in owners.values() if owner}
     if len({number for number, _ in known}) > 1 and len({name for _, name in known}) == 1:
-        return {name: Owner(one.number, "", one.prefix) if one else None for name, one in owners.items()}
+        return {name: replace(one, name="") if one else None for name, one in owners.items()}
     return owners
 
 
@@ -124,14 +142,15 @@ def _is_sheet(name: str) -> bool:
     return path.suffix.lower() in SUBMISSIONS and not hidden
 
 
-def _without_sheet(place: Path, owners: dict[str, Owner | None]) -> Iterator[Fault]:
+def _without_sheet(place: Path, owners: dict[str, Owner | None]) -> Iterator[Handed]:
     """Students who handed in something, but nothing that can be a sheet."""
     sheets = {owner.number for name, owner in owners.items() if owner and _is_sheet(name)}
     seen: set[str] = set()
     for name, owner in owners.items():
         if owner and owner.number not in sheets and owner.number not in seen:
             seen.add(owner.number)
-            yield Fault("download-no-sheet", Mark(str(place / name)), {"text": owner.name or owner.number})
+            fault = Fault("download-no-sheet", Mark(str(place / name)), {"text": owner.name or owner.number})
+            yield Handed(place / name, owner, fault=fault)
 
 
 # --- archives ---------------------------------------------------------------------------------------
@@ -149,8 +168,9 @@ def _from_archive(path: Path, faults: list[Fault]) -> Iterator[Handed]:
             owners = _owners([info.filename for info in members])
             for info in members:
                 if _is_sheet(info.filename):
-                    yield Handed(path / info.filename, owners[info.filename], _content(archive, info))
-            faults += _without_sheet(path, owners)
+                    content = _content(archive, info)
+                    yield Handed(path / info.filename, owners[info.filename], content, info.date_time)
+            yield from _without_sheet(path, owners)
     except UNREADABLE_ZIP:
         faults.append(Fault("archive-damaged", mark))
     except OSError as error:

@@ -33,6 +33,8 @@ def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator
 def _read(call: tuple[Handed, Language | None]) -> Pages | list[Problem]:
     """The pages of a file, in the process that reads it."""
     sheet, language = call
+    if sheet.fault:
+        return [as_problem(sheet.fault, language)]
     try:
         return read(sheet.path, language, sheet.data)
     except AssignmentError as error:

@@ -13,9 +13,9 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from reportgen.base.kinds import sample
 from reportgen.base.units import Language
 from reportgen.base.words import DEFAULT_LANGUAGE
+from reportgen.catalogue import sample
 from reportgen.classes.pool import KINDS
 
 FEW = 4

@@ -1,8 +1,8 @@
 """The class: a CSV or XLSX table with a row for each student, and the assignment files that belong to them.
 
-Columns are id, name, class, section, email (or their Vietnamese names, see `columns` of `messages.yaml`), and any
-path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.  Other
-columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
+Columns are id, name, class, section, email, handed_in (or their Vietnamese names, see `columns` of `messages.yaml`),
+and any path such as `parameters.H`, `positions.start` or `report.supervisor`, which sets that value for the student.
+Other columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
 stand in two columns, one for the family name and one for the given name, and is put together in their order.
 Headings may follow a title; empty rows are passed over.  A table of variants is read by the same headings.
 The participants' lists of Moodle and the gradebook of Canvas are rosters as they come.
@@ -132,6 +132,7 @@ CANVAS_ID = "SIS User ID"
 """How the gradebook of Canvas heads the number that the school gave a student."""
 PERSONAL = ("name", "id", "class", "section", "email")
 NAME_PARTS = ("family", "given")
+HANDED_IN = "handed_in"
 SECTIONS = ("parameters", "positions", "drawing", "indicator", "report")
 ASSIGNMENT_SUFFIXES = frozenset({".yaml", ".yml"})
 _PATH = re.compile(r"([A-Za-z_]+)((?:\.\w+)+)")
@@ -149,12 +150,13 @@ class RosterEntry:
     """A row of the roster.
 
     `card` is what it says of the student, by the keys of `report.student`; `overrides` are values with their
-    cells by path ("parameters.H").
+    cells by path ("parameters.H"); `handed_in` is when the work was handed in, as typed.
     """
 
     card: Mapping[str, str]
     overrides: Mapping[str, Scalar]
     mark: Mark
+    handed_in: Scalar | None = None
 
     @property
     def id(self) -> str:
@@ -230,7 +232,7 @@ def _used(headings: Sequence[RosterColumn]) -> list[RosterColumn]:
     used: list[RosterColumn] = []
     taken: set[str] = set()
     for column in headings:
-        optional = column.name in (*PERSONAL, *NAME_PARTS)
+        optional = column.name in (*PERSONAL, *NAME_PARTS, HANDED_IN)
         if column.name == "id" or _PATH.fullmatch(column.name) or (optional and column.name not in taken):
             used.append(column)
             taken.add(column.name)
@@ -279,7 +281,8 @@ def _student(row: Record) -> RosterEntry:
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
     texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
-    return RosterEntry({name: texts[name] for name in PERSONAL if texts.get(name)}, overrides, row.mark)
+    card = {name: texts[name] for name in PERSONAL if texts.get(name)}
+    return RosterEntry(card, overrides, row.mark, row.values.get(HANDED_IN))
 
 
 def folder_name(id: str) -> str:

@@ -28,7 +28,8 @@ from pathlib import Path
 from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.common import PARTS, Kind
-from reportgen.assignment.reading import allowed_forms, known_keys, misread
+from reportgen.assignment.reading import misread
+from reportgen.assignment.schema import allowed_forms, known_keys
 from reportgen.base.errors import Fault, Mark, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.kinds import kinds

@@ -37,6 +37,7 @@ def main() -> None:
 
     if is_limited():
         _watch()
+    gc.set_threshold(COLLECTED)
     import warnings
 
     # What others plug into models is none of ours, and looking for it takes time.
@@ -49,7 +50,6 @@ def main() -> None:
         # Vietnamese must not fail on a terminal or pipe of another encoding.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-    gc.set_threshold(COLLECTED)
     warnings.showwarning = _tell
     try:
         language_of_run(sys.argv[1:])
@@ -112,6 +112,7 @@ def _app() -> typer.Typer:
         takeaway.figure,
         takeaway.plot,
         student.watch,
+        student.edit,
         student.solve,
         student.compare,
         student.kinds,

@@ -188,32 +188,40 @@ def grade(
         Path | None,
         typer.Option("--gradebook", metavar="FILE", help="A platform's table to fill in.", show_default=False),
     ] = None,
+    corrections: Annotated[
+        Path | None,
+        typer.Option(
+            "--corrections", metavar="FILE", help="What you judge otherwise, CSV or XLSX.", show_default=False
+        ),
+    ] = None,
     column: Annotated[
         str, typer.Option("--column", metavar="NAME", help="The gradebook's assignment.", show_default=False)
     ] = "",
     templates: TemplatesOption = None,
 ) -> None:
     """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
-    from reportgen.classes import assess
+    from reportgen.classes import assess, outcome
+    from reportgen.classes.corrections import read_corrections
     from reportgen.classes.gradebooks import read_gradebook
     from reportgen.classes.platforms import files_read
     from reportgen.marking.policy import Policy, read_policy
 
     with ending(lang):
         made = (*standing(out, "feedback", "*/"), *standing(out, "class"))
-        filled = () if gradebook is None else (assess.filled_gradebook(gradebook, out),)
-        refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook], lang)
+        filled = () if gradebook is None else (outcome.filled_gradebook(gradebook, out),)
+        refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook, corrections], lang)
         rules = Policy() if policy is None else read_policy(policy, lang)
         # What is wrong with it is told before an hour's marking, not after.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
-        graded = assess.grade(submissions, assignments, rules, lang, roster)
+        judged = () if corrections is None else read_corrections(corrections, lang)
+        graded = assess.grade(submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table)
         problems = list(graded.problems)
-        for path in assess.put(graded, rules, out, engine, lang):
+        for path in outcome.put(graded, rules, out, engine, lang):
             print(path, flush=True)
         if table is not None:
-            written, unknown = assess.put_gradebook(graded, table, rules, out, lang)
+            written, unknown = outcome.put_gradebook(graded, table, rules, out, lang)
             print(written, flush=True)
             problems += unknown
-        print(*assess.summary(graded, lang), sep="\n")
+        print(*outcome.summary(graded, lang), sep="\n")
         print(*problems, sep="\n", end="\n" * bool(problems), file=sys.stderr)
-        raise typer.Exit(AT_FAULT if problems else 0)
+        raise typer.Exit(AT_FAULT if any(one.level == "error" for one in problems) else 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import sys
@@ -32,6 +33,7 @@ from reportgen.cli.common import (
 )
 
 if TYPE_CHECKING:
+    from reportgen.base.units import Language
     from reportgen.report import Document
     from reportgen.report.case import Case
 
@@ -143,6 +145,71 @@ def watch(
         serve(file, opener(), lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
 
 
+def edit(
+    what: Annotated[
+        str | None,
+        typer.Argument(metavar="[FILE|KIND]", help="Assignment file, or a kind to begin with.", show_default="choose"),
+    ] = None,
+    output: Annotated[
+        Path | None, typer.Option("-o", "--output", metavar="FILE", help="Begin this file.", show_default="KIND.yaml")
+    ] = None,
+    no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser; the address is printed anyway.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of what is made of it.")] = Path("out"),
+    lang: LangOption = None,
+    templates: TemplatesOption = None,
+) -> None:
+    """Edit FILE in a browser by a form, the machine moving beside it. A KIND begins a file. Ctrl-C ends it."""
+    from reportgen.base.kinds import kinds
+    from reportgen.cases import opener
+    from reportgen.page import watch as served
+
+    def begin(kind: str) -> Path:
+        """The file of a kind, begun; one that was named, or the first that is not there yet."""
+        names = (Path(f"{kind}{f'-{number}' if number else ''}.yaml") for number in itertools.count())
+        file = output or next(name for name in names if not os.path.lexists(name))
+        _begin(kind, file, lang)
+        return file
+
+    with ending(lang):
+        if what is None:
+            served.choose(begin, opener(), lang, lambda file: _products(file, out, lang), browser=not no_open)
+            return
+        begins = what in kinds() and not Path(what).exists()
+        if output is not None and not begins:
+            from reportgen.base.words import unknown
+
+            raise typer.BadParameter(unknown("no_kind", what, list(kinds()), lang), param_hint="KIND")
+        file = Path(what)
+        if begins:
+            file = output or Path(f"{what}.yaml")
+            _begin(what, file, lang)
+        served.edit(file, opener(), lang, _products(file, out, lang), browser=not no_open)
+
+
+def _begin(kind: str, file: Path, lang: Language | None) -> None:
+    """Write the file to begin with of a kind, never over one that is there."""
+    from reportgen import catalogue
+    from reportgen.base.words import spoken
+
+    if os.path.lexists(file):
+        refuse([Fault("already-there", Mark(str(file)))], file, lang)
+    write(file, catalogue.sample(kind, lang or spoken()))
+
+
+def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[str, ...]]:
+    """The commands by which the page of a file has something made of it."""
+    spoken = ("--lang", lang) if lang else ()
+    commands = {
+        "pdf": ("build", "--format", "pdf"),
+        "docx": ("build", "--format", "docx"),
+        "html": ("build", "--format", "html"),
+        "sheet": ("sheet",),
+        "key": ("key",),
+    }
+    begun = (sys.executable, "-m", "reportgen.cli")
+    return {name: (*begun, *command, str(file), "--out", str(out), *spoken) for name, command in commands.items()}
+
+
 def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
     """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
     from reportgen.api import made_of, typeset
@@ -229,7 +296,7 @@ def new(
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
     from reportgen import catalogue
-    from reportgen.base.kinds import kinds, sample
+    from reportgen.base.kinds import kinds
     from reportgen.base.words import spoken, unknown
 
     if kind not in kinds():
@@ -240,7 +307,9 @@ def new(
     with ending(lang):
         if output is not None and os.path.lexists(output) and not (force or is_stream(output)):
             refuse([Fault("already-there", Mark(str(output)))], output, lang)
-        text = sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
+        text = (
+            catalogue.sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
+        )
         write(output or Path("-"), text)
 
 
@@ -280,11 +349,11 @@ def kinds(lang: LangOption = None) -> None:
         print(f"{kind:{width}}  {title}")
 
 
-def schema() -> None:
-    """Print the JSON Schema of the assignment file, for editors."""
+def schema(lang: LangOption = None) -> None:
+    """Print the JSON Schema of the assignment file, for editors. Its keys are told in the language."""
     from reportgen import catalogue
 
-    print(json.dumps(catalogue.schema(), ensure_ascii=False, indent=2))
+    print(json.dumps(catalogue.schema(lang), ensure_ascii=False, indent=2))
 
 
 def compare(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.respelling import respelled
@@ -63,13 +63,18 @@ def relettered(tree: Tree, letters: Letters) -> Tree:
     if not letters:
         return tree
 
+    def renamed(tree: Any) -> Any:
+        return changed(tree, Symbol, lambda symbol: letters.get(symbol, symbol))
+
     def spelled(content: Content) -> Content:
-        return changed(content, Symbol, lambda symbol: letters.get(symbol, symbol))
+        return cast(Content, renamed(content))
 
-    def other(node: Scene | Symbol) -> Scene | Symbol:
-        return respelled(node, spelled) if isinstance(node, Scene) else letters.get(node, node)
+    def respelled_or_renamed(node: Scene | Symbol) -> Scene | Symbol:
+        if isinstance(node, Symbol):
+            return letters.get(node, node)
+        return replace(respelled(node, spelled), diagram=renamed(node.diagram))
 
-    return changed(tree, (Scene, Symbol), other)
+    return changed(tree, (Scene, Symbol), respelled_or_renamed)
 
 
 def with_index(symbol: Symbol, index: str) -> Symbol:

@@ -362,11 +362,11 @@ class Fitted:
     finer: Track | None
 
 
-def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int) -> Fitted:
+def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int, scale: float | None = None) -> Fitted:
     """Corners (SI) as large as the panel holds them at every sample, at one scale, each moment's in its middle.
 
     A moment that would be too small to be read has the finer scale.  Tracks of corners have the samples
-    of one `turn`, or of the cycle where that is as long.
+    of one `turn`, or of the cycle where that is as long.  With a `scale` (SI per mm) that is the one scale.
     """
     length = max(corner.size for corner in corners.values())
     places = np.array([np.broadcast_to(corner, length) for corner in corners.values()])
@@ -375,7 +375,7 @@ def fitted(corners: Mapping[str, np.ndarray], kind: str, turn: int) -> Fitted:
     high = known.real.max(axis=0) + 1j * known.imag.max(axis=0)
     room, size = PANEL - 2 * complex(MARGIN, MARGIN), high - low
     needed = np.maximum(size.real / room.real, size.imag / room.imag)
-    per = float(needed.max()) or 1.0
+    per = scale or float(needed.max()) or 1.0
     placed = (places - (low + high) / 2) / per
     small = Track((needed < LEAST * per).astype(float))
     scales = BarScale(per, kind), BarScale(per / FINER, kind)

@@ -128,7 +128,7 @@ class Plotted:
 
 
 def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> Scene:
-    """The scene of a diagram, see `plotted`."""
+    """The scene (mm) of a diagram, see `plotted`."""
     return plotted(diagram, half=half, area=area).scene
 
 

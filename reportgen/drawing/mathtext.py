@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import ClassVar
 
@@ -12,6 +13,13 @@ from reportgen.formula.vocabulary import numbered, runs
 
 MEANT = {sign: f"\\{sign}" for sign in "$%_#&{}"} | {"\\": r"\backslash ", "^": r"\hat{}", " ": r"\ ", ",": "{,}"}
 """What letters are written as that mean something in mathematics."""
+
+_EXPONENT = re.compile("([⁺⁻⁰¹²³⁴-⁹]+)")
+_LEVEL = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
+
+
+def _upright(letters: str) -> str:
+    return r"\mathrm{" + "".join(MEANT.get(one, one) for one in letters) + "}" if letters else ""
 
 
 class MathText(TextSetter):
@@ -29,7 +37,11 @@ class MathText(TextSetter):
         return f"${self.math(content)}$"
 
     def text(self, text: str) -> str:
-        return r"\mathrm{" + "".join(MEANT.get(one, one) for one in text) + "}" if text else ""
+        """Upright letters; exponents of units are raised, since not every font has all of them."""
+        pieces = _EXPONENT.split(text)
+        return "".join(
+            f"^{{{piece.translate(_LEVEL)}}}" if index % 2 else _upright(piece) for index, piece in enumerate(pieces)
+        )
 
     def fence(self, fence: Fence) -> str:
         inner = self.part(fence.of)

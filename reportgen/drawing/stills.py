@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene
+from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, style
 from reportgen.drawing.animation import (
     Animation,
     MovingBody,
@@ -25,7 +25,7 @@ from reportgen.drawing.animation import (
     Track,
     scale_bars,
 )
-from reportgen.drawing.geometry import frame, moved, overlap, polar, segments, unit
+from reportgen.drawing.geometry import frame, moved, overlap, polar, rectangle, segments, unit
 from reportgen.drawing.style import LABEL, SMALL
 
 NOTHING = 0.02
@@ -73,6 +73,7 @@ def sample_at(animation: Animation, degrees: float) -> int:
 def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Collection[str] = ()) -> Iterator[Scene]:
     """A pane at samples, with the layers that are shown; letters, heads and pens of arrows as large as on a page."""
     low, bars = scale_bars(pane)
+    size, foot = pane.high - low, complex(pane.high.real, pane.low.imag)
     shown = [item for item in pane.items if not item.layer or item.layer in layers]
     # Where each label was, by the place of its item.
     last: dict[int, int] = {}
@@ -87,10 +88,11 @@ def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Col
             if request := _request(item, now, zoom, pane.enlargement):
                 labels.requests[place] = request
         items += labels.placed(items)
+        # What is shown in part, as two teeth of a wheel, goes on beyond its box: not below the bars.
+        items.append(Polyline(rectangle((low + foot) / 2, size.real, (foot - low).imag), None, True, style.PAPER))
         for index, (scale, bar) in enumerate(bars):
             if index == number if pane.finer else not scale.layers or set(scale.layers) & set(layers):
                 items += bar
-        size = pane.high - low
         yield Scene(size.real, size.imag, tuple(moved(item, -low) for item in items))
 
 

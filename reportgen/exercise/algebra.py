@@ -12,7 +12,20 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from reportgen.formula import Call, Expression, Fraction, Negative, Number, Power, Product, Ref, Root, Sum, total
+from reportgen.formula import (
+    Call,
+    Expression,
+    Fraction,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Ref,
+    Root,
+    Sum,
+    children,
+    total,
+)
 from reportgen.formula.evaluation import evaluate
 
 Algebraic = Any
@@ -209,11 +222,6 @@ def _value(of: Algebraic, at: Mapping[str, float]) -> complex:
 def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebraic | None:
     """An expression of the page with what its quantities are; None where one of them is not known by symbols."""
     sp = _sympy()
-
-    def each(nodes: Sequence[Expression]) -> list[Algebraic] | None:
-        parts = [algebraic(node, of) for node in nodes]
-        return None if any(part is None for part in parts) else parts
-
     match node:
         case Number(unit="°"):
             return sp.pi * exact(node.shown) / 180
@@ -221,22 +229,27 @@ def algebraic(node: Expression, of: Callable[[str], Algebraic | None]) -> Algebr
             return exact(node.shown)
         case Ref(id):
             return of(id)
-        case Sum(nodes):
-            return None if (terms := each(nodes)) is None else sp.Add(*terms)
-        case Product(nodes):
-            return None if (factors := each(nodes)) is None else sp.Mul(*factors)
-        case Negative(one):
-            return None if (inner := algebraic(one, of)) is None else -inner
-        case Fraction(top, bottom):
-            return None if (pair := each((top, bottom))) is None else pair[0] / pair[1]
-        case Power(base, exponent):
-            return None if (pair := each((base, exponent))) is None else pair[0] ** pair[1]
-        case Root(one):
-            return None if (inner := algebraic(one, of)) is None else sp.sqrt(inner)
         case Call("cos", (Number(unit="°") as angle,)):
             return exact_unit(angle.shown).real
-        case Call("cos", (one,)):
-            return None if (inner := algebraic(one, of)) is None else sp.cos(inner)
+
+    parts: list[Any] = [algebraic(child, of) for child in children(node)]
+    if any(part is None for part in parts):
+        return None
+    match node:
+        case Sum():
+            return sp.Add(*parts)
+        case Product():
+            return sp.Mul(*parts)
+        case Negative():
+            return -parts[0]
+        case Fraction():
+            return parts[0] / parts[1]
+        case Power():
+            return parts[0] ** parts[1]
+        case Root():
+            return sp.sqrt(parts[0])
+        case Call("cos"):
+            return sp.cos(parts[0])
     return None
 
 

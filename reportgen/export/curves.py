@@ -13,13 +13,13 @@ from typing import Literal
 import numpy as np
 
 from reportgen.assignment import Assignment
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Fault, Mark, NotOfferedError
 from reportgen.base.units import MM, Language, QuantityFault, read_number, read_unit
-from reportgen.base.words import as_error
+from reportgen.base.words import as_error, word
 from reportgen.drawing import Content, Diagram, PlottedCurve
 from reportgen.export.quantities import Found, quantity
 from reportgen.formula import Chain, Symbol
-from reportgen.report.case import Case
+from reportgen.report.case import Case, DriverMotion
 from reportgen.report.equations import heading_of
 from reportgen.workbook import SheetCell, read
 
@@ -76,14 +76,14 @@ def _diagram(cases: Sequence[Case], ids: Sequence[str], over: Over, measured: Se
         for id in ids
     ]
     first = quantity(cases[0], ids[0])
-    speed = first.over(cases[0].assignment.language).speed
+    motion = first.over(cases[0].assignment.language)
     for one in measured:
         if one.id in ids:
             symbol, how = first.case.ledger.symbol(one.id), first.case.ledger[one.id].how
-            x = _across(one, over, speed)
+            x = _across(one, over, motion, cases[0].assignment.language)
             curves.append(PlottedCurve(_told(symbol, one.name), x, one.values / how.scale, dots=True))
-    turn = over == "phi" and not _slides(first)
-    return Diagram(tuple(curves), axis_across(first, over), axis_up(first, ids), turn=turn)
+    turn = over == "phi" and not motion.slides
+    return Diagram(tuple(curves), axis_across(motion, over), axis_up(first, ids), turn=turn)
 
 
 def curve(found: Found, over: Over, told: str, language: Language) -> PlottedCurve:
@@ -93,9 +93,7 @@ def curve(found: Found, over: Over, told: str, language: Language) -> PlottedCur
     if not motion.slides:
         # A cycle ends where it begins.
         gone, values = np.append(gone, motion.whole), np.append(values, values[0])
-    per = motion.speed if over == "time" else 1 / MM if motion.slides else math.pi / 180
-    if per is None:
-        per = math.nan
+    per = _speed(motion, language) if over == "time" else 1 / MM if motion.slides else math.pi / 180
     return PlottedCurve(_told(found.family.symbol, told), gone / per, values)
 
 
@@ -103,17 +101,11 @@ def _told(symbol: Symbol, name: str) -> Content:
     return Chain((symbol,), name) if name else symbol
 
 
-def _slides(found: Found) -> bool:
-    motion = found.case.driver_motion
-    return motion is not None and motion.slides
-
-
-def axis_across(found: Found, over: Over) -> Chain:
+def axis_across(motion: DriverMotion, over: Over) -> Chain:
     """The axis of the driver's way or of time."""
-    words = found.case.words["figure"]
     if over == "time":
         return Chain((Symbol("t"),), "s")
-    return Chain((Symbol("s"),), words["way"]) if _slides(found) else Chain((Symbol("φ"),), words["cycle_angle"])
+    return Chain((Symbol("s" if motion.slides else "φ"),), motion.called)
 
 
 def axis_up(found: Found, ids: Sequence[str]) -> Content:
@@ -130,13 +122,20 @@ def axis_up(found: Found, ids: Sequence[str]) -> Content:
 # --- what was measured ------------------------------------------------------------------------------
 
 
-def _across(one: Measured, over: Over, speed: float | None) -> np.ndarray:
+def _across(one: Measured, over: Over, motion: DriverMotion, language: Language) -> np.ndarray:
     """Measured places on the axis: degrees or seconds."""
     x = one.x
     if one.over != over:
-        rate = math.nan if speed is None else speed
-        x = x * rate if over == "phi" else x / rate
+        speed = _speed(motion, language)
+        x = x * speed if over == "phi" else x / speed
     return np.degrees(x) if over == "phi" else x
+
+
+def _speed(motion: DriverMotion, language: Language) -> float:
+    """The driver's speed; raises `NotOfferedError` where none is given."""
+    if motion.speed is None:
+        raise NotOfferedError(word("no_speed", language))
+    return motion.speed
 
 
 def read_measured(path: Path, case: Case, of: Sequence[str]) -> list[Measured]:

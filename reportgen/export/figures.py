@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache, partial
 
 import numpy as np
 
@@ -103,14 +104,15 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
     still = [name for name in query.formats if name in STILL]
     moved = [name for name in query.formats if name in MOVING]
     # Opening what moves takes as long as all else.
-    movable = moving(case) if moved or query.layers != SHOWN or query.names else ()
-    _check_layers(query, movable, language)
+    movable = cache(partial(moving, case))
+    if query.layers != SHOWN:
+        _check_layers(query, movable(), language)
     files: dict[str, bytes] = {}
     if still:
         scenes = dict(drawings(named_figures(case.document()), query, movable, language))
         found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
         files |= {f"{name}.{format}": one for format in still for name, one in zip(scenes, found[format], strict=True)}
-    for one in _wanted(case, query, movable) if moved else ():
+    for one in _wanted(case, query, movable()) if moved else ():
         frames = one.frames(query.layers)
         for format in moved:
             made = bounded(case.assignment, animated, frames, language, format, query.dpi)
@@ -147,9 +149,12 @@ def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int 
 
 
 def drawings(
-    figures: Sequence[NamedFigure], query: FigureQuery, movable: Sequence[MovingFigure], language: Language
+    figures: Sequence[NamedFigure],
+    query: FigureQuery,
+    movable: Callable[[], Sequence[MovingFigure]],
+    language: Language,
 ) -> Iterator[tuple[str, Scene]]:
-    """The drawings of what is wanted that stand still, by the names of their files.
+    """The drawings of what is wanted that stand still, by the names of their files; what is `movable`, if need be.
 
     Raises `UnknownNameError`, `NotOfferedError` where nothing shows the position that is wanted.
     """
@@ -165,11 +170,11 @@ def drawings(
         if of_name:
             for one in of_name:
                 yield from ((query.labels and one.shown_at(query.labels)) or one).files.items()
-        elif found := next((one for one in movable if one.name == name), None):
+        elif found := next((one for one in movable() if one.name == name), None):
             label = query.labels[0] if query.labels else ""
             yield safe(f"{name}-{label}" if label else name), found.at(label, query.layers)
         else:
-            known = [*(one.name for one in figures), *(one.name for one in movable)]
+            known = [*(one.name for one in figures), *(one.name for one in movable())]
             raise UnknownNameError(unknown("no_figure", name, known, language))
 
 
@@ -190,6 +195,6 @@ def _wanted(case: Case, query: FigureQuery, movable: Sequence[MovingFigure]) -> 
 
 def _check_layers(query: FigureQuery, movable: Sequence[MovingFigure], language: Language) -> None:
     known = dict.fromkeys(layer for one in movable for layer in one.animation.layers)
-    for layer in query.layers if query.layers != SHOWN else ():
+    for layer in query.layers:
         if layer not in known:
             raise UnknownNameError(unknown("no_layer", layer, list(known), language))

@@ -25,7 +25,7 @@ from reportgen.report.case import Case
 
 SAME = 1e-13
 """What differs by a smaller share is the same number worked out twice."""
-PROBED = 3
+PROBED = 5
 """So many values of the range, its ends among them, tell whether a number changes with it."""
 
 

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field
 
-from reportgen.assignment.common import Part, of_parameters
+from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Interval, Quantity, Reader, Whole, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import MM, Given
@@ -34,6 +35,12 @@ def case(assignment: Assignment) -> PairCase:
     from reportgen.gears.pair_case import PairCase
 
     return PairCase(assignment)
+
+
+def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """The row that `solve` prints of a position of the results: radii of curvature in mm."""
+    scales = {"rho.1": MM, "rho.2": MM}
+    return {"contact": {name: value * scales.get(name, 1.0) for name, value in position["contact"].items()}}
 
 
 # --- the file -------------------------------------------------------------------------------------

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
-from reportgen.assignment.common import of_parameters, one_of
+from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.base.errors import Finding
 from reportgen.gears import train_file
 from reportgen.gears.train import CONDITIONS, DUST, SCHEMES, Train, mended
@@ -28,6 +28,11 @@ def case(assignment: Assignment) -> TrainCase:
     from reportgen.gears.train_case import TrainCase
 
     return TrainCase(assignment)
+
+
+def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """The row that `solve` prints of a position of the results: the angular velocities (rad/s)."""
+    return {"wheels": {f"ω{name}": wheel["omega"] for name, wheel in position["wheels"].items()}}
 
 
 # --- what cannot be -------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.shown import shown
+from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
 from reportgen.gears.train_formulas import TrainScheme, over_teeth
 
@@ -155,8 +156,10 @@ def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Fl
 
 def _assembly(scheme: TrainScheme, z: Wholes, k: int) -> Flags:
     """u₁H z₁ (1 + kP)/k is whole for some whole P: just when in lowest terms u₁H z₁/k has no factor of k below."""
-    z1, z2, z2p, z3 = z
-    below = k * z2p // np.gcd(z1 * z2p + scheme.sign * z2 * z3, k * z2p)
+    z1, _, z2p, _ = z
+    # Willis's ratio is a fraction over z₁z₂′, which rounding gives back exactly.
+    above = np.rint(ratios(scheme, z) * z1 * z2p).astype(np.int64)
+    below = k * z2p // np.gcd(above, k * z2p)
     holds: Flags = np.gcd(below, k) == 1
     return holds
 
@@ -165,7 +168,8 @@ def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
     """Whether wheels without profile shift mesh inside: no tip beyond an involute, no tips that meet elsewhere.
 
     The tip circle of the inner wheel passes the point where the line of action touches the satellite's base circle,
-    and where both tip circles meet the satellite's tooth is past that of the inner wheel.
+    and where both tip circles meet the satellite's tooth is past that of the inner wheel.  The report says only what
+    comes of it: these lines are on no sheet.
     """
     holds = np.ones(len(z[0]), bool)
     for inner, wheel, satellite in zip(scheme.inner, (z[0], z[3]), (z[1], z[2]), strict=True):
@@ -178,15 +182,11 @@ def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
             at2, at3 = np.arccos(base2 / tip2), np.arccos(base3 / tip3)
             δ2 = np.arccos((tip3**2 - tip2**2 - a**2) / (2 * a * tip2))
             δ3 = np.arccos((tip3**2 + a**2 - tip2**2) / (2 * a * tip3))
-            past = satellite * (_inv(at2) + δ2) - wheel * (_inv(at3) + δ3) + (wheel - satellite) * _inv(ALPHA)
+            past = satellite * (inv(at2) + δ2) - wheel * (inv(at3) + δ3) + (wheel - satellite) * inv(ALPHA)
         involute = tip3**2 >= base3**2 + (a * math.sin(ALPHA)) ** 2
         # Where the tip circles do not meet, δ is not a number and tips cannot meet either.
         holds &= involute & ~(past < 0)
     return holds
-
-
-def _inv(α: NDArray[np.float64] | float) -> NDArray[np.float64] | float:
-    return np.tan(α) - α
 
 
 def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:

@@ -90,8 +90,10 @@ def as_single_force(load: Load) -> Complexes:
     return np.where(load.couple == 0, load.point, load.point + arm)
 
 
-def percussion_meeting(a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexes, l_sk: float) -> Complexes:
-    """The point Q on the line of a link's single inertia force, as it is found by drawing.
+def percussion_points(
+    a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexes, l_sk: float
+) -> tuple[Complexes, Complexes]:
+    """The centre of percussion K of a link, and the point Q of its single inertia force, as they are found by drawing.
 
     Split a_S = a_A + a_SA: the part −m a_A acts along the line through S parallel to a_A, the part of
     the turning about A along the line through K parallel to a_SA, K on AS beyond S at `l_sk`.  The
@@ -99,7 +101,7 @@ def percussion_meeting(a: Complexes, s: Complexes, a_a: Complexes, a_s: Complexe
     """
     k = s + (s - a) / np.abs(s - a) * l_sk
     along, _ = solve2(a_a, a_a - a_s, k - s)
-    return s + along * a_a
+    return k, s + along * a_a
 
 
 # --- work and means -------------------------------------------------------------------------------

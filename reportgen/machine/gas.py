@@ -209,7 +209,7 @@ class AngleIndicator:
         corners = []
         for start, end in pairwise((*np.asarray(dead_centres), CYCLE)):
             nodes = [angle for angle in self.angles if start < angle < end]
-            angle = np.union1d(np.linspace(start, end, DRAWN_IN_A_STROKE), nodes)
+            angle = np.array(sorted({*np.linspace(start, end, DRAWN_IN_A_STROKE), *nodes}))
             pressure = np.interp(angle, self.angles, self.pressures)
             corners.append((tuple(map(float, fraction_of(angle))), tuple(map(float, pressure))))
         return tuple(corners)
@@ -232,14 +232,12 @@ class AngleIndicator:
         `volume_rate` gives dV/dφ (m³/rad) at cycle angles [N].  Gauss–Legendre quadrature with 16
         nodes between table nodes, on parts of at most 15°: exact to rounding for a slider-crank.
         """
-        angles = np.asarray(self.angles)
-        grid = np.linspace(0.0, CYCLE, 49)
-        edges = np.unique(np.concatenate((angles, grid)))
+        edges = np.array(sorted({*self.angles, *np.linspace(0.0, CYCLE, 49)}))
         x, factors = np.polynomial.legendre.leggauss(16)
         half = np.diff(edges)[:, None] / 2
         nodes = edges[:-1, None] + half * (x + 1)
         rate = np.asarray(volume_rate(nodes.ravel())).reshape(nodes.shape)
-        return float(np.sum(half * factors * rate * np.interp(nodes, angles, self.pressures)))
+        return float(np.sum(half * factors * rate * np.interp(nodes, self.angles, self.pressures)))
 
 
 Indicator = StrokeIndicator | AngleIndicator

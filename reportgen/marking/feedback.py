@@ -13,8 +13,9 @@ from reportgen.base.units import MINUS, Language, rounded, write
 from reportgen.formula import Number
 from reportgen.marking.key import shown_number, words_of
 from reportgen.marking.key_files import band, band_decimals
-from reportgen.marking.marks import Marked, Marking, Verdict, points_of
+from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of
 from reportgen.marking.paper import DASH, cells, fields, heading, paper, paragraph, student_rows
+from reportgen.marking.policy import Policy
 from reportgen.marking.sheet import NAMES, asked_positions, given_entry, grid, info_page, named_pages, page, rows_shown
 from reportgen.report import Block, Column, Document, Inline, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.report.key import Key, KeyRow
@@ -113,13 +114,13 @@ def _legend(words: Mapping[str, Any]) -> BookSheet:
 # --- the page -------------------------------------------------------------------------------------
 
 
-def feedback_document(marking: Marking, title: str, show_answers: bool = True) -> Document:
+def feedback_document(marking: Marking, title: str, policy: Policy | None = None) -> Document:
     """The feedback on one submission, in the language of its assignment; `title` is the machine's name.
 
     It holds nothing of any other student.
     """
     key, words = marking.key, words_of(marking.key)
-    feedback = words["feedback"]
+    feedback, rules = words["feedback"], policy or Policy()
     score = sentence(
         feedback["score"],
         points=points_text(marking.points, key.language),
@@ -129,10 +130,12 @@ def feedback_document(marking: Marking, title: str, show_answers: bool = True) -
         heading(feedback["title"]),
         *fields(((words["answer_sheet"]["kind"], title), *student_rows(key))),
         Paragraph((tree.Strong(score),)),
+        *map(paragraph, lateness(marking, rules, words)),
         *(paragraph(words["warnings"][warning]) for warning in marking.warnings),
-        *_section(feedback["firsts"], _firsts(marking, words, show_answers)),
+        *_section(feedback["firsts"], _firsts(marking, words, rules.show_answers)),
         *_section(feedback["followed"], _listed_cells(marking, words, _followed(marking), feedback["followed_lead"])),
         *_section(feedback["elsewhere"], _listed_cells(marking, words, marking.elsewhere, feedback["elsewhere_lead"])),
+        *_section(feedback["amended"], _amended(marking, words)),
         *_section(feedback["unread"], _listed(marking.submission.problems.values())),
         *_section(feedback["noted"], _listed(marking.submission.notes)),
         _by_part(marking, words),
@@ -205,6 +208,12 @@ def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[M
     yield Paragraph((Text(f"{lead} "), *line, Text(".")))
 
 
+def _amended(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
+    """The instructor's word, a line each."""
+    if marking.amendments:
+        yield tree.List(tuple((Paragraph(amended(marking, one, words)),) for one in marking.amendments))
+
+
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
     """Faults of single cells, each with its place in the student's own file."""
     in_order = sorted(problems, key=lambda problem: problem.mark)
@@ -239,6 +248,28 @@ def _counted(
     return (name, *numbers, *(points_text(value, key.language) for value in points_of(judged)))
 
 
+# --- the instructor's word, and when it was handed in ---------------------------------------------
+
+
+def amended(marking: Marking, amendment: Amendment, words: Mapping[str, Any]) -> Inlines:
+    """What the instructor judged otherwise, what it earns now, and the reason."""
+    points, out_of = (points_text(value, marking.key.language) for value in marking.points_at(amendment.places))
+    what = tree.Emph(amendment.what) if len(amendment.what) > 1 else amendment.what[0]
+    return sentence(words["feedback"]["amended_line"], what=what, points=points, out_of=out_of, reason=amendment.reason)
+
+
+def lateness(marking: Marking, policy: Policy, words: Mapping[str, Any]) -> Iterator[str]:
+    """By how many days it is late, what that takes off the mark, and the mark that is left; nothing in time."""
+    if marking.days_late:
+        language = marking.key.language
+        yield words["feedback"]["late"].format(
+            days=marking.days_late,
+            off=points_text(policy.deducted(marking.share, marking.days_late), language),
+            mark=points_text(policy.mark(marking.share, marking.days_late), language),
+            highest=points_text(policy.scale.highest, language),
+        )
+
+
 # --- verdicts and mistakes in words ---------------------------------------------------------------
 
 
@@ -267,6 +298,8 @@ def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines
 def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:
     """The comment on a cell that is not right; `message` says why it could not be read."""
     notes = words["verdict_notes"]
+    if cell.corrected:
+        return str(words["feedback"]["amended_note"]).format(reason=cell.corrected)
     if cell.verdict is Verdict.right:
         return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
     if cell.verdict is Verdict.unreadable:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
 from reportgen.base.errors import Mark, Problem
+from reportgen.report import Inlines
 from reportgen.report.key import Key
 
 Place = tuple[str, int]
@@ -72,7 +73,8 @@ class Marked:
     `first` says that it is wrong and stands on no wrong value.  `mistake` names what went wrong (a key of
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
     are earned.  `classmates` are ids of assignments whose sheet or key has this value in a run of such values.
-    `elsewhere` says that it is right, but is not what the student's own values beside it give.
+    `elsewhere` says that it is right, but is not what the student's own values beside it give.  `corrected` is the
+    reason of an instructor who judged it otherwise.
     """
 
     id: str
@@ -89,6 +91,7 @@ class Marked:
     where: str = ""
     classmates: tuple[str, ...] = ()
     elsewhere: bool = False
+    corrected: str = ""
     unit: float = 1.0
     """What one unit of the sheet stands for."""
     written: float | None = None
@@ -126,18 +129,36 @@ class Notice:
     taken: tuple[Place, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Amendment:
+    """An instructor's word on some cells: what they are together, their places, and the reason."""
+
+    what: Inlines
+    places: frozenset[Place]
+    reason: str
+
+
 TAKEN = "taken"
 """The warning beside the others where marks were taken."""
 
 
 @dataclass(frozen=True)
 class Marking:
-    """All verdicts on a submission, in the order of the key's rows, and what the lecturer should look at."""
+    """All verdicts on a submission, in the order of the key's rows, and what the lecturer should look at.
+
+    `days_late` are the days begun since it was due.
+    """
 
     key: Key
     submission: Submission
     cells: tuple[Marked, ...]
     flags: tuple[Notice, ...] = ()
+    amendments: tuple[Amendment, ...] = ()
+    days_late: int = 0
+
+    def points_at(self, places: Container[Place]) -> tuple[float, float]:
+        """The points that the cells of some places earned, and those that they are worth."""
+        return points_of(cell for cell in self.cells if (cell.id, cell.position) in places)
 
     @property
     def elsewhere(self) -> list[Marked]:
@@ -167,3 +188,11 @@ class Marking:
     def first_errors(self) -> tuple[Marked, ...]:
         """The first wrong value of each chain."""
         return tuple(cell for cell in self.cells if cell.first)
+
+
+@dataclass(frozen=True, slots=True)
+class Unmarked:
+    """A student without marks: the reasons why what was handed in is not marked, none where nothing was."""
+
+    key: Key
+    reasons: tuple[str, ...] = ()

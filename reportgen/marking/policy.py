@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import datetime
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Flag, Interval, TypedText, Whole, quantity
+from reportgen.assignment.fields import Decimal, Flag, Interval, TypedText, Until, Whole, quantity
 from reportgen.assignment.reading import read_model
 from reportgen.base.units import Given, Language
 from reportgen.marking.bands import DIGITS, PAPER_ERROR
@@ -38,6 +39,23 @@ class Scale:
 
 
 @dataclass(frozen=True, slots=True)
+class Lateness:
+    """What is taken off a mark for each day begun after the moment `due`, altogether `most` of it."""
+
+    due: datetime.datetime
+    per_day: float
+    most: float = math.inf
+
+    def days(self, handed_in: datetime.datetime) -> int:
+        """The days begun between the moment due and that of handing in, 0 in time."""
+        return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
+
+
+Twice = Literal["last", "first"]
+"""Which of two sheets of one student is marked."""
+
+
+@dataclass(frozen=True, slots=True)
 class Policy:
     """What the sheet asks for, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
 
@@ -58,7 +76,19 @@ class Policy:
     scale: Scale = field(default_factory=Scale)
     parts: Mapping[str, float] = field(default_factory=dict)
     """The shares of the parts of a coursework, by name; without them each value counts alike."""
+    late: Lateness | None = None
+    twice: Twice = "last"
     file: Path | None = None
+
+    def deducted(self, share: float, days_late: int) -> float:
+        """What is taken off the mark for a share of the points that was handed in so many days late."""
+        if self.late is None:
+            return 0.0
+        return min(self.late.per_day * days_late, self.late.most, self.scale.mark(share))
+
+    def mark(self, share: float, days_late: int = 0) -> float:
+        """The mark for a share of the points, less what is taken off it."""
+        return round(self.scale.mark(share) - self.deducted(share, days_late), 6)
 
     def takes(self, kind: str, assignment: str) -> bool:
         """Whether a kind of flag costs marks on the sheet of an assignment."""
@@ -85,6 +115,12 @@ class _Mark(Part):
     step: Annotated[float, Decimal(Interval(above=0, most=100))] = Scale().step
 
 
+class _Late(Part):
+    due: Annotated[datetime.datetime, Until()]
+    per_day: Annotated[float, Decimal(Interval(least=0, most=1000))]
+    most: Annotated[float, Decimal(Interval(least=0, most=1000))] = math.inf
+
+
 class _PolicyFile(Part):
     ask: Annotated[tuple[Annotated[str, TypedText()], ...], Field(min_length=1)] = Ask().patterns
     by_section: Annotated[bool, Flag()] = False
@@ -97,6 +133,8 @@ class _PolicyFile(Part):
     overrule: dict[str, Annotated[str, TypedText()]] = {}  # noqa: RUF012
     show_answers: Annotated[bool, Flag()] = True
     parts: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
+    late: _Late | None = None
+    twice: Annotated[Twice, Field(json_schema_extra={})] = "last"
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -122,6 +160,11 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
     parts:                   # what each part of a coursework counts; else as many points as values are asked for
       machine: 6
       cam: 4
+    late:                    # what comes after `due`: so much off the mark for each day begun, and no more than `most`
+      due: 2026-11-20 23:59
+      per_day: 1
+      most: 5
+    twice: last              # which of two sheets of one student is marked, or: first
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points
@@ -139,5 +182,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         ask=Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
         scale=Scale(content.mark.highest, content.mark.step),
         parts=content.parts,
+        late=Lateness(late.due, late.per_day, late.most) if (late := content.late) else None,
+        twice=content.twice,
         file=path,
     )

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 STYLES, SCRIPTS = ("page.css",), ("page.js", "save.js")
 """Files of the frame that every page has."""
+FEED, GIVES, EXTENDED = "feed.js", "  return { root, own,", "const extended = new Map();"
+"""What a form needs of each panel, where it is put into the panel's script, and where the panels then have it."""
 MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("moving.js",)
 """Those that serve panels."""
 
@@ -67,6 +69,8 @@ class Live:
     report: int
     scripts: Sequence[str] = ("live.js",)
     styles: Sequence[str] = ("live.css",)
+    form: str = ""
+    """The elements of a form beside what moves; the page has them as they are."""
 
 
 def report(document: tree.Document) -> WrittenReport:
@@ -117,6 +121,8 @@ def write(
     # Rules that change while the page is read are the script's to put in.
     styles += [] if live else rules.values()
     scripts = [read(name) for name in (*SCRIPTS, *moving_scripts, *(live.scripts if live else ()))]
+    if live and live.form:
+        scripts = [EXTENDED, *(script.replace(GIVES, f"{read(FEED)}{GIVES}") for script in scripts)]
     style, script = "\n".join(styles), "\n".join(scripts)
     policy = [
         "default-src 'none'",

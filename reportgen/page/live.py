@@ -41,6 +41,8 @@ class Revision:
     reports: int = 0
     busy: bool = False
     """Whether a report of the file as it stands is still to come."""
+    making: Mapping[str, Any] = field(default_factory=dict)
+    """What is being made of the file, or was made last."""
 
     @property
     def news(self) -> Mapping[str, Any]:
@@ -52,6 +54,7 @@ class Revision:
             "busy": self.busy,
             "language": self.language,
             "moves": [panel.own for panel in self.panels],
+            **({"making": self.making} if self.making else {}),
         }
 
 
@@ -64,10 +67,14 @@ class LiveSession:
     tell: Callable[[Case, tree.Document], None] = lambda case, document: None
     changed: threading.Condition = field(default_factory=threading.Condition)
     closed: bool = False
+    touched: threading.Event = field(default_factory=threading.Event)
+    """Set where the file was changed by the session itself."""
 
     def __post_init__(self) -> None:
         first = self.language or spoken()
         self.revision = Revision(first, load_words(search_path(first)))
+        self.case: Case | None = None
+        """That of the file as it was right last."""
         self._asked = 0
         self._worker = threading.Thread(target=self._write_reports, daemon=True)
         self._to_write: tuple[int, Case] | None = None
@@ -101,6 +108,7 @@ class LiveSession:
             self._to_write = None
             self._publish(fault=self._in_words(error), busy=False)
             return
+        self.case = case
         count = self.revision.moving + 1
         self._publish(language=language, words=words, panels=moving, moving=count, fault="", busy=True)
         with self.changed:
@@ -150,10 +158,27 @@ class LiveSession:
 
     # --- what is served
 
+    def made(self, name: str) -> bytes | None:
+        """The content of a file that was made on the page, by its name; None for any other."""
+        return None
+
+    @property
+    def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
+        """What a page may ask for, by names."""
+        return {"moving.json": self.moving, "report.json": self.report}
+
+    @property
+    def takes(self) -> Mapping[str, Callable[[Mapping[str, Any]], Mapping[str, Any] | bytes]]:
+        """What a page may send, by names: nothing, where a file is only watched.
+
+        What is sent is no fault of the program: `ValueError`, `KeyError` and `TypeError` refuse it.
+        """
+        return {}
+
     def page(self) -> str:
         """The whole page as it stands; where no report is finished yet, an empty one."""
         now = self.revision
-        document = now.document or _nothing(now)
+        document = now.document or empty_document(now)
         live = Live(now.words["live"], now.moving, now.reports)
         return html.write(document, now.words["page"], now.panels, live, now.report)
 
@@ -170,6 +195,7 @@ class LiveSession:
         return {"body": now.report.body, "rules": now.report.rules, "title": now.document.title}
 
 
-def _nothing(revision: Revision) -> tree.Document:
+def empty_document(revision: Revision) -> tree.Document:
+    """What stands on the page of a file that has had no report yet."""
     words = tree.Words.among(revision.words["document"])
     return tree.Document(revision.language, NOBODY, "", ("", ""), ("", ""), words)

@@ -50,7 +50,7 @@ HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "
 
 def panel(animation: Animation, language: Language, words: Mapping[str, Any]) -> Panel:
     """The panel of a machine or a part; `words` are those of pages (`page` in `words.yaml`)."""
-    return _Writer(animation, language, words).panel()
+    return PanelWriter(animation, language, words).panel()
 
 
 class Tracks:
@@ -72,6 +72,11 @@ class Tracks:
             self.lengths += [part.size for part in parts]
             self._values += packed
         return self._numbers[packed]
+
+    @property
+    def values(self) -> np.ndarray:
+        """All values, one track behind the other."""
+        return np.frombuffer(b"".join(self._values), "<f4")
 
     def packed(self) -> str:
         """All values as numbers of four bytes, in letters."""
@@ -105,7 +110,7 @@ class _Charted:
     symbols: tuple[str, ...]
 
 
-class _Writer:
+class PanelWriter:
     def __init__(self, animation: Animation, language: Language, words: Mapping[str, Any]) -> None:
         self.animation, self.language, self.words = animation, language, words
         self.own = f"{animation.name}-" if animation.name else ""

@@ -7,9 +7,10 @@ are one.  Motion repeats from turn to turn; forces go on through the cycle.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -79,14 +80,30 @@ LEVER, LONGER = 0.45, 0.2
 
 def animation(case: MachineAnalysis) -> Animation:
     """All that moves on the page of a case."""
-    return _Samples(case).animation()
+    return Samples(case).animation()
 
 
 @dataclass(frozen=True)
-class _Samples:
-    """A case at the samples of its cycle."""
+class Samples:
+    """A case at the samples of its cycle.
+
+    What is `kept` is chosen once, by name: angles, scales, boxes.  Samples of a machine that has changed a little have
+    those of the machine as it was, so that what grows is seen to grow.
+    """
 
     case: MachineAnalysis
+    kept: dict[str, Any] = field(default_factory=dict)
+
+    def chosen(self, name: str, choice: Callable[[], Any]) -> Any:
+        """What was chosen by this name, else the choice."""
+        if name not in self.kept:
+            self.kept[name] = choice()
+        return self.kept[name]
+
+    @property
+    def scale(self) -> float:
+        """mm of the drawing for a metre."""
+        return float(self.chosen("scale", lambda: drawing_scale(self.report)))
 
     @property
     def machine(self) -> Machine:
@@ -95,6 +112,10 @@ class _Samples:
     @cached_property
     def knots(self) -> np.ndarray:
         """The samples of one turn (rad), from 0 to a whole turn."""
+        angles: np.ndarray = self.chosen("knots", self._own_knots)
+        return angles
+
+    def _own_knots(self) -> np.ndarray:
         machine = self.machine
         if machine.instants:
             return np.linspace(0.0, FULL_TURN, machine.count + 1)
@@ -140,8 +161,8 @@ class _Samples:
     @cached_property
     def corners(self) -> dict[str, np.ndarray]:
         """The corners of all plans (mm) at the samples [N], and their scales (SI per mm), by id."""
-        worked = [self._sample(k) + 1 for k in self.case.assignment.worked_positions]
-        sheet, _ = enter_plans(self.analysis, worked)
+        # Each plan is drawn as large as its panel holds it.
+        sheet, _ = enter_plans(self.analysis, scaled=False)
         drawn = ids.plan_point, ids.force_corner, ids.force_scale, ids.centre
         scales = [ids.scale("v"), ids.scale("a")]
         return {id: sheet.value(id) for id in sheet.families if id in scales or any(id in name for name in drawn)}
@@ -151,7 +172,7 @@ class _Samples:
         return int(np.abs(self.angles - self.machine.cycle_angles[k - 1]).argmin())
 
     def animation(self) -> Animation:
-        machine, report = self.machine, self.report
+        machine = self.machine
         panes = tuple(self.panes())
         layers = {item.layer for item in panes[0].items}
         places = self.knots[:-1] if machine.instants else machine.cycle_angles
@@ -164,9 +185,9 @@ class _Samples:
             instants=tuple(map(float, stands * MM if machine.span else np.degrees(stands))),
             shown=self.case.assignment.worked_positions[0] - 1,
             panes=panes,
-            charts=tuple(self.charts()),
+            charts=() if machine.instants else tuple(self.charts()),
             values=tuple(self.values()),
-            errors=self.errors(drawing_scale(report)),
+            errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
             layers=tuple(layer for layer in LAYERS if layer in layers),
         )
 
@@ -191,11 +212,11 @@ class _Samples:
     def mechanism(self) -> Pane:
         """The machine itself, true to shape."""
         report, motion = self.report, self._one_turn
-        linkage, scale = self.machine.linkage, drawing_scale(report)
+        linkage, scale = self.machine.linkage, self.scale
         look = looks(report, scale)
         shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
         items = linkage_items(linkage, motion, shown, scale, look)
-        low, high = extent(items)
+        low, high = self.chosen("box", lambda: extent(items))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]
@@ -242,7 +263,7 @@ class _Samples:
         greatest = max(float(np.nanmax(np.abs(getattr(p, rate)))) for p in points.values())
         if not greatest:
             return [], 0.0
-        per = greatest / ARROW
+        per = self.chosen(f"arrows {rate}", lambda: greatest / ARROW)
         return [
             MovingVector(
                 Track(p.p * scale),
@@ -290,7 +311,7 @@ class _Samples:
         greatest = max((float(np.nanmax(size, initial=0.0)) for size in sizes.values()), default=0.0)
         if not greatest:
             return [], 0.0
-        per = greatest / ARROW
+        per = self.chosen("arrows of forces", lambda: greatest / ARROW)
         return [
             MovingVector(
                 Track(at * scale),
@@ -318,8 +339,14 @@ class _Samples:
     def _plan_of_motion(self, what: What, title: str, kind: str) -> Pane:
         """The plan of velocities or accelerations."""
         plan = motion_construction(self.report, what)
-        plan_fitted = fitted(self._rates_on(plan, what), kind, self.knots.size)
+        plan_fitted = self._fitted(what, self._rates_on(plan, what), kind, self.knots.size)
         return _plan(what, title, plan_items(plan, plan_fitted.tracks), plan_fitted)
+
+    def _fitted(self, plan: str, corners: dict[str, np.ndarray], kind: str, turn: int) -> Fitted:
+        """The corners of a plan in its panel, at its scale."""
+        placed = fitted(corners, kind, turn, self.kept.get(f"plan {plan}"))
+        self.kept.setdefault(f"plan {plan}", placed.scales[0].per)
+        return placed
 
     def _rates_on(self, plan: Construction[str], what: What) -> dict[str, np.ndarray]:
         """The corners of a plan of velocities or accelerations, in SI units."""
@@ -328,7 +355,9 @@ class _Samples:
 
     def _plan_of_forces(self, polygon: Polygon, title: str) -> Pane:
         plan, per = force_construction(self.report, polygon), self.corners[ids.force_scale(polygon.name)]
-        plan_fitted = fitted({corner: self.corners[corner] * per for corner in plan.corners}, "force", self.angles.size)
+        plan_fitted = self._fitted(
+            polygon.name, {id: self.corners[id] * per for id in plan.corners}, "force", self.angles.size
+        )
         return _plan(f"R{polygon.name}", title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _lever(self, title: str) -> Pane:
@@ -358,7 +387,7 @@ class _Samples:
             with np.errstate(invalid="ignore"):
                 corners[end] = image + (LEVER + LONGER * before) * reach * force / size
             drawn.append(start)
-        lever = fitted(corners, "velocity", self.angles.size)
+        lever = self._fitted("lever", corners, "velocity", self.angles.size)
         items = lever_items(plan, lever.tracks)
         for start in drawn:
             name = start.removesuffix(" start")
@@ -373,8 +402,6 @@ class _Samples:
 
     def charts(self) -> Iterator[Chart]:
         report = self.report
-        if report.instants:
-            return
         for curves, title in curves_of_motion(report):
             tracks = tuple(Curve(symbol, self.turn(values)) for symbol, values in curves)
             yield _chart(report, over_a_turn(report, curves, title, half=True), tracks, title)
@@ -421,8 +448,6 @@ class _Samples:
         Of places it is bounded by h²/8 times the greatest second derivative by the driver's angle, which is the
         acceleration over ω²; of rates and forces it is what the middles between samples show, jumps left out.
         """
-        if self.machine.instants:
-            return Errors(0.0, 1.0, 0.0)
         middles = (self.angles[1:] + self.angles[:-1]) / 2
         steps = np.diff(self.angles)
         wide = steps > 4 * BESIDE

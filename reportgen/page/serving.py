@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import io
 import json
+import mimetypes
 import secrets
 import socket
 import time
-from collections.abc import Callable, Mapping
 from contextlib import suppress
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any, ClassVar
+from typing import Any
 from urllib.parse import urlsplit
 
+from reportgen.base.source import LARGEST
 from reportgen.page.live import LiveSession
 
 HOST = "127.0.0.1"
@@ -25,6 +26,8 @@ BEAT = 10.0
 """A page that has had no news for so long (s) hears that the server is there."""
 REQUEST = 10.0
 """A connection has so long (s) to send a whole request, or to take a part of the answer."""
+MADE = "made/"
+"""Below it are the files that were made on a page."""
 RESPITE = 0.2
 """Where no connection can be accepted, the server looks again after so long (s)."""
 HEADERS = {
@@ -53,7 +56,10 @@ class Server(ThreadingHTTPServer):
     def get_request(self) -> tuple[socket.socket, Any]:
         """The next connection; where no more files can be opened it waits, and would be asked at once again."""
         try:
-            return super().get_request()
+            connection, address = super().get_request()
+            # An answer of a few bytes is sent at once.
+            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            return connection, address
         except OSError:
             time.sleep(RESPITE)
             raise
@@ -91,10 +97,6 @@ class _Request(BaseHTTPRequestHandler):
     server: Server
     protocol_version = "HTTP/1.1"
     server_version, sys_version = "reportgen", ""
-    answers: ClassVar[Mapping[str, Callable[[LiveSession], Mapping[str, Any]]]] = {
-        "moving.json": LiveSession.moving,
-        "report.json": LiveSession.report,
-    }
 
     def setup(self) -> None:
         super().setup()
@@ -119,11 +121,43 @@ class _Request(BaseHTTPRequestHandler):
             self._send(self.server.session.page().encode(), "text/html; charset=utf-8")
         elif name == "news":
             self._tell()
-        elif name in self.answers:
-            answer = self.answers[name](self.server.session)
+        elif name.startswith(MADE) and (made := self.server.session.made(name.removeprefix(MADE))) is not None:
+            self._send(made, mimetypes.guess_type(name)[0] or "application/octet-stream")
+        elif name in (answers := self.server.session.answers):
+            answer = answers[name]()
             self._send(json.dumps(answer, ensure_ascii=False).encode(), "application/json")
         else:
             self._refuse(HTTPStatus.NOT_FOUND)
+
+    def do_POST(self) -> None:
+        """Do what a page of this server asks for: in JSON, of a size that a file may have."""
+        folder, _, name = urlsplit(self.path).path[1:].partition("/")
+        takes, length = self.server.session.takes, self.headers.get("Content-Length", "")
+        refused = (
+            (HTTPStatus.FORBIDDEN, not self._known() or self.headers.get("Origin") is None),
+            (HTTPStatus.NOT_FOUND, not secrets.compare_digest(folder.encode(), self.server.token.encode())),
+            (HTTPStatus.NOT_FOUND, name not in takes),
+            (HTTPStatus.UNSUPPORTED_MEDIA_TYPE, self.headers.get("Content-Type") != "application/json"),
+            (HTTPStatus.LENGTH_REQUIRED, not length.isascii() or not length.isdecimal()),
+            (HTTPStatus.REQUEST_ENTITY_TOO_LARGE, len(length) > len(str(LARGEST)) or int(length or 0) > LARGEST),
+        )
+        if status := next((status for status, holds in refused if holds), None):
+            # What was not read would be taken for the next request.
+            self.close_connection = True
+            self._refuse(status)
+            return
+        try:
+            asked = json.loads(self.rfile.read(int(length)))
+            answer = takes[name](asked) if isinstance(asked, dict) else None
+        except (ValueError, KeyError, TypeError, RecursionError):
+            answer = None
+        match answer:
+            case None:
+                self._refuse(HTTPStatus.BAD_REQUEST)
+            case bytes():
+                self._send(answer, "application/octet-stream")
+            case _:
+                self._send(json.dumps(answer, ensure_ascii=False).encode(), "application/json")
 
     def _known(self) -> bool:
         """Whether a request is for this server by its own name, and from no other page."""

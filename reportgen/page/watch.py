@@ -8,8 +8,8 @@ from __future__ import annotations
 import sys
 import threading
 import webbrowser
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import TextIO
@@ -20,6 +20,8 @@ from reportgen.base.files import reported
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
+from reportgen.page.choosing import Chooser
+from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
 from reportgen.page.serving import Server
 from reportgen.report import Document
@@ -30,6 +32,7 @@ QUIET, LONGEST = 20, 200
 
 LOOKING = 0.05
 """From one look at the file to the next (s)."""
+EMPTY: Mapping[str, Sequence[str]] = {}
 HEARING = 0.5
 """How long (s) an interruption may have to wait."""
 _ONE_AT_A_TIME = threading.Lock()
@@ -60,12 +63,84 @@ def watch(
         # A name mistyped is no file to wait for, nor is a pipe.
         opens(path, language)
     path = path.absolute()
-    session = LiveSession(partial(opens, path, language), language, tell)
+    serve(LiveSession(partial(opens, path, language), language, tell), path, opens, browser, port, stream)
+
+
+def edit(
+    path: Path,
+    opens: Opener,
+    language: Language | None = None,
+    products: Mapping[str, Sequence[str]] = EMPTY,
+    browser: bool = True,
+    port: int = 0,
+    stream: TextIO = sys.stdout,
+) -> None:
+    """As `watch`, with a form beside what moves, by which the file is changed and its `products` are made."""
+    if not path.is_file():
+        opens(path, language)
+    path = path.absolute()
+    serve(
+        EditSession(partial(opens, path, language), language, path=path, products=products),
+        path,
+        opens,
+        browser,
+        port,
+        stream,
+    )
+
+
+def choose(
+    begins: Callable[[str], Path],
+    opens: Opener,
+    language: Language | None = None,
+    products: Callable[[Path], Mapping[str, Sequence[str]]] = lambda path: EMPTY,
+    browser: bool = True,
+    stream: TextIO = sys.stdout,
+) -> None:
+    """Serve a page on which a kind is chosen, whose file is then edited; `begins` makes the file of a kind."""
+    chooser = Chooser(partial(opens, Path(), language), language, begins=begins, example=opens)
+    with _served(chooser, 0) as server:
+        _announce(server, browser, stream)
+        with suppress(KeyboardInterrupt):
+            while not chooser.chosen.wait(HEARING):
+                pass
+            path = chooser.path.absolute()
+            session = EditSession(partial(opens, path, language), language, path=path, products=products(path))
+            with _followed(session, path, opens):
+                server.session = session
+                chooser.ready.set()
+                _wait()
+
+
+def serve(
+    session: LiveSession, path: Path, opens: Opener, browser: bool = True, port: int = 0, stream: TextIO = sys.stdout
+) -> None:
+    """Serve a live session, and renew it whenever its file changes, until the program is interrupted."""
+    with _served(session, port) as server, suppress(KeyboardInterrupt), _followed(session, path, opens):
+        _announce(server, browser, stream)
+        _wait()
+
+
+@contextmanager
+def _served(session: LiveSession, port: int) -> Iterator[Server]:
+    """A server that answers meanwhile."""
     with reported():
         server = Server(session, port)
+    thread = threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True)
+    try:
+        thread.start()
+        yield server
+    finally:
+        server.session.close()
+        server.shutdown()
+        server.server_close()
+
+
+@contextmanager
+def _followed(session: LiveSession, path: Path, opens: Opener) -> Iterator[None]:
+    """A session that is open and renewed meanwhile."""
     stop = threading.Event()
     threads = (
-        threading.Thread(target=server.serve_forever, args=(0.1,), daemon=True),
         threading.Thread(target=_follow, args=(path, session, stop, _states(path)), daemon=True),
         threading.Thread(target=_follow_templates, args=(session, stop, _school(path, opens)), daemon=True),
     )
@@ -74,18 +149,23 @@ def watch(
             thread.start()
         with _ONE_AT_A_TIME:
             session.open()
-        print(server.address, file=stream, flush=True)
-        if browser:
-            webbrowser.open(server.address)
-        while not stop.wait(HEARING):
-            pass
-    except KeyboardInterrupt:
-        pass
+        yield
     finally:
         stop.set()
         session.close()
-        server.shutdown()
-        server.server_close()
+
+
+def _announce(server: Server, browser: bool, stream: TextIO) -> None:
+    print(server.address, file=stream, flush=True)
+    if browser:
+        webbrowser.open(server.address)
+
+
+def _wait() -> None:
+    """Wait for Ctrl-C, which would not be heard in a longer sleep."""
+    never = threading.Event()
+    while not never.wait(HEARING):
+        pass
 
 
 def _school(path: Path, opens: Opener) -> Path | None:
@@ -101,9 +181,12 @@ def _follow(path: Path, session: LiveSession, stop: threading.Event, shown: obje
     The path is asked again and again: what watches files holds on to a folder that was renamed, does not follow links
     and hears nothing of changes that another computer makes.
     """
-    while not stop.wait(LOOKING):
+    while not stop.is_set():
+        # What the session itself has written need not be waited for.
+        own = session.touched.wait(LOOKING)
+        session.touched.clear()
         if _states(path) != shown:
-            stop.wait(QUIET / 1000)
+            stop.wait(0 if own else QUIET / 1000)
             shown = _states(path)
             with _ONE_AT_A_TIME:
                 session.renew()

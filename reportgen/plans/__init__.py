@@ -21,7 +21,7 @@ from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
-from reportgen.plans.scales import DIAGRAM, fitting_axis
+from reportgen.plans.scales import DIAGRAM, fitting_axis, no_scales, own_scales
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
@@ -62,11 +62,12 @@ def write_ledger(
 
 
 def enter_plans(
-    analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas
+    analysis: Analysis, worked: Sequence[int] = (), formulas: Callable[[Sheet], None] = no_formulas, scaled: bool = True
 ) -> tuple[Sheet, tuple[Polygon, ...]]:
     """The sheet of an analysis at whatever positions it has: given data, plans, `formulas`, forces; its force plans.
 
-    The plans of the `worked` positions, counted from 1, fill their paper.
+    The plans of the `worked` positions, counted from 1, fill their paper; plans that are not
+    `scaled`, which are drawn elsewhere at a scale of their own, have any.
     """
     machine = analysis.machine
     q = Sheet(len(analysis.cycle_angle))
@@ -75,7 +76,8 @@ def enter_plans(
     else:
         q.give("phi.1", machine.angles(analysis.cycle_angle))
     q.extend(machine.sheet)
-    enter_kinematics(q, machine.linkage, machine.turn, worked, -1 if machine.acceleration < 0 else 1)
+    sense = -1 if machine.acceleration < 0 else 1
+    enter_kinematics(q, machine.linkage, machine.turn, worked, sense, scaled)
     with q.within(Chapter.formulas):
         formulas(q)
     if not analysis.loads:
@@ -84,7 +86,7 @@ def enter_plans(
     _applied(q, analysis)
     applied = {one.name: (one.link, one.point, one.direction(analysis.motion)) for one in machine.applied}
     torques = {torque.name: torque.link for torque in machine.torques}
-    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques)
+    return q, enter_forces(q, machine.linkage, machine.turn, applied, torques, own_scales if scaled else no_scales)
 
 
 def _masses(q: Sheet, analysis: Analysis) -> None:

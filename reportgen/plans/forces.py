@@ -52,18 +52,24 @@ from reportgen.plans.loads import (
     read,
 )
 from reportgen.plans.motion import natural_sizes
+from reportgen.plans.scales import Scaling, own_scales
 from reportgen.plans.sides import scheme
 
 
 def enter_forces(
-    q: Sheet, linkage: Linkage, turn: int, applied: Applied, torques: Mapping[str, int] | None = None
+    q: Sheet,
+    linkage: Linkage,
+    turn: int,
+    applied: Applied,
+    torques: Mapping[str, int] | None = None,
+    scales: Scaling = own_scales,
 ) -> tuple[Polygon, ...]:
     """Enter all force quantities, the outermost group first; returns the force plans in that order.
 
     `applied` maps a force's id to (link, point, unit vector of its positive sense), `torques` a signed
-    torque's id to its link.
+    torque's id to its link.  Plans are drawn at the `scales` of their sizes.
     """
-    statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage))
+    statics = Statics(q, scheme(linkage), turn, natural_sizes(q, linkage), scales=scales)
     loads = enter_loads(statics, applied, torques or {})
     statics = replace(statics, loads=loads)
     polygons = []

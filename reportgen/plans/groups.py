@@ -49,14 +49,19 @@ from reportgen.plans.motion import (
 from reportgen.plans.sides import Side, image, scheme, sides
 
 
-def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = (), sense: int = 1) -> None:
+def enter_kinematics(
+    q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = (), sense: int = 1, scaled: bool = True
+) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
 
     An accelerated driver runs faster with the `sense` +1, slower with −1; `eps.1` or `a.A` is there then.
 
     The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of
-    them if none is named) fill their paper.
+    them if none is named) fill their paper; without, where they are not `scaled`.
     """
+    if not scaled:
+        _enter(q, linkage, turn, sense)
+        return
     trial = _enter(q.copy(), linkage, turn, sense)
     _enter(q, linkage, turn, sense, {what: chosen_scale(trial, what, worked) for what in ("v", "a")})
 

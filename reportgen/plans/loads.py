@@ -19,7 +19,7 @@ from reportgen.formula.vocabulary import segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
 from reportgen.machine.motion import Complexes
 from reportgen.plans.motion import NOWHERE, Sizes, longest
-from reportgen.plans.scales import LEAST_FORCES, extents, own_scales
+from reportgen.plans.scales import LEAST_FORCES, Scaling, extents, own_scales
 from reportgen.plans.sides import Scheme, image
 
 FAINT = 1e-12
@@ -63,6 +63,7 @@ class Statics:
     turn: int
     sizes: Sizes
     loads: tuple[LoadOn, ...] = ()
+    scales: Scaling = own_scales
 
     @property
     def force(self) -> float:
@@ -344,7 +345,7 @@ def force_plan(statics: Statics, name: str, title: str, path: ForceChain, closin
     corners = path.corners | ({} if closing is None else {"n": closing(path.corners, Number(1.0))})
     values = {id: family.values for id, family in q.families.items()}
     sizes = extents([np.asarray(evaluate(corner, values)) for corner in corners.values()], q.positions)
-    scales = own_scales(sizes, LEAST_FORCES, [q.value(one) for one in path.read_at])
+    scales = statics.scales(sizes, LEAST_FORCES, [q.value(one) for one in path.read_at])
     μ = q.give(ids.force_scale(name), scales, Symbol("μ", title))
     vertices: dict[str, Expression] = {path.first: q.construct(ids.force_corner(name, path.first), Number(0.0))}
     for edge in path.edges:

@@ -5,7 +5,7 @@ Sizes are widths and heights of plans in the unit of what they show, boxes are m
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -23,6 +23,10 @@ UNLOADED = 1e-6
 """A plan below this share of the largest one is that of an unloaded position."""
 PER_MM = 1e3
 """Scales are round in the unit in which they are printed, per mm of paper."""
+
+
+Scaling = Callable[[np.ndarray, float, Iterable[np.ndarray]], np.ndarray]
+"""The scale [N] of the force plan of each position, from all sizes [2, N], the least length, other scales [N]."""
 
 
 def extents(points: Iterable[np.ndarray], positions: int) -> np.ndarray:
@@ -70,3 +74,8 @@ def own_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = 
     own = np.array([scale or max(scales) or PER_MM for scale in scales])
     coarsest: np.ndarray = np.max([own, *read_at], axis=0)
     return coarsest
+
+
+def no_scales(sizes: np.ndarray, least: float, read_at: Iterable[np.ndarray] = ()) -> np.ndarray:
+    """One scale for all positions, whatever they need: for plans that nobody draws at it."""
+    return np.full(sizes.shape[1], PER_MM)

@@ -154,7 +154,8 @@ class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
     Where the page has no room for it, the text runs on to the end of the page before it.  One that is `turned` by 90°
-    has a page for itself.  `at` is the label of the position that it shows, if it shows one.
+    has a page for itself.  `at` is the label of the position that it shows, if it shows one.  One that stands `here`
+    keeps its place between tables that run over pages.
     """
 
     scenes: tuple[Scene, ...]
@@ -163,6 +164,7 @@ class Figure:
     number: str = ""
     turned: bool = False
     at: str = ""
+    here: bool = False
 
 
 @dataclass(frozen=True, slots=True)

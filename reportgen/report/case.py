@@ -83,12 +83,14 @@ class DriverMotion:
     """How a driver goes through the positions of a cycle, at constant speed.
 
     `gone` is how far it has gone since the first of them [N], `whole` its way through the cycle (rad, or m of one that
-    `slides`, which does not begin anew), `speed` that of its motion (rad/s or m/s), if it has one.  `signed` are by
-    their ids the values [N] of the sizes of vectors along a line, counted in the direction of a unit vector.
+    `slides`, which does not begin anew), `called` what this way is with its unit, in words, `speed` that of its motion
+    (rad/s or m/s), if it has one.  `signed` are by their ids the values [N] of the sizes of vectors along a line,
+    counted in the direction of a unit vector.
     """
 
     gone: np.ndarray
     whole: float
+    called: str
     speed: float | None
     slides: bool = False
     signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)

@@ -229,7 +229,8 @@ def _over_cycle(
     levels: tuple[tuple[float, Symbol], ...] = (),
     half: bool = False,
 ) -> Scene:
-    kept = np.union1d(np.arange(0, values.size, THINNED), values.size - 1)
+    last = values.size - 1
+    kept = np.append(np.arange(0, last, THINNED), last)
     curve = PlottedCurve("", np.degrees(_wheel(report).angle[kept]), values[kept])
     return charts.chart(Diagram((curve,), _driver_axis(report), title, levels=levels), half=half, area=report.area)
 

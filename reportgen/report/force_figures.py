@@ -19,7 +19,7 @@ from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
-from reportgen.machine.forces import Load, as_single_force, percussion_meeting
+from reportgen.machine.forces import Load, as_single_force, percussion_points
 from reportgen.plans.loads import Polygon
 from reportgen.report.figures import HALF, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.report.groups import BodyView, GroupView
@@ -239,9 +239,11 @@ def _percussion_points(report: Report, body: BodyView, k: int) -> tuple[complex,
     start, centre = (report.analysis.motion.points[name] for name in (body.start, body.centre))
     l_sk = float(report.ledger[body.ids[-1]].values[0])
     s, a = complex(centre.p[k - 1]), complex(start.p[k - 1])
-    q = complex(percussion_meeting(start.p, centre.p, start.a, centre.a, l_sk)[k - 1])
+    known, meeting = (
+        complex(points[k - 1]) for points in percussion_points(start.p, centre.p, start.a, centre.a, l_sk)
+    )
     near = abs(s - a) + 2 * l_sk
-    return (s + (s - a) / abs(s - a) * l_sk, q) if np.isfinite(q) and abs(q - s) < near else None
+    return (known, meeting) if np.isfinite(meeting) and abs(meeting - s) < near else None
 
 
 def _percussion(report: Report, link: int, k: int) -> Canvas:

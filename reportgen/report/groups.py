@@ -122,33 +122,6 @@ class CarriedPoint:
         return ids.angular_acceleration(self.link)
 
 
-@view("lines", "ends")
-@dataclass(frozen=True, slots=True)
-class WideSlider:
-    """A slider with its face: its reaction's `digits`, its pin, the ids of the given ends of the face.
-
-    `lines` are those of the reaction and of where it acts, `ends` of the reactions at both ends where it tilts.
-    """
-
-    link: int
-    digits: str
-    pin: NamedPoint
-    first: str
-    last: str
-    below: str
-
-    def __str__(self) -> str:
-        return self.digits
-
-    @property
-    def lines(self) -> list[str]:
-        return [ids.normal_reaction(self.digits), ids.normal_place(self.digits)]
-
-    @property
-    def ends(self) -> list[str]:
-        return [ids.face_reaction(self.digits, number) for number in (1, 2)]
-
-
 @view("reaction", "lines")
 @dataclass(frozen=True, slots=True)
 class Contact:

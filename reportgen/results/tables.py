@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from reportgen.base.template_folders import kind_file
@@ -19,6 +19,7 @@ from reportgen.base.units import (
     write,
 )
 from reportgen.base.words import load_words, word
+from reportgen.catalogue import module
 from reportgen.formula import ids
 
 DIGITS = 5
@@ -31,6 +32,7 @@ WORDS = frozenset({"position", "crank_angle", "driver_way", "equilibrium", "virt
 """Headings that are words of a language; the others are symbols."""
 
 Row = dict[str, float | str | None]
+RowsOf = Callable[[Mapping[str, Any]], Mapping[str, Mapping[str, float | None]]]
 
 
 def print_tables(results: Mapping[str, Any], language: Language) -> None:
@@ -41,7 +43,7 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
     # Numbers are never cut to the width of a terminal; `MOST_COLUMNS` keeps the tables within most.
     console = Console(width=500)
     titles = load_words((kind_file(language, results["kind"]),)).get("results", {})
-    found = tables(results["positions"], titles)
+    found = tables(results["positions"], _rows_of(results["kind"], titles))
     scales = _scales(found, results["positions"])
     for name, rows in found.items():
         for headings in _split(rows[0]):
@@ -66,17 +68,27 @@ def _split(row: Row) -> list[list[str]]:
     return [[*lead, *others[at : at + MOST_COLUMNS]] for at in range(0, len(others), MOST_COLUMNS)]
 
 
-def tables(positions: Sequence[Mapping[str, Any] | None], own: Collection[str] = ()) -> dict[str, list[Row]]:
+def _rows_of(kind: str, titles: Mapping[str, str]) -> RowsOf:
+    """A kind's own rows of a position: from its `table_rows`, else the entries that its words have titles for."""
+
+    def as_they_are(position: Mapping[str, Any]) -> Mapping[str, Mapping[str, float | None]]:
+        return {name: position.get(name, {}) for name in titles}
+
+    rows_of: RowsOf = getattr(module(kind), "table_rows", as_they_are)
+    return rows_of
+
+
+def tables(positions: Sequence[Mapping[str, Any] | None], own: RowsOf = lambda position: {}) -> dict[str, list[Row]]:
     """Name of each table and its rows; positions that cannot be reached are left out.
 
-    The entries of these `own` names are tables of numbers as they are.
+    `own` gives the rows of a position, by the names of their tables, that its kind alone has.
     """
     found: dict[str, list[Row]] = defaultdict(list)
     for position in positions:
         if position is None:
             continue
         lead: Row = {"position": position.get("label", str(position["number"])), **_driver(position)}
-        points, links, wheels = (position.get(name, {}) for name in ("points", "links", "wheels"))
+        points, links = position.get("points", {}), position.get("links", {})
         rows: dict[str, Row] = {
             "velocities": {f"v {name}": _size(point["v"]) for name, point in points.items()},
             "accelerations": {f"a {name}": _size(point["a"]) for name, point in points.items()},
@@ -85,33 +97,16 @@ def tables(positions: Sequence[Mapping[str, Any] | None], own: Collection[str] =
                 for symbol, quantity in (("ω", "omega"), ("ε", "epsilon"))
                 for name, link in links.items()
             },
-            "wheels": {f"ω{name}": wheel["omega"] for name, wheel in wheels.items()},
             "loads": {name: _size(load) for name, load in position.get("loads", {}).items()},
             "reactions": _once({name: _size(force) for name, force in position.get("reactions", {}).items()}),
             "torque": dict(position.get("balancing_torque", {})),
             "force": dict(position.get("balancing_force", {})),
-            "follower": {name: value * MM for name, value in position.get("follower", {}).items()},
-            "swing": dict(position.get("swing", {})),
-            "profile": _profile(position),
-            "contact": {
-                name: value * MM if name.startswith("rho") else value
-                for name, value in position.get("contact", {}).items()
-            },
+            **{name: dict(row) for name, row in own(position).items()},
         }
-        rows |= {name: dict(position.get(name, {})) for name in own}
         for name, row in rows.items():
             if row:
                 found[name].append(lead | row)
     return {name: _without_zeros(rows) for name, rows in found.items()}
-
-
-def _profile(position: Mapping[str, Any]) -> Row:
-    """The profile of a cam at a position: its pressure angle in degrees, its curvature and its points in mm."""
-    if "profile" not in position:
-        return {}
-    radius, (x, y) = position["curvature_radius"], position["profile"]
-    lengths = {"ρ": None if radius is None else radius * MM, "x": x * MM, "y": y * MM}
-    return {"α": math.degrees(position["pressure_angle"]), **lengths}
 
 
 def _driver(position: Mapping[str, Any]) -> Row:
@@ -172,15 +167,12 @@ SCALES: Mapping[str, str] = {
     **dict.fromkeys(("loads", "reactions", "force"), "force"),
 }
 """The scale that all columns of a table share, since they are worked out of one another."""
-ROWS_OF_LINKS = ("links", "wheels")
-"""Tables whose columns share a scale by their letter: an ω is measured by the others."""
 
 
 def _scale(name: str, heading: str) -> str:
-    """The scale that a column of a table shares with others; any other quantity has one of its own."""
-    if name in ROWS_OF_LINKS:
-        return heading[:1]
-    return SCALES.get(name, f"{name} {heading}")
+    """The scale that a column of a table shares with others, with those of its letter at least: ω1 and ω2."""
+    letter = heading[:1]
+    return letter if name == "links" else SCALES.get(name, f"{name} {letter}")
 
 
 def _scales(

@@ -30,8 +30,14 @@ from reportgen.drawing.style import Bezier, Triangle, arc_with_head, arrow_head,
 
 INCH, POINT = 25.4, 25.4 / 72
 """Millimetres of an inch, and of a point as matplotlib has it."""
-STYLE: Any = {"mathtext.fontset": "stix", "ps.fonttype": 3, "pdf.fonttype": 3, "svg.hashsalt": "reportgen"}
-"""Letters near those of the report, the same bytes from run to run."""
+STYLE: Any = {
+    "mathtext.fontset": "stix",
+    "ps.fonttype": 3,
+    "pdf.fonttype": 3,
+    "svg.hashsalt": "reportgen",
+    "legend.framealpha": 1.0,
+}
+"""Letters near those of the report, nothing transparent, which EPS has not, the same bytes from run to run."""
 SIZE = (6.3, 3.6)
 """Of a chart: the width of a page's text, in inches."""
 COLOURS = (style.BLUE, style.RED, style.BLACK, style.GRAY) * 2

@@ -328,14 +328,15 @@ class _Writer:
             return f"\\begin{{turnedscene}}\n{shown}\n\\end{{turnedscene}}"
         word = self.document.words.figure
         first, *others = layout.in_parts(figure)
-        further = (self.rows(rows, self.again(word, figure)) for rows in others)
-        return "\n".join((self.rows(first, self.caption(word, figure)), *further))
+        place = "herescenes" if figure.here else "scenes"
+        further = (self.rows(rows, self.again(word, figure), place) for rows in others)
+        return "\n".join((self.rows(first, self.caption(word, figure), place), *further))
 
-    def rows(self, rows: Sequence[Sequence[Scene]], caption: str) -> str:
+    def rows(self, rows: Sequence[Sequence[Scene]], caption: str, place: str = "scenes") -> str:
         """Rows of scenes with the caption below."""
         gap = rf"\hskip{layout.SCENE_GAP:g}mm "
         drawn = "\n\\scenegap\n".join(_command("scenerow", gap.join(map(self.scene, row))) for row in rows)
-        return "\n".join([r"\begin{scenes}", drawn, _command("figurecaption", caption), r"\end{scenes}"])
+        return "\n".join([rf"\begin{{{place}}}", drawn, _command("figurecaption", caption), rf"\end{{{place}}}"])
 
     def scene(self, scene: Scene) -> str:
         painted = paint_latex(scene, self.formulas)

@@ -156,8 +156,9 @@ class _Blocks:
                     return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
                 first, *others = layout.in_parts(block)
                 again = f"{self.again(self.words.figure, block)},[]"
-                figures = [f"#W({literal(key)},{label},\n{self.rows(first)})"]
-                figures += (f'#W("",{again},\n{self.rows(rows)})' for rows in others)
+                place = "#standing" if block.here else "#W"
+                figures = [f"{place}({literal(key)},{label},\n{self.rows(first)})"]
+                figures += (f'{place}("",{again},\n{self.rows(rows)})' for rows in others)
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
                 again = f"{self.again(self.words.figure, block)},[]"

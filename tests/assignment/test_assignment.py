@@ -20,9 +20,8 @@ from hypothesis import strategies as st
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.kinds import sample
 from reportgen.base.units import PLAIN, QuantityFault, read_quantity, read_ratio, scale_by_pint
-from reportgen.catalogue import check, engine_twin, load
+from reportgen.catalogue import check, engine_twin, load, sample
 
 ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"

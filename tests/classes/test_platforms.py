@@ -13,14 +13,15 @@ import subprocess
 import sys
 import zipfile
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.units import Language
-from reportgen.classes import assess, gradebooks
-from reportgen.classes.gradebooks import StudentResult, read_gradebook
+from reportgen.classes import assess, outcome
+from reportgen.classes.gradebooks import Participant, StudentResult, read_gradebook
 from reportgen.classes.platforms import MOST_MEMBERS, Owner, handed_in, owner_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
@@ -117,7 +118,7 @@ def test_moodles_download_is_marked_and_given_back_under_its_names(
     # Whoever handed in no sheet is told, by the place of what there is.
     assert [problem.code for problem in result.problems] == ["download-no-sheet"]
     assert result.problems[0].mark.file.endswith("Vũ Hà_4714_assignsubmission_file/bai.docx")
-    files = dict(assess.files_of(result, Policy(), "typst", None))
+    files = dict(outcome.files_of(result, Policy(), "typst", None))
     with zipfile.ZipFile(io.BytesIO(files[Path("feedback.zip")])) as back:
         names = back.namelist()
         folder = f"{PEOPLE[BAO]}_4713_assignsubmission_file"
@@ -131,7 +132,7 @@ def test_canvas_download_is_given_back_with_user_and_attachment(assignments: Pat
     suffix, content = sheet(BAO)
     download = archive(tmp_path / "submissions.zip", {f"bảolêvăn_LATE_812_9001_bai_3{suffix}": content})
     result = assess.grade([download], assignments, Policy())
-    files = dict(assess.files_of(result, Policy(), "typst", None))
+    files = dict(outcome.files_of(result, Policy(), "typst", None))
     with zipfile.ZipFile(io.BytesIO(files[Path("feedback.zip")])) as back:
         for name in back.namelist():
             assert [part for part in name.split("_") if part.isdigit()][:2] == ["812", "9001"]
@@ -199,15 +200,16 @@ EN = "Identifier,Full name,ID number,Email address,Status,Grade,Maximum Grade,Gr
 EN += "Last modified (submission),Last modified (grade),Feedback comments"
 VI = "Mã nhận dạng;Họ và tên;Email;Trạng thái;Điểm;Điểm tối đa;Có thể sửa điểm;Sửa lần cuối;Nhận xét"
 RESULTS = [
-    StudentResult("Bảo", frozenset({BAO.casefold()}), "4713", 0.85),
-    StudentResult("Ánh", frozenset({ANH.casefold()}), "", 0.5),
+    StudentResult(Participant("Bảo", frozenset({BAO.casefold()}), "4713"), 0.85),
+    StudentResult(Participant("Ánh", frozenset({ANH.casefold()}), ""), 0.5),
 ]
 
 
 def fill(
     path: Path, results: list[StudentResult], scale: Scale, column: str = "", language: Language | None = None
 ) -> tuple[bytes, list[Fault]]:
-    return read_gradebook(path, column, language).filled(results, scale)
+    marked = [replace(one, mark=scale.mark(one.mark) / scale.highest) for one in results]
+    return read_gradebook(path, column, language).filled(marked)
 
 
 def test_a_worksheet_is_filled_in_and_stays_as_it_was_otherwise(tmp_path: Path) -> None:
@@ -325,8 +327,8 @@ def test_put_does_not_overwrite_what_was_downloaded(assignments: Path, tmp_path:
     for place, name in ((tmp_path, "filled-gradebook.csv"), (tmp_path / "out", "gradebook.csv")):
         source = tmp_path / "gradebook.csv"
         source.write_text(CANVAS, encoding="utf-8")
-        written, problems = assess.put_gradebook(result, read_gradebook(source, "501"), Policy(), place, "en")
-        assert (written, problems) == (place / name, [])
+        written, problems = outcome.put_gradebook(result, read_gradebook(source, "501"), Policy(), place, "en")
+        assert (written, [one.code for one in problems]) == (place / name, ["gradebook-no-comments"])
         assert source.read_text(encoding="utf-8") == CANVAS
 
 
@@ -367,10 +369,7 @@ def test_a_roster_gives_names_and_addresses(assignments: Path, tmp_path: Path) -
     roster.write_text(f"id,name,email\n{BAO},Lê Văn Bảo,b@x.vn\n", encoding="utf-8")
     result = assess.grade([SHEETS[BAO]], tmp_path, Policy(), roster=roster)
     assert result.markings[0].key.student["name"] == "Lê Văn Bảo"
-    (found,) = result.results()
-    assert found == gradebooks.StudentResult(
-        f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "", found.share
-    )
+    assert result.known[BAO] == Participant(f"{BAO} Lê Văn Bảo", frozenset({BAO.casefold(), "b@x.vn"}), "")
 
 
 def test_a_link_out_of_the_folder_handed_in_is_refused(tmp_path: Path) -> None:

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from reportgen.base.errors import AssignmentError
 from reportgen.base.words import messages
-from reportgen.classes.roster import NAME_PARTS, PERSONAL, folded, folder_name, read_roster
+from reportgen.classes.roster import HANDED_IN, NAME_PARTS, PERSONAL, folded, folder_name, read_roster
 from reportgen.workbook import Book, BookSheet, write_xlsx
 
 Put = Callable[..., Path]
@@ -109,7 +109,11 @@ def test_names_in_two_columns_and_two_kinds_of_class(put: Put) -> None:
 
 def test_every_language_has_headings_for_the_same_columns() -> None:
     tables = {language: messages(language)["columns"] for language in ("vi", "en")}
-    assert set(tables["vi"]) == set(tables["en"]) == {*PERSONAL, *NAME_PARTS, "variant"}
+    assert (
+        set(tables["vi"])
+        == set(tables["en"])
+        == {*(*PERSONAL, *NAME_PARTS, HANDED_IN, "variant"), *("quantity", "position", "judgement", "value", "reason")}
+    )
     for table in tables.values():
         headings = [folded(heading) for names in table.values() for heading in names]
         assert len(set(headings)) == len(headings)

@@ -69,6 +69,18 @@ def test_check_and_help_leave_heavy_libraries_alone() -> None:
     assert done.stdout.strip() == ""
 
 
+def test_a_report_is_built_without_what_figures_need(tmp_path: Path) -> None:
+    """matplotlib alone takes a third of a second to import and forty megabytes."""
+    file = ROOT / "assignments" / "slider-crank-01.yaml"
+    script = (
+        "import sys\nfrom pathlib import Path\nimport reportgen.cli, reportgen.api\n"
+        f"reportgen.api.build(Path({str(file)!r}), {str(tmp_path)!r}, formats=('pdf', 'html', 'docx'))\n"
+        "print(*{'matplotlib', 'PIL', 'pandas', 'reportgen.export', 'reportgen.notebook'} & set(sys.modules))"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
+
+
 def test_the_command_line_itself_loads_next_to_nothing() -> None:
     """`--help` asks for no assignment; what reads one is loaded by the commands that do."""
     heavy = {"numpy", "pydantic", "yaml", "reportgen.api"}

@@ -20,7 +20,8 @@ from reportgen.report.case import Case
 
 WIDE = 0.08
 """Half a range at most, as a share of the sample's own value."""
-VALUES = 4
+VALUES, LOOKED_AT = 8, (2, 6)
+"""Values of a range, and those that are compared with a file of their own: none that a study looks at beforehand."""
 COMPARED = 8
 """So many quantities of a range are compared with a file of its own."""
 
@@ -61,7 +62,7 @@ def deviations(path: Path, seed: int) -> Iterator[Deviation]:
     study = Study([None if one is None else one.assignment for one in variants], opened)
     wanted = chance.sample(model.ids, min(COMPARED, len(model.ids)))
     found = study.values(wanted)
-    for k in (1, VALUES - 1):
+    for k in LOOKED_AT:
         alone = variants[k]
         if alone is None:
             assert all(np.isnan(found[id][k]).all() for id in wanted)

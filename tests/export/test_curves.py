@@ -64,6 +64,8 @@ def test_over_time_the_last_point_is_the_time_of_a_cycle() -> None:
     slide = built.case(built.SLIDE, "en")
     diagram = diagrams([slide], ["v.F"])["v.F"]
     x = np.asarray(diagram.curves[0].x)
+    with pytest.raises(NotOfferedError):
+        diagrams([open_case(ASSIGNMENTS / "cam" / "knife-01.yaml")], ["cam.s"], "time")
     # Millimetres from the first position.
     assert (x[0], x[-1]) == (0.0, pytest.approx(abs(slide.analysis.machine.span) * 1e3))
     assert not diagram.turn
@@ -146,7 +148,9 @@ def test_all_charts_of_a_report_are_diagrams() -> None:
         assert all(scene.diagram is not None for own, scene in scenes if own == key)
 
 
-def test_a_plot_is_a_file(tmp_path: Path) -> None:
-    files = api.plot_files([SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+def test_a_plot_is_a_file(caplog: pytest.LogCaptureFixture) -> None:
+    """The same one each time, of which no library has anything to say."""
+    files = api.plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
     assert list(files) == ["v.E.svg", "v.E.eps", "M.eq.svg", "M.eq.eps"]
-    assert files == api.plot_files([SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+    assert files == api.plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+    assert caplog.records == []

@@ -114,7 +114,7 @@ def test_a_study_is_as_files_of_their_own(shaper: Model) -> None:
         "four-bar-02.yaml",
         *(
             pytest.param(name, marks=proof)
-            for name in ("engine-twin-05.yaml", "slider-crank-01.yaml", "linkage-slide.yaml", "cam/roller-01.yaml")
+            for name in ("engine-twin-05.yaml", "slider-crank-01.yaml", "linkage-8.yaml", "cam/roller-01.yaml")
         ),
     ],
 )
@@ -122,12 +122,8 @@ def test_random_ranges_are_as_files_of_their_own(name: str) -> None:
     off = [one for seed in (1, 2) for one in deviations(ASSIGNMENTS / name, seed)]
     assert off
     assert [one for one in off if one.off > OFF] == []
-
-
-def test_the_formulas_of_a_linkage_tell_a_whole_study() -> None:
-    """So a study takes no longer than it takes to read its values."""
-    off = [one for seed in range(3) for one in deviations(ASSIGNMENTS / "four-bar-02.yaml", seed)]
-    assert any(one.together for one in off)
+    # Formulas tell a linkage, so its study takes no longer than it takes to read the values; a cam is designed anew.
+    assert any(one.together for one in off) == ("cam" not in name)
 
 
 # --- figures, curves, tables ------------------------------------------------------------------------------

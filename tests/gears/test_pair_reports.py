@@ -12,8 +12,8 @@ import pytest
 from reportgen import catalogue
 from reportgen import report as tree
 from reportgen.api import load
-from reportgen.base.kinds import sample
 from reportgen.cases import open_case, opened
+from reportgen.catalogue import sample
 from reportgen.drawing import Label, Line, Polyline
 from reportgen.formula import Call, Chain, Negative, Number, Sum, Symbol, walk
 from reportgen.formula.evaluation import evaluate

@@ -226,7 +226,7 @@ def test_what_mends_a_fault_is_right(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("language", ["vi", "en"])
 def test_the_file_of_new_is_right(language: str, tmp_path: Path) -> None:
-    from reportgen.base.kinds import sample
+    from reportgen.catalogue import sample
 
     file = tmp_path / "new.yaml"
     file.write_text(sample("planetary-train", language), encoding="utf-8")  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ import pymupdf
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes import assess
+from reportgen.classes import assess, outcome
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import EVERYTHING, Ask, key_of
@@ -143,7 +143,7 @@ def test_names_in_a_sheet_are_no_paths(few: Path, tmp_path: Path) -> None:
 @proof
 def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Path) -> None:
     """Neither names nor numbers of classmates stand in the marked sheet or on the page of feedback."""
-    files = list(assess.put(graded, Policy(), tmp_path, "typst", None))
+    files = list(outcome.put(graded, Policy(), tmp_path, "typst", None))
     assert {path.relative_to(tmp_path).as_posix() for path in files} >= {"grades.csv", "class.pdf"}
     people = {marking.key.student["id"]: marking.key.student["name"] for marking in graded.markings}
     for id, name in people.items():
@@ -155,8 +155,8 @@ def test_files_of_a_student_hold_nothing_of_others(graded: Graded, tmp_path: Pat
 
 @proof
 def test_marking_again_gives_the_same_bytes(graded: Graded, assignments: Path) -> None:
-    once = dict(assess.files_of(graded, Policy(), "typst", None))
-    again = dict(assess.files_of(assess.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None))
+    once = dict(outcome.files_of(graded, Policy(), "typst", None))
+    again = dict(outcome.files_of(assess.grade([demo.SHEETS], assignments, WHOLE), Policy(), "typst", None))
     assert once == again
 
 
@@ -169,7 +169,7 @@ def test_answers_are_kept_back_if_the_policy_says_so(graded: Graded, tmp_path: P
     texts = {}
     for show in (True, False):
         one = Graded((marking,), (), ())
-        files = list(assess.put(one, Policy(show_answers=show), tmp_path / str(show), "typst", None))
+        files = list(outcome.put(one, Policy(show_answers=show), tmp_path / str(show), "typst", None))
         texts[show] = "\n".join(_pdf(path) if path.suffix == ".pdf" else "" for path in files)
     assert shown in texts[True]
     assert shown not in texts[False]

@@ -16,10 +16,12 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.drawing import Label
+from reportgen.marking.class_page import class_document
 from reportgen.marking.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
-from reportgen.marking.grades import class_document, grade_rows
-from reportgen.marking.marks import Answer, Marked, Marking, Notice, Submission, Verdict
+from reportgen.marking.grades import grade_rows
+from reportgen.marking.marks import Answer, Marked, Marking, Notice, Submission, Unmarked, Verdict
 from reportgen.marking.mistakes import CONVENTIONS, WRONG_DATUM
+from reportgen.marking.policy import Policy
 from reportgen.report import Figure, Table, plain, text_of
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
@@ -113,7 +115,7 @@ def test_answers_are_told_only_if_they_may_be(language: Language, tmp_path: Path
     for shown in (True, False):
         cells = sheet(write_xlsx(feedback_book(found, shown)), tmp_path)
         texts = [one.comment.text for one in cells.values() if one.comment]
-        texts.append(text_of(feedback_document(found, "Crank", shown)))
+        texts.append(text_of(feedback_document(found, "Crank", Policy(show_answers=shown))))
         assert any(value in text for text in texts for value in wanted) == shown
 
 
@@ -164,7 +166,7 @@ def test_there_are_words_for_every_mistake_verdict_and_warning(language: Languag
 
 def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
     found = [marking(student="=cmd|'/c calc'!A1"), marking(student="B")]
-    head, one, two, none = grade_rows(found, "en", [small_key(student="C")])
+    head, one, two, none = grade_rows(found, "en", [Unmarked(small_key(student="C"))])
     named = dict(zip(head, one, strict=True))
     assert named["points"] == 4
     assert named["out of"] == 10
@@ -180,14 +182,14 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
 
 def test_the_class_page_has_marks_and_counts() -> None:
     found = [marking(student=f"Student {n}") for n in range(12)]
-    tree = class_document(found, "crank", "en", [small_key(student="Absent")])
-    table, sections, questions = (block for block in tree.blocks if isinstance(block, Table))
+    tree = class_document(found, "crank", "en", [Unmarked(small_key(student="Absent"))])
+    table, absent, sections, questions = (block for block in tree.blocks if isinstance(block, Table))
     assert len(table.rows) == 13
-    for one in (table, sections, questions):
+    for one in (table, absent, sections, questions):
         assert sum(column.width for column in one.columns) <= 160
     # Of a question's cells those that are right or follow, of all; what all had right is only counted.
     shares = [[plain(cell.inlines, "en") for cell in row] for row in (*sections.rows, *questions.rows)]
-    assert [(row[0], row[-1]) for row in shares] == [
+    assert [(row[0], row[-2]) for row in shares] == [
         ("Balance of the driving link", "0"),
         ("Velocities", "38"),
         ("Dimensions and drawn lengths", "100"),
@@ -217,7 +219,7 @@ def test_quantities_beyond_the_room_of_a_chart_are_counted_together() -> None:
 
 
 def test_a_class_without_sheets_has_a_page_too() -> None:
-    text = text_of(class_document([], "crank", "vi", [small_key(student="Absent")]))
+    text = text_of(class_document([], "crank", "vi", [Unmarked(small_key(student="Absent"))]))
     assert "Absent" in text
 
 

@@ -14,7 +14,7 @@ from reportgen.machine.forces import (
     as_single_force,
     inertia_loads,
     mean_over,
-    percussion_meeting,
+    percussion_points,
     solve_forces,
     virtual_work_torque,
     weights,
@@ -339,7 +339,7 @@ def test_the_drawn_point_of_percussion_lies_on_the_one_force() -> None:
     load = next(load for load in inertia_loads(linkage, motion) if load.link == 2)
     a, s = motion.points["A"], motion.points["S2"]
     distance = body.moment / (body.mass * 0.25)
-    q = percussion_meeting(a.p, s.p, a.a, s.a, distance)
+    _, q = percussion_points(a.p, s.p, a.a, s.a, distance)
     moment = cross(q - s.p, load.force)
     assert moment == pytest.approx(load.couple, abs=1e-9 * np.abs(load.couple).max())
 
@@ -365,4 +365,4 @@ def test_lines_that_do_not_meet_give_no_point_of_percussion() -> None:
     a, b = motion.points["A"], motion.points["B"]
     s = a.p + 0.35 * (b.p - a.p)
     a_s = a.a + 0.35 * (b.a - a.a)
-    assert np.isnan(percussion_meeting(a.p, s, a.a, a_s, 0.1)).all()
+    assert np.isnan(percussion_points(a.p, s, a.a, a_s, 0.1)[1]).all()

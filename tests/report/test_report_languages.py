@@ -192,14 +192,16 @@ def leaves(words: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tu
 
 
 def shape_of_words(words: Mapping[str, Any]) -> set[tuple[Any, ...]]:
-    """Each word by its keys, a list by its length; how a language may head a column is its own affair."""
-    counted = (keys[0] != "columns" for keys, _ in leaves(words))
+    """Each word by its keys, a list by its length; in how many ways something may be read is its own affair."""
+    counted = (keys[0] not in READ for keys, _ in leaves(words))
     return {
         (*keys, len(value) if isinstance(value, list) and same else "")
         for same, (keys, value) in zip(counted, leaves(words), strict=True)
     }
 
 
+READ = ("columns", "dates", "judgements")
+"""What heads columns, names months and judges, in files that are read."""
 ONE_SIDED = {("cover", "months")}
 """English dates name the month; Vietnamese ones count it."""
 

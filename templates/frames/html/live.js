@@ -70,6 +70,9 @@
       while (news) {
         const now = news;
         news = null;
+        const changed = now.moving !== shown.moving || Boolean(now.fault) !== shown.faulty;
+        shown.faulty = Boolean(now.fault);
+        document.dispatchEvent(new CustomEvent("news", { detail: { making: now.making, changed } }));
         fault.hidden = !now.fault;
         fault.lastElementChild.textContent = now.fault;
         if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { leave(); return; }

@@ -1,0 +1,202 @@
+"""Checks for any kind to put in its list: of several values at once, told as data where they say one thing.
+
+They read the plain content, not the models, wherever they can: so they also speak when some other value of the file
+is wrong.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from statistics import mode
+from typing import Any
+
+from reportgen.assignment.common import Check, Draft, Labels, labels_of, named_worked, number_of
+from reportgen.base.errors import Finding, Where
+from reportgen.base.files import school_strays
+from reportgen.base.template_folders import is_school
+from reportgen.base.units import QuantityFault, read_number, read_quantity
+
+
+def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
+    """A check of the parameters alone, made where each of them is in order by itself."""
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        if "parameters" in draft.sections:
+            yield from look(draft.sections["parameters"])
+
+    return check
+
+
+def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
+    """As `of_parameters`, of what only a whole turn asks for: at single instants a machine need but stand."""
+    every = of_parameters(look)
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        if draft.at("positions", "at") is None:
+            yield from every(draft)
+
+    return check
+
+
+def instants(draft: Draft) -> Iterator[Finding]:
+    """Instants stand alone, each once: evenly spaced positions have a number and a start."""
+    positions = draft.at("positions")
+    if not isinstance(positions, dict) or positions.get("at") is None:
+        return
+    for key in ("count", "start"):
+        if positions.get(key) is not None:
+            yield Finding("both-given", ("positions", key), {"first": "at", "second": key}, at="key")
+    at = positions["at"]
+    for index, text in enumerate(at if isinstance(at, list) else ()):
+        if text in at[:index]:
+            yield Finding("repeated", ("positions", "at", index), {"text": str(text)})
+
+
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """The check that of several keys that say the same thing one stands in the section (at most one unless `required`).
+
+    A section of a section is named by its path, as "parameters.driver"; with `form` it counts where the section has
+    this value behind this key.
+    """
+
+    section: str
+    names: tuple[str, ...]
+    required: bool = True
+    form: tuple[str, str] | None = None
+
+    @property
+    def where(self) -> Where:
+        return tuple(self.section.split("."))
+
+    def __call__(self, draft: Draft) -> Iterator[Finding]:
+        content = draft.at(*self.section.split("."))
+        if not isinstance(content, dict) or (self.form and content.get(self.form[0]) != self.form[1]):
+            return
+        given = [name for name, value in content.items() if name in self.names and value is not None]
+        if len(given) > 1:
+            first, second = given[:2]
+            yield Finding("both-given", (*self.where, second), {"first": first, "second": second}, at="key")
+        elif self.required and not given:
+            yield Finding("missing-key", (*self.where, self.names[0]), {"key": " | ".join(self.names)})
+
+
+def one_of(section: str, *names: str, required: bool = True, form: tuple[str, str] | None = None) -> OneOf:
+    """As `OneOf`, the names in place."""
+    return OneOf(section, names, required, form)
+
+
+@dataclass(frozen=True, slots=True)
+class SameLength:
+    """The check that rows have as many values as the list `key`: those that differ from most of them are at fault."""
+
+    section: str
+    key: str
+    rows: tuple[str, ...]
+
+    def __call__(self, draft: Draft) -> Iterator[Finding]:
+        where = tuple(self.section.split("."))
+        columns = {row: draft.at(*where, row) for row in (self.key, *self.rows)}
+        lengths = {row: len(values) for row, values in columns.items() if isinstance(values, list)}
+        if not lengths:
+            return
+        wanted = mode(lengths.values())
+        agreeing = next(row for row, length in lengths.items() if length == wanted)
+        for row, length in lengths.items():
+            if length != wanted:
+                counts = {"key": row, "given": str(length), "other": agreeing, "wanted": str(wanted)}
+                yield Finding("row-length", (*where, row), counts)
+
+
+def same_length(section: str, key: str, rows: Sequence[str]) -> SameLength:
+    """As `SameLength`."""
+    return SameLength(section, key, tuple(rows))
+
+
+@dataclass(frozen=True, slots=True)
+class Increasing:
+    """The check that a list grows strictly from `first` to `last` (in `unit`)."""
+
+    section: str
+    key: str
+    first: float
+    last: float
+    unit: str = ""
+
+    def __call__(self, draft: Draft) -> Iterator[Finding]:
+        where = (*self.section.split("."), self.key)
+        texts = draft.at(*where)
+        values = [_size(text, self.unit) for text in texts] if isinstance(texts, list) else []
+        sizes = [value for value in values if value is not None]
+        if not sizes or len(sizes) < len(values):
+            return
+        falls = [index + 1 for index, (one, next_one) in enumerate(pairwise(sizes)) if next_one <= one]
+        if falls:
+            yield Finding("not-increasing", (*where, falls[0]), {"key": self.key})
+            return
+        for index, value, wanted in ((0, sizes[0], self.first), (len(sizes) - 1, sizes[-1], self.last)):
+            # Ends are exact but for the rounding of a unit (2 turn for 720 deg).
+            if abs(value - wanted) > 1e-10 * (self.last - self.first):
+                end = f"{wanted:g} {self.unit}".strip()
+                yield Finding("table-end", (*where, index), {"key": self.key, "end": end})
+
+
+def increasing(section: str, key: str, first: float, last: float, unit: str = "") -> Increasing:
+    """As `Increasing`."""
+    return Increasing(section, key, first, last, unit)
+
+
+def _size(text: Any, unit: str) -> float | None:
+    """The value of an item in `unit`; None if it cannot be read, which its own reader reports."""
+    if not isinstance(text, str):
+        return None
+    try:
+        if not unit:
+            return read_number(text)
+        return read_quantity(text, unit).si / read_quantity(f"1 {unit}", unit).si
+    except QuantityFault:
+        return None
+
+
+def worked_positions(turns: int, names: Labels | None = None) -> Check:
+    """Worked positions lie in the cycle of `turns` turns, each is named once."""
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        report, positions = draft.sections.get("report"), draft.sections.get("positions")
+        if report is None or positions is None or (worked := named_worked(report, positions)) is None:
+            return
+        labels = labels_of(names, draft.sections.get("parameters"), positions, turns)
+        met: set[int] = set()
+        for index, named in enumerate(worked):
+            place, number = ("report", "worked_positions", index), number_of(named, labels)
+            if number in met:
+                yield Finding("repeated", place, {"text": str(named)})
+            elif number:
+                met.add(number)
+            elif isinstance(named, str):
+                yield Finding("no-such-label", place, {"text": named, "known": ", ".join(labels)})
+            else:
+                yield Finding("no-such-position", place, {"text": str(named), "last": str(len(labels))})
+
+    return check
+
+
+def school_of(path: Path) -> Check:
+    """The school's folder of the file at `path` lies beside it or below, with words in it, and there is one."""
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        named, where = draft.at("report", "templates"), ("report", "templates")
+        if not isinstance(named, str):
+            return
+        folder = path.parent / named
+        if school_strays(folder, path.parent):
+            yield Finding("path-outside", where, {"text": named})
+        elif not is_school(folder):
+            yield Finding("no-templates", where, {"place": str(folder.absolute())})
+        else:
+            yield from one_of("report", "school", "templates", required=False)(draft)
+
+    return check

@@ -1,0 +1,206 @@
+"""What a file may say, as data: a JSON Schema with units, bounds, defaults, choices, and rules of several keys.
+
+Beside the standard's words stand a few of our own, which other readers pass over: `x-unit` and `x-range` of a quantity,
+`x-unit-name` of a unit that may be another one like it, `x-same-length` and `x-increasing` of tables.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode, models_json_schema
+
+from reportgen.assignment.checks import Increasing, OneOf, SameLength
+from reportgen.assignment.common import Kind, file_model
+from reportgen.base.errors import Where
+from reportgen.base.field_words import FieldWords
+from reportgen.base.units import Given
+
+Schema = dict[str, Any]
+
+SAME_LENGTH_KEY, INCREASING_KEY = "x-same-length", "x-increasing"
+_FORMS = {"object": "table", "array": "list"}
+
+
+class _Generator(GenerateJsonSchema):
+    """The schema of pydantic with defaults as a file would have them."""
+
+    def encode_default(self, dft: Any) -> Any:
+        if isinstance(dft, Given):
+            return dft.text
+        if isinstance(dft, BaseModel):
+            return {}
+        return super().encode_default(dft)
+
+
+@cache
+def file_schema(kind: Kind) -> Schema:
+    """The JSON Schema of a whole file of a kind; of draft 2020-12."""
+    schema = file_model(kind).model_json_schema(by_alias=True, schema_generator=_Generator)
+    _tell_checks(schema, schema, kind)
+    return schema
+
+
+def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWords]]) -> Schema:
+    """The JSON Schema (draft-07, which every editor knows) of a file of any of the kinds, with the words of each."""
+    # All at once: models of one name in different kinds get names of their own.
+    models: dict[Kind, tuple[type[BaseModel], JsonSchemaMode]] = {
+        kind: (file_model(kind), "validation") for kind in kinds
+    }
+    references, definitions = models_json_schema([*models.values()], by_alias=True, schema_generator=_Generator)
+    modern = {"title": "reportgen assignment", "oneOf": [references[model] for model in models.values()], **definitions}
+    for kind, model in models.items():
+        _tell_checks(references[model], modern, kind)
+        _tell_words(references[model], modern, words(kind.name), ())
+    return {"$schema": "http://json-schema.org/draft-07/schema#", **_as_draft_07(modern)}
+
+
+def _as_draft_07(part: Any) -> Any:
+    """A schema of draft 2020-12 in the words of draft-07; the models use but one that the drafts do not share."""
+    match part:
+        case dict():
+            return {"definitions" if key == "$defs" else key: _as_draft_07(value) for key, value in part.items()}
+        case list():
+            return [_as_draft_07(item) for item in part]
+        case str():
+            return part.replace("#/$defs/", "#/definitions/")
+        case _:
+            return part
+
+
+# --- what checks and words say ----------------------------------------------------------------------
+
+
+def _tell_checks(part: Schema, root: Schema, kind: Kind) -> None:
+    """Put into the schema what the checks of a kind say of several keys."""
+    for check in kind.checks:
+        match check:
+            case OneOf(names=names, required=required, form=form):
+                either = [{"required": [name]} for name in names]
+                rule = {"oneOf": either} if required else {"not": {"required": [*names]}}
+                for table in tables_at(part, root, check.where):
+                    if set(names) & set(table["properties"]) and (form is None or _is_form(table, *form)):
+                        _add(table, "allOf", rule)
+            case SameLength(key=key, rows=rows):
+                for table in tables_at(part, root, tuple(check.section.split("."))):
+                    alike = [row for row in (key, *rows) if row in table["properties"]]
+                    if len(alike) > 1 and key in alike:
+                        _add(table, SAME_LENGTH_KEY, alike)
+            case Increasing(key=key, first=first, last=last, unit=unit):
+                for table in tables_at(part, root, tuple(check.section.split("."))):
+                    if key in table["properties"]:
+                        table["properties"][key][INCREASING_KEY] = {"from": first, "to": last, "unit": unit}
+            case _:
+                pass
+
+
+def _is_form(table: Schema, key: str, value: str) -> bool:
+    return bool(table["properties"].get(key, {}).get("const") == value)
+
+
+def _add(table: Schema, key: str, rule: Any) -> None:
+    """Put something into a list of the schema, once."""
+    listed = table.setdefault(key, [])
+    if rule not in listed:
+        listed.append(rule)
+
+
+def _tell_words(part: Schema, root: Schema, words: Mapping[str, FieldWords], path: tuple[str, ...]) -> None:
+    """Name and describe the keys of a schema, and all that is in them."""
+    for schema in alternatives(part, root):
+        for inner in _unnamed(schema):
+            _tell_words(inner, root, words, path)
+        for key, about in schema.get("properties", {}).items():
+            said = words.get(".".join((*path, key)))
+            # A definition that several kinds share is told in the words of the first.
+            if said is not None and "description" not in about:
+                about["title"], about["description"] = said.label, said.whole
+            _tell_words(about, root, words, (*path, key))
+
+
+def _unnamed(schema: Schema) -> Iterator[Schema]:
+    """What stands behind an item of a list, and behind any key of a table of names."""
+    for inner in (
+        schema.get("items"),
+        schema.get("additionalProperties"),
+        *schema.get("patternProperties", {}).values(),
+    ):
+        if isinstance(inner, dict):
+            yield inner
+
+
+# --- what stands at a place -------------------------------------------------------------------------
+
+
+def tables_at(part: Schema, root: Schema, where: Where) -> list[Schema]:
+    """The tables that may stand at a place."""
+    return [schema for schema in places(part, root, where) if "properties" in schema]
+
+
+def known_keys(kind: Kind, where: Where) -> list[str]:
+    """The keys that a table at `where` in a file of a kind may have; none if no table stands there."""
+    return keys_at(file_schema(kind), where)
+
+
+def allowed_forms(kind: Kind, where: Where) -> frozenset[str]:
+    """What a file of a kind may hold at `where`: "table", "list", "scalar"; empty for an unknown place."""
+    schema = file_schema(kind)
+    forms = [schema.get("type", "string") for schema in places(schema, schema, where)]
+    types = [name for type_ in forms for name in (type_ if isinstance(type_, list) else [type_])]
+    return frozenset(_FORMS.get(str(name), "scalar") for name in types if name != "null")
+
+
+def choices_of(schema: Schema) -> list[str]:
+    """The values among which one alternative at a place lets a file choose."""
+    if schema.get("type") == "boolean":
+        return ["true", "false"]
+    return [str(value) for value in (*schema.get("enum", ()), *([schema["const"]] if "const" in schema else ()))]
+
+
+def alternatives_to(kind: Kind, path: Sequence[str]) -> list[str]:
+    """The other keys by which the same may be said as by that of a path."""
+    checks = (check for check in kind.checks if isinstance(check, OneOf) and check.where == tuple(path[:-1]))
+    return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
+
+
+def keys_at(schema: Schema, where: Where) -> list[str]:
+    """Keys that a JSON Schema allows at a place; of alternatives, all their keys."""
+    return list(
+        dict.fromkeys(name for schema in places(schema, schema, where) for name in schema.get("properties", {}))
+    )
+
+
+def places(part: Schema, root: Schema, where: Where) -> list[Schema]:
+    """The alternatives that a part of a JSON Schema allows at a place below it."""
+    level = list(alternatives(part, root))
+    for step in where:
+        inner = [inner for schema in level for inner in _inside(schema, step)]
+        level = [alternative for schema in inner for alternative in alternatives(schema, root)]
+    return level
+
+
+def _inside(schema: Schema, step: str | int) -> Iterator[Schema]:
+    """What a JSON Schema says of a key, of an item of a list, or of any key of a table of names."""
+    if isinstance(step, int):
+        if isinstance(schema.get("items"), dict):
+            yield schema["items"]
+    elif step in schema.get("properties", {}):
+        yield schema["properties"][step]
+    elif isinstance(schema.get("additionalProperties"), dict):
+        yield schema["additionalProperties"]
+    else:
+        yield from schema.get("patternProperties", {}).values()
+
+
+def alternatives(schema: Schema, root: Schema) -> Iterator[Schema]:
+    """A part of a JSON Schema with references followed and `oneOf`, `anyOf` taken apart."""
+    if "$ref" in schema:
+        yield from alternatives(root["$defs"][schema["$ref"].rsplit("/", 1)[-1]], root)
+    elif choices := [*schema.get("oneOf", ()), *schema.get("anyOf", ())]:
+        for choice in choices:
+            yield from alternatives(choice, root)
+    else:
+        yield schema

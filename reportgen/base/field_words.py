@@ -1,0 +1,151 @@
+"""What the keys of assignment files are called: name, remark and group of each, in every language.
+
+The keys of a kind's own parameters stand with its words, in the section `fields`; those of all kinds, and the words of
+choices and groups, in `fields.yaml` of the language.  Keys are told by their paths without the numbers of lists and
+without names that the user gives: `groups.guide.at`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from reportgen.base.errors import TemplateError
+from reportgen.base.source import MappingNode, plain, read_own, read_words
+from reportgen.base.template_folders import kind_file, templates
+from reportgen.base.units import Language
+from reportgen.base.words import sections
+
+SECTION, FILE = "fields", "fields.yaml"
+PARAMETERS = "parameters"
+
+
+@dataclass(frozen=True, slots=True)
+class FieldWords:
+    """A key's name as a label has it, a remark on what is to be known of it, and the title of its group."""
+
+    name: str
+    remark: str = ""
+    group: str = ""
+
+    @property
+    def label(self) -> str:
+        """The name with a capital letter, unless it begins with a symbol."""
+        first, rest = self.name[:1], self.name[1:]
+        return first.upper() + rest if rest[:1].islower() or rest[:1] == " " else self.name
+
+    @property
+    def whole(self) -> str:
+        """Name and remark."""
+        return f"{self.name}, {self.remark}" if self.remark else self.name
+
+
+def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
+    """The words of all keys of a kind's file, by their paths, in the order in which a form has them.
+
+    A kind without the section has the common ones.  Raises `TemplateError` for a section that is no table.
+    """
+    own, common = kind_file(language, kind), templates() / language / FILE
+    return _found(own, common, own.stat().st_mtime_ns, common.stat().st_mtime_ns)
+
+
+def shared_keys(language: Language) -> frozenset[str]:
+    """The parameters that are called alike in every kind that has them."""
+    common = templates() / language / FILE
+    groups: Mapping[str, Any] = _common(common, common.stat().st_mtime_ns)[PARAMETERS]
+    return frozenset(key for keys in groups.values() for key in keys)
+
+
+def choice_words(language: Language) -> Mapping[str, str]:
+    """What the values are called among which a key may choose."""
+    common = templates() / language / FILE
+    table: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
+    return table
+
+
+def group_titles(language: Language) -> list[str]:
+    """The titles of groups in the order in which a form has them."""
+    common = templates() / language / FILE
+    return list(_common(common, common.stat().st_mtime_ns)["groups"].values())
+
+
+def also(language: Language) -> str:
+    """What stands between two ways to say the same."""
+    common = templates() / language / FILE
+    return str(_common(common, common.stat().st_mtime_ns)["or"])
+
+
+@lru_cache(maxsize=64)
+def _found(own: Path, common: Path, *_: int) -> Mapping[str, FieldWords]:
+    shared = _common(common, common.stat().st_mtime_ns)
+    groups: Mapping[str, str] = shared["groups"]
+    words = {path: _words(said) for path, said in shared["file"].items()}
+    parameters = [*_grouped(_own(own), groups), *_grouped(shared[PARAMETERS], groups)]
+    # What a kind says of a key itself comes before what is said of it in general.
+    return words | {f"{PARAMETERS}.{path}": said for path, said in reversed(dict(reversed(parameters)).items())}
+
+
+def _own(file: Path) -> Mapping[str, Any]:
+    """The table of a kind's own keys by their groups."""
+    section = sections(file).get(SECTION)
+    if section is None:
+        return {}
+    top = read_own(section.text, str(file)).top
+    if not isinstance(top, MappingNode):
+        raise TemplateError(f"{file}:{section.line}: a table of words is wanted here")
+    table: Mapping[str, Any] = plain(top)
+    return table
+
+
+def _grouped(table: Mapping[str, Any], groups: Mapping[str, str]) -> Iterator[tuple[str, FieldWords]]:
+    for group, keys in table.items():
+        for path, said in keys.items():
+            yield path, _words(said, groups[group])
+
+
+def _words(said: Any, group: str = "") -> FieldWords:
+    name, remark = said if isinstance(said, list) else (said, "")
+    return FieldWords(name, remark, group)
+
+
+@lru_cache(maxsize=8)
+def _common(path: Path, _: int) -> Mapping[str, Any]:
+    source = read_words(path)
+    if source.top is None or source.faults:
+        raise TemplateError(f"{path}:1: a table of words is wanted here")
+    table: Mapping[str, Any] = plain(source.top)
+    return table
+
+
+# --- a file to begin with ---------------------------------------------------------------------------
+
+COLUMN = 32
+"""Where remarks begin, as far as there is room."""
+_ENTRY = re.compile(r"(?P<indent> *)(?:# )?(?P<key>[^\W\d][\w-]*):(?P<value>.*)")
+
+
+def remarked(text: str, words: Mapping[str, FieldWords], more: Callable[[str, str], str]) -> str:
+    """A file to begin with, with the words of each key behind it, and `more` to be said of its path and value.
+
+    A key that is followed by keys of its own, and one that has a remark already, stays as it is.
+    """
+    lines = text.splitlines()
+    entries = [_ENTRY.fullmatch(line) for line in lines]
+    above: list[tuple[int, str]] = []
+    done: list[str] = []
+    for line, entry, following in zip(lines, entries, [*entries[1:], None], strict=True):
+        done.append(line)
+        if entry is None:
+            continue
+        depth = len(entry["indent"])
+        above = [*((column, key) for column, key in above if column < depth), (depth, entry["key"])]
+        heads = not entry["value"].strip() and following is not None and len(following["indent"]) > depth
+        path = ".".join(key for _, key in above)
+        if path in words and not heads and " #" not in entry["value"]:
+            shown = f"{words[path].whole}{more(path, entry['value'].strip())}"
+            done[-1] = f"{line.rstrip():{COLUMN - 1}} # {shown}"
+    return "\n".join(done) + "\n"

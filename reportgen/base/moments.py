@@ -1,0 +1,93 @@
+"""Moments as people and platforms write them: 2026-11-20 23:59, 20/11/2026, Friday, 20 November 2026, 11:59 PM.
+
+Months and halves of the day are those of all languages (`dates` of `messages.yaml`); of a date in figures the day
+stands first, unless it begins with the year.
+"""
+
+from __future__ import annotations
+
+import datetime
+import re
+import unicodedata
+from collections.abc import Mapping
+from functools import cache
+from typing import get_args
+
+from reportgen.base.units import Language
+from reportgen.base.words import messages
+
+_TIME = re.compile(r"(?<!\d)(\d{1,2})(?::(\d{2})(?::(\d{2})(?:\.\d+)?)?|h(\d{2})?(?![^\W\d_]))")
+_ISO = re.compile(r"(?<!\d)(\d{4})-(\d{1,2})-(\d{1,2})(?!\d)")
+_FIGURES = re.compile(r"(?<!\d)(\d{1,2})[/.-](\d{1,2})[/.-](\d{4}|\d{2})(?!\d)")
+_DAY, _YEAR = re.compile(r"(?<!\d)(\d{1,2})(?!\d)"), re.compile(r"(?<!\d)(\d{4})(?!\d)")
+CENTURY = 2000
+"""Of a year of two figures."""
+
+
+def moment(text: str, *, end: bool = False) -> datetime.datetime | None:
+    """The moment that a text names, None if it names none; a day alone begins, or with `end` is over."""
+    said = re.sub(r"(?<=\d)t(?=\d)", " ", " ".join(unicodedata.normalize("NFC", text).casefold().split()))
+    try:
+        time, rest = _time(said)
+        day = _day(rest)
+    except ValueError:
+        return None
+    if day is None:
+        return None
+    return datetime.datetime.combine(day, time or (datetime.time(23, 59, 59) if end else datetime.time()))
+
+
+def _time(said: str) -> tuple[datetime.time | None, str]:
+    """The time of day and what is left of the text; raises `ValueError` for a time that no clock shows."""
+    match = _TIME.search(said)
+    if match is None:
+        return None, said
+    hour, minute, second = int(match[1]), int(match[2] or match[4] or 0), int(match[3] or 0)
+    rest = f"{said[: match.start()]} {said[match.end() :]}"
+    for half, first in (("morning", 0), ("afternoon", 12)):
+        if word := _among(_halves()[half], rest):
+            if not 1 <= hour <= 12:
+                raise ValueError(said)
+            hour, rest = hour % 12 + first, rest.replace(word, " ", 1)
+            break
+    return datetime.time(hour, minute, second), rest
+
+
+def _day(said: str) -> datetime.date | None:
+    """The date that a text names; raises `ValueError` for one that no calendar has."""
+    if match := _ISO.search(said):
+        return datetime.date(int(match[1]), int(match[2]), int(match[3]))
+    if match := _FIGURES.search(said):
+        year = int(match[3]) + (CENTURY if len(match[3]) == 2 else 0)
+        return datetime.date(year, int(match[2]), int(match[1]))
+    plain = re.sub(r"(?<!\d)0(?=\d(?!\d))", "", said)
+    name = _among(_months(), plain)
+    rest = plain.replace(name, " ", 1)
+    day, year_text = _DAY.search(rest), _YEAR.search(rest)
+    if not name or day is None or year_text is None:
+        return None
+    return datetime.date(int(year_text[1]), _months()[name], int(day[1]))
+
+
+def _among(words: Mapping[str, int], said: str) -> str:
+    """The longest of some words that stands in a text by itself, "" for none."""
+    standing = (word for word in words if re.search(rf"(?<!\w){re.escape(word)}(?!\w)", said))
+    return max(standing, key=len, default="")
+
+
+@cache
+def _months() -> Mapping[str, int]:
+    """The number of a month by each of its names."""
+    return {
+        name: number
+        for language in get_args(Language)
+        for number, names in enumerate(messages(language)["dates"]["months"], start=1)
+        for name in names
+    }
+
+
+@cache
+def _halves() -> Mapping[str, Mapping[str, int]]:
+    """What the halves of the day are called, by `morning` and `afternoon`."""
+    tables = [messages(language)["dates"] for language in get_args(Language)]
+    return {half: {word: 0 for table in tables for word in table[half]} for half in ("morning", "afternoon")}

@@ -1,0 +1,225 @@
+"""What the instructor judges otherwise, as a table that is applied at each marking: `corrections.csv`.
+
+A row names a student by id or name; a quantity by id, pattern or symbol, a section, a part of a coursework, or nothing
+for the whole sheet; a position, or nothing for all; then `right`, `wrong`, or the points that it earns altogether; and
+the reason.  With a `value` the row holds only for cells that have it.  Of two rows for one cell the later one holds.
+What a row no longer fits is told.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fnmatch import fnmatchcase
+from functools import cache
+from pathlib import Path
+from typing import get_args
+
+from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.template_folders import search_path
+from reportgen.base.units import NUMBER, Language, write
+from reportgen.base.words import as_error, as_problem, close_or_known, load_words, messages
+from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.key import symbol_text, words_of
+from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of
+from reportgen.report import InlineMath, Inlines, Text
+from reportgen.report.key import Key
+from reportgen.workbook import read
+
+NEEDED = ("judgement", "reason")
+"""Columns that each row fills in, beside the student's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Correction:
+    """A row: whose, what and where as typed; `judgement` is right, wrong or a number of points; `marks` its cells."""
+
+    who: str
+    quantity: str
+    position: str
+    judgement: Verdict | float
+    reason: str
+    value: str
+    marks: Mapping[str, Mark]
+
+
+def read_corrections(path: Path, language: Language | None = None) -> tuple[Correction, ...]:
+    """The rows of a table, CSV or XLSX.  Raises `AssignmentError` with all its faults, located."""
+    for page in read(path, language):
+        head = heading_row(page, "reason")
+        if head is None or page.hidden:
+            continue
+        faults: list[Fault] = []
+        headed = columns(page.rows[head])
+        names = {column.name for column in headed}
+        who = "id" if "id" in names else "name"
+        lacking = [name for name in (who, *NEEDED) if name not in names]
+        faults += [Fault("correction-column", headed[0].mark, {"key": name}) for name in lacking]
+        rows = [] if lacking else list(records(page, headed, head + 1, faults))
+        made = [_correction(row, who, faults) for row in rows]
+        if faults:
+            raise as_error(faults, language)
+        return tuple(one for one in made if one is not None)
+    raise as_error([Fault("correction-column", Mark(str(path)), {"key": "reason"})], language)
+
+
+def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None:
+    texts = {name: " ".join(value.text.split()) for name, value in row.values.items()}
+    lacking = [name for name in (who, *NEEDED) if not texts.get(name) and name not in row.refused]
+    faults += [Fault("correction-lacks", row.cells.get(name, row.mark), {"key": name}) for name in lacking]
+    judgement = None if "judgement" in lacking else _judgement(texts.get("judgement", ""))
+    if judgement is None and "judgement" in texts:
+        faults.append(Fault("correction-judgement", row.cells["judgement"], {"text": texts["judgement"]}))
+    if judgement is None or lacking:
+        return None
+    quantity, position, value = (texts.get(name, "") for name in ("quantity", "position", "value"))
+    marks = {name: row.cells.get(name, row.mark) for name in ("quantity", "position", "judgement", "value")}
+    marks["who"] = row.cells[who]
+    return Correction(texts[who], quantity, position, judgement, reason=texts["reason"], value=value, marks=marks)
+
+
+def _judgement(text: str) -> Verdict | float | None:
+    if verdict := _verdicts().get(folded(text)):
+        return verdict
+    plain = text.replace(",", ".")
+    return float(plain) if re.fullmatch(NUMBER, plain) and math.isfinite(float(plain)) else None
+
+
+@cache
+def _verdicts() -> Mapping[str, Verdict]:
+    """Right and wrong, by their words in every language."""
+    return {
+        word: verdict
+        for language in get_args(Language)
+        for verdict in (Verdict.right, Verdict.wrong)
+        for word in messages(language)["judgements"][verdict]
+    }
+
+
+# --- applied ----------------------------------------------------------------------------------------
+
+
+def applied(
+    markings: Sequence[Marking], keys: Iterable[Key], corrections: Iterable[Correction], language: Language | None
+) -> tuple[list[Marking], list[Problem]]:
+    """The markings with all corrections; what one no longer fits is a problem at its place, and it is left out."""
+    by_id = {marking.key.id: marking for marking in markings}
+    known = list(keys)
+    problems: list[Problem] = []
+    for correction in corrections:
+        ids = [key.id for key in known if _is_of(correction.who, key)]
+        about = correction.marks["who"], {"text": correction.who}
+        if len(ids) != 1:
+            problems.append(as_problem(Fault("correction-nobody", *about), language))
+        elif (marking := by_id.get(ids[0])) is None:
+            problems.append(as_problem(Fault("correction-no-sheet", *about), language))
+        elif isinstance(made := corrected(marking, correction), Fault):
+            problems.append(as_problem(made, language))
+        else:
+            if _verdicts_of(made) == _verdicts_of(marking):
+                idle = Fault("correction-idle", correction.marks["judgement"])
+                problems.append(as_problem(idle, language, "warning"))
+            by_id[ids[0]] = made
+    return [by_id[marking.key.id] for marking in markings], problems
+
+
+def _verdicts_of(marking: Marking) -> list[tuple[Verdict, float]]:
+    return [(cell.verdict, cell.points) for cell in marking.cells]
+
+
+def _is_of(who: str, key: Key) -> bool:
+    """Whether an id, the stem of a file or a full name is that of the student of a key."""
+    id = key.student.get("id", key.id)
+    names = {comparable(one) for one in (key.id, id, folder_name(id))}
+    return comparable(who) in names or folded(who) == folded(key.student.get("name", ""))
+
+
+def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
+    """The marking with one correction, or why it does not fit the sheet."""
+    named = _named(marking.key, correction.quantity)
+    if named is None:
+        names = [symbol_text(row, marking.key) for row in marking.key.asked] + [row.id for row in marking.key.asked]
+        close = close_or_known(correction.quantity, names).get("close", "")
+        about = {"text": correction.quantity, **({"close": close} if close else {})}
+        return Fault("correction-no-quantity", correction.marks["quantity"], about)
+    what, belongs = named
+    wanted = correction.position.casefold()
+    cells = [
+        cell
+        for cell in marking.cells
+        if belongs(cell.id)
+        and (not wanted or (cell.position and marking.key.label(cell.position, cell.id).casefold() == wanted))
+    ]
+    if not cells:
+        text = correction.position or correction.quantity
+        return Fault("correction-no-cell", correction.marks["position" if wanted else "quantity"], {"text": text})
+    worth = points_of(cells)[1]
+    if correction.value and (present := _other_value(marking, cells, correction.value)) is not None:
+        about = {"text": correction.value, "found": present}
+        return Fault("correction-value", correction.marks["value"], about)
+    points = correction.judgement
+    if isinstance(points, float) and not 0 <= points <= worth + 1e-9:
+        most = {"text": f"{points:g}", "most": f"{worth:g}"}
+        return Fault("correction-points", correction.marks["judgement"], most)
+    places = {(cell.id, cell.position): _judged(cell, points, worth, correction.reason) for cell in cells}
+    shown = (*what, Text(f" ({correction.position})")) if wanted else what
+    return replace(
+        marking,
+        cells=tuple(places.get((cell.id, cell.position), cell) for cell in marking.cells),
+        amendments=(*marking.amendments, Amendment(shown, frozenset(places), correction.reason)),
+    )
+
+
+def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
+    """What the quantities that a text names are called, and which ids they have; None for what is nothing here."""
+    if not text:
+        return (Text(words_of(key)["feedback"]["whole"]),), lambda id: True
+    rows = [row for row in key.rows if text in (row.id, symbol_text(row, key))]
+    if rows:
+        ids = {row.id for row in rows}
+        return (InlineMath(rows[0].symbol),), ids.__contains__
+    if any(fnmatchcase(row.id, text) for row in key.rows):
+        return (Text(text),), lambda id: fnmatchcase(id, text)
+    part = next((one for one in key.parts if folded(text) in (folded(one.name), folded(one.title))), None)
+    if part is not None:
+        return (Text(part.title),), lambda id: key.owner(id) == part.name
+    chapter = next((one for one in Chapter if folded(text) in _titles(one)), None)
+    if chapter is not None:
+        return (Text(words_of(key)["parts"][chapter]),), lambda id: key.row(id).part is chapter
+    return None
+
+
+@cache
+def _titles(chapter: Chapter) -> frozenset[str]:
+    """What a section is called: its own name, and its title in every language."""
+    tables = [load_words(search_path(language))["parts"] for language in get_args(Language)]
+    return frozenset({str(chapter), *(folded(table[chapter]) for table in tables)})
+
+
+def _other_value(marking: Marking, cells: Iterable[Marked], value: str) -> str | None:
+    """What stands in a cell that does not have a value, as it was typed; None if all have it."""
+    for cell in cells:
+        answer = marking.submission.values.get((cell.id, cell.position))
+        if answer is None:
+            return "–"
+        plain = write(answer.value, None, marking.key.language)
+        if value not in (answer.text.strip(), plain, f"{answer.value:g}"):
+            return answer.text.strip()
+    return None
+
+
+def _judged(cell: Marked, judgement: Verdict | float, worth: float, reason: str) -> Marked:
+    """A cell as the instructor judges it; points for several cells are shared out by what each is worth."""
+    if isinstance(judgement, Verdict):
+        points = cell.worth if judgement is Verdict.right else 0.0
+        verdict = judgement
+    else:
+        share = judgement / worth if worth else 0.0
+        points = cell.worth * share
+        verdict = {0.0: Verdict.wrong, 1.0: Verdict.right}.get(round(share, 9), cell.verdict)
+    still = cell.first and verdict is Verdict.wrong
+    judged = replace(cell, verdict=verdict, points=points, first=still, corrected=reason)
+    return judged if still else replace(judged, mistake="", where="")

@@ -1,0 +1,117 @@
+"""What comes of a marked class: files for each student, for the instructor and for the learning platform."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import groupby
+from pathlib import Path
+
+from reportgen import api
+from reportgen.api import Engine
+from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.files import SETS, overwritten, put_files, reported, scratch
+from reportgen.base.kinds import title
+from reportgen.base.units import Language
+from reportgen.base.words import as_problem, counted, word
+from reportgen.classes.assess import Graded
+from reportgen.classes.gradebooks import Gradebook, StudentResult
+from reportgen.classes.platforms import zipped
+from reportgen.classes.roster import folder_name
+from reportgen.marking.class_page import class_document
+from reportgen.marking.comment import comment
+from reportgen.marking.feedback import feedback_book, feedback_document
+from reportgen.marking.grades import grade_rows, person
+from reportgen.marking.marks import Marking
+from reportgen.marking.policy import Policy
+from reportgen.marking.questions import question_rows
+from reportgen.marking.variant_marks import groups, variant_rows
+from reportgen.workbook import write_csv, write_xlsx
+
+
+def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
+    """Every file of a graded class with its content: three for each student, and those of the instructor.
+
+    What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
+    students.
+    """
+    returned: dict[str, bytes] = {}
+    for marking in graded.markings:
+        key = marking.key
+        # As the batch names it, or the assignment's own stem.
+        folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
+        files = dict(_feedback(marking, policy, engine))
+        yield from ((folder / name, content) for name, content in files.items())
+        if owner := graded.owners.get(key.id):
+            returned |= {f"{owner.prefix}{name}": files[name] for name in ("feedback.xlsx", "feedback.pdf")}
+    if returned:
+        yield Path("feedback.zip"), zipped(returned)
+    if graded.markings:
+        key = graded.markings[0].key
+        spoken = language or key.language
+        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.unmarked, policy))
+        yield Path("questions.csv"), write_csv(question_rows(graded.markings, spoken))
+        if compared := groups(graded.markings, policy, spoken):
+            yield Path("by-variant.csv"), write_csv(variant_rows(compared, spoken))
+        named = title(key.kind, spoken)
+        overview = class_document(graded.markings, named, spoken, graded.unmarked, policy)
+        yield Path("class.pdf"), api.typeset(overview, engine)[1]
+
+
+def _feedback(marking: Marking, policy: Policy, engine: Engine) -> Iterator[tuple[str, bytes]]:
+    """The files of one student: the own sheet, a page, and a text to paste."""
+    key = marking.key
+    yield "feedback.xlsx", write_xlsx(feedback_book(marking, policy.show_answers))
+    tree = feedback_document(marking, title(key.kind, key.language), policy)
+    yield "feedback.pdf", api.typeset(tree, engine)[1]
+    yield "feedback.txt", "".join(f"{line}\n" for line in comment(marking, policy)).encode()
+
+
+def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
+    """Write every file of a graded class below `out`, those of a folder together; raises `OutputError`."""
+    with reported(out), scratch(out):
+        made = files_of(graded, policy, engine, language)
+        for folder, files in groupby(made, key=lambda file: file[0].parent):
+            yield from put_files(out / folder, {path.name: content for path, content in files})
+
+
+def filled_gradebook(path: Path, out: Path) -> Path:
+    """Where a platform's table goes when it is filled in: the file that was downloaded stays as it is."""
+    taken = re.fullmatch(SETS["class"], path.name) or any(overwritten([out / path.name], [path]))
+    return out / (f"filled-{path.name}" if taken else path.name)
+
+
+def put_gradebook(
+    graded: Graded, gradebook: Gradebook, policy: Policy, out: Path, language: Language | None
+) -> tuple[Path, list[Problem]]:
+    """Write a platform's table with marks and comments below `out`, under its own name.
+
+    Whom it has no row for is told, and whether it has no column for comments.  Raises `OutputError`.
+    """
+    results = [
+        StudentResult(
+            graded.known[marking.key.id],
+            policy.mark(marking.share, marking.days_late) / policy.scale.highest,
+            tuple(comment(marking, policy)),
+        )
+        for marking in graded.markings
+    ]
+    content, faults = gradebook.filled(results)
+    (written,) = put_files(out, {filled_gradebook(gradebook.path, out).name: content})
+    problems = [as_problem(fault, language) for fault in faults]
+    if not gradebook.has_comments:
+        fault = Fault("gradebook-no-comments", Mark(str(gradebook.path)))
+        problems.append(as_problem(fault, language, "note"))
+    return written, problems
+
+
+def summary(graded: Graded, language: Language | None) -> Iterator[str]:
+    """A line for each student marked, and how many handed nothing in or nothing that can be marked."""
+    for marking in graded.markings:
+        points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
+        who, firsts = person(marking.key), len(marking.first_errors)
+        yield word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
+    if graded.missing:
+        yield counted("graded_missing", language, len(graded.missing))
+    if graded.refused:
+        yield counted("graded_refused", language, len(graded.refused))

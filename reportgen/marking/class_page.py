@@ -1,0 +1,280 @@
+"""The class on a page for the instructor: marks, who has none and why, how good the questions were, first errors."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from statistics import fmean, median
+from typing import Any
+
+from reportgen.base.template_folders import search_path
+from reportgen.base.units import Language, nice_up, write
+from reportgen.base.words import load_words
+from reportgen.drawing import Content
+from reportgen.drawing.counts import bars, histogram
+from reportgen.drawing.statistics import intervals, scatter
+from reportgen.formula.plain import formula
+from reportgen.marking.feedback import amended, points_text
+from reportgen.marking.grades import mistake_name, section_name, state, who
+from reportgen.marking.marks import Marking, Unmarked
+from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
+from reportgen.marking.policy import Policy
+from reportgen.marking.questions import Item, by_question, by_section
+from reportgen.marking.variant_marks import VariantGroup, groups
+from reportgen.report import TEXT_WIDTH, Block, Column, Document, Figure, InlineMath, Inlines, Table, Text
+from reportgen.report.key import capitalised
+
+CLASSES = 10
+"""Columns of the histogram."""
+MOST_BARS = 24
+"""Quantities with a bar of their own; there are fewer mistakes with names."""
+WIDTHS = (32.0, 50.0, 24.0, 14.0, 14.0, 12.0, 14.0)
+"""Widths (mm) of the columns of marks."""
+SYMBOL, PART, SHARE = 22.0, 40.0, 18.0
+"""Widths (mm) of the columns of questions; what they are has the rest."""
+VALUE = 34.0
+"""Width (mm) of the column of a datum's values."""
+TICKS = 5
+"""Steps of an axis of marks."""
+
+Words = Mapping[str, Any]
+
+
+def class_document(
+    markings: Sequence[Marking],
+    title: str,
+    language: Language,
+    unmarked: Sequence[Unmarked] = (),
+    policy: Policy | None = None,
+) -> Document:
+    """The page of a class; `title` names the assignment, `unmarked` are those who have no marks."""
+    words, rules = load_words(search_path(language)), policy or Policy()
+    page = words["class_page"]
+    blocks: list[Block] = [
+        heading(page["title"]),
+        *_summary(markings, page, language, unmarked),
+        _marks(markings, words, language, unmarked, rules),
+        *_unmarked(unmarked, words),
+        *_late(markings, words, language, rules),
+        *_amended(markings, words),
+    ]
+    if markings:
+        blocks += [_spread(markings, page), *_questions(markings, words, language)]
+        blocks += [*_variants(groups(markings, rules, language), words, language, rules)]
+        blocks += [*_errors(markings, words, language)]
+    return paper(language, words, f"{page['title']} – {title}", blocks)
+
+
+# --- who has which marks ----------------------------------------------------------------------------
+
+
+def _summary(
+    markings: Sequence[Marking], page: Words, language: Language, unmarked: Sequence[Unmarked]
+) -> Iterator[Block]:
+    if markings:
+        shares = [100 * marking.share for marking in markings]
+        text = page["summary"].format(
+            count=len(markings), mean=write(fmean(shares), 0, language), median=write(median(shares), 0, language)
+        )
+        yield paragraph(text)
+    counts = Counter("refused" if one.reasons else "missing" for one in unmarked)
+    yield from (paragraph(page[name].format(count=counts[name])) for name in ("missing", "refused") if counts[name])
+
+
+def _marks(
+    markings: Sequence[Marking], words: Words, language: Language, unmarked: Sequence[Unmarked], policy: Policy
+) -> Table:
+    """A row for each student, in the order given."""
+    names, page = words["grades"], words["class_page"]
+    heads = (*(names[name] for name in ("id", "name", "class", "points", "out_of")), page["share"], names["mark"])
+    rows = [
+        (
+            *who(marking.key),
+            points_text(marking.points, language),
+            points_text(marking.out_of, language),
+            write(100 * marking.share, 0, language),
+            points_text(policy.mark(marking.share, marking.days_late), language),
+        )
+        for marking in markings
+    ]
+    rows += [(*who(one.key), *(DASH,) * 4) for one in unmarked]
+    columns = tuple(Column(width, "left" if n < 2 else "center") for n, width in enumerate(WIDTHS))
+    return Table(columns, (cells(heads),), tuple(map(cells, rows)), (Text(page["list"]),))
+
+
+def _people(
+    title: str, heads: Sequence[str], rows: Sequence[tuple[str, str, str | Inlines]], words: Words
+) -> Iterator[Table]:
+    """A table of students with something to be told of each; none without students."""
+    if rows:
+        names = words["grades"]
+        columns = (*(Column(width, "left") for width in WIDTHS[:2]), Column(TEXT_WIDTH - sum(WIDTHS[:2]), "left"))
+        yield Table(columns, (cells((names["id"], names["name"], *heads)),), tuple(map(cells, rows)), (Text(title),))
+
+
+def _unmarked(unmarked: Sequence[Unmarked], words: Words) -> Iterator[Block]:
+    """Who has no marks, and why: nothing came, or what came could not be marked."""
+    rows = [(*who(one.key)[:2], state(one, words)) for one in sorted(unmarked, key=lambda one: not one.reasons)]
+    yield from _people(words["class_page"]["unmarked"], (words["grades"]["state"],), rows, words)
+
+
+def _late(markings: Sequence[Marking], words: Words, language: Language, policy: Policy) -> Iterator[Block]:
+    """Who handed in late, by how many days, and what that took."""
+    page = words["class_page"]
+    rows = [
+        (
+            *who(marking.key)[:2],
+            page["late_row"].format(
+                days=marking.days_late,
+                off=points_text(policy.deducted(marking.share, marking.days_late), language),
+                mark=points_text(policy.mark(marking.share, marking.days_late), language),
+            ),
+        )
+        for marking in markings
+        if marking.days_late
+    ]
+    yield from _people(page["late"], (words["grades"]["late"],), rows, words)
+
+
+def _amended(markings: Sequence[Marking], words: Words) -> Iterator[Block]:
+    """What the instructor judged otherwise."""
+    rows = [(*who(marking.key)[:2], amended(marking, one, words)) for marking in markings for one in marking.amendments]
+    yield from _people(words["class_page"]["amended"], (words["grades"]["corrections"],), rows, words)
+
+
+def _spread(markings: Sequence[Marking], page: Words) -> Figure:
+    """How many students reached which share of the points; the highest class holds 100 %."""
+    counts = Counter(min(int(CLASSES * marking.share), CLASSES - 1) for marking in markings)
+    edges = [100 * n / CLASSES for n in range(CLASSES + 1)]
+    scene = histogram([counts[n] for n in range(CLASSES)], edges, page["x_share"], page["students"])
+    return Figure((scene,), (Text(page["histogram"]),), here=True)
+
+
+# --- questions and variants -------------------------------------------------------------------------
+
+
+def _questions(markings: Sequence[Marking], words: Words, language: Language) -> Iterator[Block]:
+    """Facility and discrimination of each section and question, the hardest first.
+
+    Questions that all had right are only counted, and tell nothing apart.
+    """
+    page, names = words["class_page"], words["answer_sheet"]
+    yield heading(page["questions_title"], 2)
+    yield paragraph(page["questions_lead"])
+    statistics = (page["facility"], page["discrimination"])
+    columns = (Column(SHARE), Column(SHARE))
+    sections = sorted(by_section(markings, language), key=lambda item: item.facility)
+    rows = [(section_name(item.key, item.row, language), *_statistics(item, language)) for item in sections]
+    yield Table(
+        (Column(PART + 3 * SHARE, "left"), *columns),
+        (cells((words["feedback"]["part"], *statistics)),),
+        tuple(map(cells, rows)),
+        (Text(page["by_section"]),),
+    )
+    questions = sorted(by_question(markings), key=lambda item: item.facility)
+    hard = [item for item in questions if item.facility < 1 - 1e-9]
+    if hard:
+        what = TEXT_WIDTH - SYMBOL - PART - 2 * SHARE
+        heads = (words["table"]["symbol"], names["what"], words["feedback"]["part"], *statistics)
+        lines = (
+            cells(
+                (
+                    (InlineMath(item.row.symbol),),
+                    capitalised(item.row.what),
+                    section_name(item.key, item.row, language),
+                    *_statistics(item, language),
+                )
+            )
+            for item in hard
+        )
+        by_width = (Column(SYMBOL), Column(what, "left"), Column(PART, "left"), *columns)
+        yield Table(by_width, (cells(heads),), tuple(lines), (Text(page["by_question"]),))
+    if easy := len(questions) - len(hard):
+        yield paragraph(page["all_right"].format(count=easy))
+    correlated = [item for item in hard if not math.isnan(item.discrimination)]
+    if correlated:
+        scene = scatter(
+            [100 * item.facility for item in correlated],
+            [item.discrimination for item in correlated],
+            [20.0 * n for n in range(6)],
+            [0.5 * n for n in range(-2, 3)],
+            page["facility"],
+            page["discrimination"],
+        )
+        yield Figure((scene,), (Text(page["scatter"]),), here=True)
+
+
+def _statistics(item: Item, language: Language) -> tuple[str, str]:
+    """Facility in per cent and discrimination of an item."""
+    return write(100 * item.facility, 0, language), write(item.discrimination, 2, language)
+
+
+def _variants(compared: Sequence[VariantGroup], words: Words, language: Language, policy: Policy) -> Iterator[Block]:
+    """The marks by variant and by the data that were drawn, and whether any differ by more than chance."""
+    if not compared:
+        return
+    page = words["class_page"]
+    yield heading(page["variants_title"], 2)
+    yield paragraph(page["some_differ" if any(group.differs for group in compared) else "none_differs"])
+
+    def named(group: VariantGroup) -> str | Inlines:
+        return page["variant"] if group.symbol is None else (InlineMath(group.symbol),)
+
+    rows = [
+        (
+            named(group),
+            group.value,
+            str(group.count),
+            write(group.mean, 2, language),
+            write(group.spread, 2, language),
+            page["differs"] if group.differs else "",
+        )
+        for group in compared
+    ]
+    heads = (page["datum"], page["value"], page["students"], page["mean"], page["spread"], "")
+    rest = TEXT_WIDTH - SYMBOL - VALUE - 3 * SHARE
+    widths = (Column(SYMBOL), Column(VALUE), *(Column(SHARE),) * 3, Column(rest, "left"))
+    yield Table(widths, (cells(heads),), tuple(map(cells, rows)), (Text(page["by_variant"]),))
+    step = nice_up(policy.scale.highest / TICKS, (1, 2, 2.5, 5))
+    ticks = [step * n for n in range(math.ceil(policy.scale.highest / step) + 1)]
+    # A picture has room for so many lines, each the same quantity or the next group.
+    for start in range(0, len(compared), MOST_BARS):
+        shown = compared[start : start + MOST_BARS]
+        scene = intervals(
+            [f"{_plain_name(group, words, language)} {group.value}" for group in shown],
+            [group.mean for group in shown],
+            [group.spread for group in shown],
+            ticks,
+            page["mean_axis"],
+        )
+        yield Figure((scene,), (Text(page["variants_figure"]),), here=True)
+
+
+def _plain_name(group: VariantGroup, words: Words, language: Language) -> str:
+    return str(words["class_page"]["variant"]) if group.symbol is None else f"{formula(group.symbol, language)} ="
+
+
+# --- first errors -----------------------------------------------------------------------------------
+
+
+def _errors(markings: Sequence[Marking], words: Words, language: Language) -> Iterator[Block]:
+    """First errors by quantity, then by the mistakes that were recognised."""
+    page = words["class_page"]
+    yield heading(page["errors_title"], 2)
+    firsts = [(marking.key, cell) for marking in markings for cell in marking.first_errors]
+    if not firsts:
+        yield paragraph(page["nothing"])
+        return
+    symbols: dict[str, Content] = {cell.id: key.row(cell.id).symbol for key, cell in firsts}
+    quantities = Counter(cell.id for _, cell in firsts).most_common()
+    mistakes: list[tuple[Content, int]] = [
+        *Counter[Content](mistake_name(key, cell, language) for key, cell in firsts).most_common()
+    ]
+    by_quantity = [(symbols[id], count) for id, count in quantities]
+    for title, counted in ((page["quantities"], by_quantity), (page["mistakes"], mistakes)):
+        shown, others = counted[:MOST_BARS], counted[MOST_BARS:]
+        if others:
+            shown.append((page["others"].format(count=len(others)), sum(count for _, count in others)))
+        names, counts = zip(*shown, strict=True)
+        yield Figure((bars(names, counts, page["errors"]),), (Text(title),), here=True)

@@ -1,0 +1,59 @@
+"""What a student reads first, in a few lines of plain text: for a platform's field of comments, or to be pasted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from itertools import groupby
+from typing import Any
+
+from reportgen.marking.feedback import amended, lateness, mistake_inlines, points_text
+from reportgen.marking.key import symbol_text, words_of
+from reportgen.marking.marks import Marked, Marking, points_of
+from reportgen.marking.policy import Policy
+from reportgen.report import plain
+from reportgen.report.key import Key
+
+FIRSTS = 5
+"""First mistakes that are told; the page of feedback has them all."""
+
+
+def comment(marking: Marking, policy: Policy) -> Iterator[str]:
+    """The lines: mark, lateness, first mistakes by name, points by chapter, the instructor's word; no answers."""
+    key, words = marking.key, words_of(marking.key)
+    said, language = words["comment"], key.language
+    yield said["score"].format(
+        mark=points_text(policy.mark(marking.share, marking.days_late), language),
+        highest=points_text(policy.scale.highest, language),
+        points=points_text(marking.points, language),
+        out_of=points_text(marking.out_of, language),
+    )
+    yield from lateness(marking, policy, words)
+    yield from (words["warnings"][warning] for warning in marking.warnings)
+    firsts = [cell for cell in marking.first_errors if cell.given is not None]
+    yield said["firsts" if firsts else "no_firsts"]
+    yield from (
+        f"– {_named(cell, key)}: {plain(mistake_inlines(cell, key, words), language)}" for cell in firsts[:FIRSTS]
+    )
+    if len(firsts) > FIRSTS:
+        yield said["others"].format(count=len(firsts) - FIRSTS)
+    yield said["by_part"].format(parts="; ".join(_by_part(marking, words)))
+    yield from (plain(amended(marking, one, words), language) for one in marking.amendments)
+
+
+def _named(cell: Marked, key: Key) -> str:
+    """A quantity with its position and what it is: v_BA (3), velocity of B about A."""
+    row = key.row(cell.id)
+    where = f"{symbol_text(row, key)} ({key.label(cell.position, cell.id)})" if cell.position else symbol_text(row, key)
+    return ", ".join(filter(None, (where, row.what)))
+
+
+def _by_part(marking: Marking, words: Mapping[str, Any]) -> Iterator[str]:
+    """The points of each chapter that earns any, behind the title of its part."""
+    key = marking.key
+    for (owner, part), of_part in groupby(marking.cells, lambda cell: (key.owner(cell.id), key.row(cell.id).part)):
+        cells = list(of_part)
+        earned, worth = points_of(cells)
+        if worth:
+            names = words_of(key.part(cells[0].id))["parts"] if owner else words["parts"]
+            title = ": ".join(filter(None, (key.title_of(owner), str(names[part]))))
+            yield f"{title} {points_text(earned, key.language)}/{points_text(worth, key.language)}"

@@ -1,0 +1,121 @@
+"""How good the questions were: facility and discrimination of each cell, question and section over a class.
+
+The facility is the mean share of its points that the class earned; the discrimination is the correlation between a
+student's share of it and that of all the rest of the sheet (the corrected item-total correlation).
+Source: L. Crocker, J. Algina, Introduction to Classical and Modern Test Theory, 1986, ch. 14.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.base.template_folders import search_path
+from reportgen.base.units import Language
+from reportgen.base.words import load_words
+from reportgen.marking.grades import DECIMALS, Value, section_name
+from reportgen.marking.key import symbol_text
+from reportgen.marking.marks import Marked, Marking, Place, Verdict
+from reportgen.report.key import Key, KeyRow
+
+LEAST = 3
+"""Students from whom on a correlation tells anything."""
+
+
+@dataclass(frozen=True, slots=True)
+class Item:
+    """Cells of a class under one name: how many students were asked, the share of the points that they earned, the
+    correlation of that with the rest of the sheet (NaN where one of the two does not vary), the share left blank."""
+
+    key: Key
+    place: Place
+    count: int
+    facility: float
+    discrimination: float
+    blank: float
+
+    @property
+    def row(self) -> KeyRow:
+        """The quantity of its first cell."""
+        return self.key.row(self.place[0])
+
+
+def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
+    """An item for each name that the cells have, in the order of the sheets; what earns no points is left out."""
+    of_name: dict[object, list[tuple[Marking, list[Marked]]]] = {}
+    for marking in markings:
+        own: dict[object, list[Marked]] = {}
+        for cell in marking.cells:
+            if cell.worth:
+                own.setdefault(name(marking.key, cell), []).append(cell)
+        for called, cells in own.items():
+            of_name.setdefault(called, []).append((marking, cells))
+    return [_item(students) for students in of_name.values()]
+
+
+def _item(students: Sequence[tuple[Marking, Sequence[Marked]]]) -> Item:
+    marking, cells = students[0]
+    points = np.array([[sum(cell.points for cell in own), sum(cell.worth for cell in own)] for _, own in students])
+    rest = np.array([[marking.points, marking.out_of] for marking, _ in students]) - points
+    shares = points[:, 0] / points[:, 1]
+    blanks = [cell.verdict is Verdict.blank for _, own in students for cell in own]
+    return Item(
+        marking.key,
+        (cells[0].id, cells[0].position),
+        len(students),
+        float(shares.mean()),
+        _correlation(shares, np.divide(rest[:, 0], rest[:, 1], out=np.zeros(len(rest)), where=rest[:, 1] > 0)),
+        float(np.mean(blanks)),
+    )
+
+
+def _correlation(x: np.ndarray, y: np.ndarray) -> float:
+    """The correlation of two rows [N], NaN where one of them does not vary."""
+    # 1e-9: the dust of floats is no variation.
+    if len(x) < LEAST or np.ptp(x) < 1e-9 or np.ptp(y) < 1e-9:
+        return float("nan")
+    return float(np.corrcoef(x, y)[0, 1])
+
+
+def by_section(markings: Sequence[Marking], language: Language) -> list[Item]:
+    """An item for each section, of each part of a coursework."""
+    return judged(markings, lambda key, cell: section_name(key, key.row(cell.id), language))
+
+
+def by_question(markings: Sequence[Marking]) -> list[Item]:
+    """An item for each quantity over its positions."""
+    return judged(markings, lambda key, cell: cell.id)
+
+
+def by_cell(markings: Sequence[Marking]) -> list[Item]:
+    """An item for each cell."""
+    return judged(markings, lambda key, cell: (cell.id, cell.position))
+
+
+def question_rows(markings: Sequence[Marking], language: Language) -> tuple[tuple[Value, ...], ...]:
+    """Head and rows of `questions.csv`: sections, then questions, then cells."""
+    names = load_words(search_path(language))["question_columns"]
+    rows: list[tuple[Value, ...]] = [tuple(names.values())]
+    levels = (by_section(markings, language), by_question(markings), by_cell(markings))
+    for level, items in zip(("section", "question", "cell"), levels, strict=True):
+        for item in items:
+            named = () if level == "section" else (item.row.id, symbol_text(item.row, item.key), item.row.what)
+            label = item.key.label(item.place[1], item.place[0]) if level == "cell" and item.place[1] else None
+            rows.append(
+                (
+                    level,
+                    section_name(item.key, item.row, language),
+                    *(named or (None, None, None)),
+                    label,
+                    item.count,
+                    *(_number(value) for value in (item.facility, item.discrimination, item.blank)),
+                )
+            )
+    return tuple(rows)
+
+
+def _number(value: float) -> float | None:
+    """To the decimals of a share; empty where there is none."""
+    return None if np.isnan(value) else round(value, DECIMALS)

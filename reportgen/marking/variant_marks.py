@@ -1,0 +1,125 @@
+"""Which variants were harder than others: the marks of a class, by the values of the data that were drawn.
+
+Students of one variant, or of one value of a datum, are a group.  It differs from the others if so many students drawn
+from the class by lot would have a mean as far from that of the class so seldom that all comparisons of the class
+together err once in 20 (a permutation test, with Bonferroni's bound): marks follow no normal law.
+Source: R. A. Fisher, The Design of Experiments, 1935, § 21.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from statistics import fmean, stdev
+
+import numpy as np
+
+from reportgen.base.template_folders import search_path
+from reportgen.base.units import Language, write
+from reportgen.base.words import load_words
+from reportgen.formula import Symbol
+from reportgen.formula.plain import formula
+from reportgen.marking.grades import DECIMALS, Value
+from reportgen.marking.marks import Marking
+from reportgen.marking.policy import Policy
+from reportgen.report.key import Role
+
+LEAST = 2
+"""Students of a group at least: one alone has no spread."""
+MOST = 12
+"""Groups of a datum at most: more of them are too small to tell anything."""
+ERRING = 0.05
+"""How often chance alone may make some group of a class look different."""
+LOTS = 20_000
+"""Draws of a class by lot, the same each time: with 50 groups the least chance that counts is 1 in 1000, 20 draws."""
+
+
+@dataclass(frozen=True, slots=True)
+class VariantGroup:
+    """Students whose data agree in one thing: what (None: the variant), its value, how many, mean and spread of marks.
+
+    `chance` is that of a mean so far from the class's if the group is drawn by lot.
+    """
+
+    symbol: Symbol | None
+    value: str
+    count: int
+    mean: float
+    spread: float
+    chance: float = 1.0
+    differs: bool = False
+
+
+def groups(markings: Sequence[Marking], policy: Policy, language: Language) -> list[VariantGroup]:
+    """The groups of a class, by variant and by each datum that was drawn; late hand-ins do not count here."""
+    marks = {marking.key.id: policy.mark(marking.share) for marking in markings}
+    means = _means_by_lot(list(marks.values()))
+    compared: list[VariantGroup] = []
+    partitions: set[frozenset[frozenset[str]]] = set()
+    for symbol, members in _divisions(markings, language):
+        large = {value: ids for value, ids in members.items() if len(ids) >= LEAST}
+        partition = frozenset(map(frozenset, members.values()))
+        # Data that were drawn together divide a class alike, and only the first of them is shown.
+        if len(large) >= 2 and len(members) <= MOST and partition not in partitions:
+            partitions.add(partition)
+            for value, ids in large.items():
+                own = [marks[id] for id in ids]
+                compared.append(VariantGroup(symbol, value, len(own), fmean(own), stdev(own), _chance(own, means)))
+    return [replace(group, differs=group.chance * len(compared) < ERRING) for group in compared]
+
+
+def _divisions(
+    markings: Sequence[Marking], language: Language
+) -> Iterator[tuple[Symbol | None, Mapping[str, list[str]]]]:
+    """What divides the class: who has the same variant, then who has the same value of a datum."""
+    yield None, _sorted({marking.key.id: (0.0, marking.key.variant) for marking in markings if marking.key.variant})
+    first = markings[0].key
+    for row in (row for row in first.rows if row.role is Role.given and row.single):
+        of_student = {}
+        for marking in markings:
+            own = marking.key.find(row.id)
+            if own is not None and own.role is Role.given and own.single:
+                value = float(own.values[0])
+                shown = write(float(f"{value:.6g}"), None, language)
+                of_student[marking.key.id] = (value, f"{shown} {own.unit}".strip())
+        yield row.symbol, _sorted(of_student)
+
+
+def _sorted(of_student: Mapping[str, tuple[float, str]]) -> Mapping[str, list[str]]:
+    """The students of each value, the smallest value first."""
+    members: dict[str, list[str]] = {}
+    for id, (_, shown) in sorted(of_student.items(), key=lambda item: item[1]):
+        members.setdefault(shown, []).append(id)
+    return members
+
+
+def _means_by_lot(marks: Sequence[float]) -> np.ndarray:
+    """Means [LOTS, N] of the first 1 … N marks of a class that is put into an order by lot."""
+    lots = np.random.default_rng(0).permuted(np.tile(marks, (LOTS, 1)), axis=1)
+    return np.cumsum(lots, axis=1) / np.arange(1, len(marks) + 1)
+
+
+def _chance(own: Sequence[float], means: np.ndarray) -> float:
+    """How often a group of that size drawn by lot has a mean as far from that of the class."""
+    whole = means[0, -1]
+    # 1e-9: means of the same marks in another order differ by the dust of floats.
+    as_far = np.abs(means[:, len(own) - 1] - whole) >= abs(fmean(own) - whole) - 1e-9
+    return float((1 + np.count_nonzero(as_far)) / (1 + LOTS))
+
+
+def variant_rows(compared: Sequence[VariantGroup], language: Language) -> tuple[tuple[Value, ...], ...]:
+    """Head and rows of `by-variant.csv`."""
+    words = load_words(search_path(language))
+    names, page = words["variant_columns"], words["class_page"]
+    rows: list[tuple[Value, ...]] = [tuple(names.values())]
+    rows += [
+        (
+            page["variant"] if group.symbol is None else formula(group.symbol, language),
+            group.value,
+            group.count,
+            *(round(value, DECIMALS) for value in (group.mean, group.spread, group.chance)),
+            page["differs"] if group.differs else "",
+        )
+        for group in compared
+    ]
+    return tuple(rows)

@@ -1,0 +1,74 @@
+"""The page on which a kind is chosen, with its scheme, before there is a file to edit."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from reportgen import catalogue
+from reportgen.base.kinds import kinds, titles
+from reportgen.base.units import Language
+from reportgen.page import html
+from reportgen.page.elements import Painter, Pens
+from reportgen.page.html import Live
+from reportgen.page.live import LiveSession, empty_document
+from reportgen.report import Figure
+from reportgen.report.case import Case
+
+READY = 60.0
+"""The page waits so long (s) for the file that it has begun."""
+
+
+@dataclass
+class Chooser(LiveSession):
+    """Lets a page choose a kind; `begins` makes its file, `opened` opens the example whose scheme is shown."""
+
+    begins: Callable[[str], Path] = Path
+    example: Callable[[Path, Language], Case] | None = None
+    chosen: threading.Event = field(default_factory=threading.Event)
+    ready: threading.Event = field(default_factory=threading.Event)
+    path: Path = Path()
+
+    def page(self) -> str:
+        now = self.revision
+        words = now.words["edit"]
+        form = html.template("choose.html.j2").render(words=words, kinds=titles(now.language))
+        live = Live({**now.words["live"], **words}, 0, 0, ("choose.js",), ("live.css", "choose.css"), form)
+        return html.write(empty_document(now), now.words["page"], (), live)
+
+    @property
+    def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
+        return {f"scheme-{kind}.json": partial(self.scheme, kind) for kind in kinds()}
+
+    @property
+    def takes(self) -> Mapping[str, Callable[[Mapping[str, Any]], Mapping[str, Any] | bytes]]:
+        return {"begin.json": self.begin}
+
+    def scheme(self, kind: str) -> Mapping[str, Any]:
+        """The first figure of an example of a kind, as elements and the rules of their pens."""
+        files = catalogue.examples(kind).values()
+        if self.example is None or not files:
+            return {}
+        language = self.revision.language
+        file = min(files, key=lambda path: path.stat().st_size)
+        document = self.example(file, language).document()
+        figure = next((block for block in document.blocks if isinstance(block, Figure)), None)
+        if figure is None:
+            return {}
+        pens = Pens(f"{kind}-")
+        drawing = Painter(language, pens).scene(figure.scenes[0], titles(language)[kind])
+        return {"body": drawing, "rules": pens.rules()}
+
+    def begin(self, asked: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Begin the file of a kind; the answer comes when its form is there.  Raises `KeyError` for no kind."""
+        kind = str(asked["kind"])
+        if kind not in kinds():
+            raise KeyError(kind)
+        if not self.chosen.is_set():
+            self.path = self.begins(kind)
+            self.chosen.set()
+        return {"begun": self.ready.wait(READY)}

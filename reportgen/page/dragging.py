@@ -1,0 +1,133 @@
+"""Samples of a machine while one of its values is drawn: those of the same animation, without a new page.
+
+The animation keeps its structure, its knots, scales and boxes; what no sample depends on is that of the machine as it
+was.  Only samples go to the page, as numbers of four bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from reportgen.assignment import Assignment
+from reportgen.drawing.animation import MomentValue, MovingBody, MovingName, MovingVector, Pane, Still, Track
+from reportgen.page.panel import PanelWriter
+from reportgen.page.sampling import Samples
+from reportgen.report.case import Case, MachineAnalysis
+
+KEPT = "words", "written", "printed"
+"""What is worked out of a case once and is not needed of a value that is being drawn: its words, ledgers, symbols."""
+
+
+SAME = 1e-6
+"""Samples that differ by less than this share of the greatest are the same: four bytes have seven figures."""
+
+
+class Resident:
+    """The machine of a case, ready to be sampled with other values."""
+
+    def __init__(self, case: MachineAnalysis) -> None:
+        self.case = case
+        self.samples = Samples(case)
+        animation = self.samples.animation()
+        writer = PanelWriter(animation, case.assignment.language, case.words["page"])
+        writer.panel()
+        lengths = writer.tracks.lengths
+        self.values = writer.tracks.values
+        self.painter = writer.painter
+        self.drawn = self.bodies(animation.panes[0])
+        self.starts = np.concatenate(([0], np.cumsum(lengths))).astype(int)
+        self.numbers = [writer.tracks.number(track) for track in tracks(animation.panes, animation.values)]
+
+    @classmethod
+    def of(cls, case: Case) -> Resident | None:
+        """The machine of a case, that of a coursework among its parts; None for a case of another kind."""
+        machine = getattr(case, "machine", case)
+        return cls(machine) if isinstance(machine, MachineAnalysis) and machine.animations() else None
+
+    def bodies(self, pane: Pane) -> list[str]:
+        """What is drawn of each item of a pane about its own origin; "" of arrows and names."""
+        solid = (item.items if isinstance(item, MovingBody | Still) else () for item in pane.items)
+        return list(map(self.painter.items, solid))
+
+    def sampled(self, assignment: Assignment) -> bytes:
+        """What another assignment changes: bodies of other shape by their places, as JSON, and all samples.
+
+        The length of the JSON stands in front of it, in four bytes, blanks behind it up to the next four.  Nothing
+        comes where the animation would have other parts.  Raises what solving raises for a machine that cannot be.
+        """
+        case = type(self.case)(replace(assignment, parts=()))
+        case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
+        samples = Samples(case, self.samples.kept)
+        if not samples.analysis.motion.reachable.all():
+            return b""
+        values, written = self.values.copy(), set[int]()
+        panes = tuple(samples.panes())
+        moved = list(tracks(panes, tuple(samples.values())))
+        if len(moved) != len(self.numbers):
+            return b""
+        for number, track in zip(self.numbers, moved, strict=True):
+            if not self._put(values, written, number, track.values):
+                return b""
+        bodies = self.bodies(panes[0])
+        if list(map(bool, bodies)) != list(map(bool, self.drawn)):
+            return b""
+        before = dict(self._by_place(panes[0], self.drawn))
+        changed = {place: body for place, body in self._by_place(panes[0], bodies) if body != before[place]}
+        head = json.dumps(changed, ensure_ascii=False, separators=(",", ":")).encode()
+        head += b" " * (-len(head) % 4)
+        return len(head).to_bytes(4, "little") + head + values.tobytes()
+
+    def _by_place(self, pane: Pane, bodies: list[str]) -> Iterator[tuple[int, str]]:
+        """The bodies by the places of their elements: an item without anything to draw has none."""
+        place = 0
+        for item, body in zip(pane.items, bodies, strict=True):
+            if isinstance(item, MovingBody | Still):
+                if body:
+                    yield place, body
+                    place += 1
+            else:
+                place += 1
+
+    def _put(self, values: np.ndarray, written: set[int], number: int, track: np.ndarray) -> bool:
+        """Put the samples of a track in place; not where they have another length, or share their place and differ."""
+        parts = (track.real, track.imag) if np.iscomplexobj(track) else (track,)
+        for index, part in enumerate(parts):
+            place = slice(*self.starts[number + index : number + index + 2])
+            samples = np.asarray(part, dtype="<f4") + np.float32(0)
+            if values[place].size != samples.size:
+                return False
+            if number + index not in written:
+                values[place] = samples
+                written.add(number + index)
+            elif values[place].tobytes() != samples.tobytes() and not _alike(values[place], samples):
+                return False
+        return True
+
+
+def _alike(samples: np.ndarray, others: np.ndarray) -> bool:
+    """Whether samples are the same but for what four bytes hold of their greatest."""
+    greatest = float(np.nanmax(np.abs(samples), initial=0.0))
+    return bool(np.allclose(samples, others, rtol=0.0, atol=SAME * greatest, equal_nan=True))
+
+
+def tracks(panes: tuple[Pane, ...], values: tuple[MomentValue, ...]) -> Iterator[Track]:
+    """The tracks of an animation that follow its machine, in one order; its charts keep their curves."""
+    for pane in panes:
+        for item in pane.items:
+            match item:
+                case MovingBody(_, at, angle):
+                    yield at
+                    yield from () if angle is None else (angle,)
+                case MovingVector():
+                    yield from (item.start, item.end)
+                case MovingName(_, at, neighbours):
+                    yield from (at, *neighbours)
+        for spot in pane.spots:
+            yield from (spot.on_stage, spot.place, spot.velocity, spot.acceleration)
+        yield from () if pane.finer is None else (pane.finer,)
+    for value in values:
+        yield value.values

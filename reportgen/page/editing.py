@@ -1,0 +1,408 @@
+"""A file that is edited on its page: the form of the file as it stands, changes put into its text, undone and redone.
+
+The file is the truth.  A change goes by its place to the newest text, whoever wrote that; where that very value has
+become another one meanwhile, nothing is written and both are told.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.assignment import parts
+from reportgen.assignment.common import PARTS
+from reportgen.assignment.fields import UNIT_KEY
+from reportgen.assignment.schema import file_schema, places
+from reportgen.base.errors import Fault, Mark, Problem, ReportgenError, Where
+from reportgen.base.files import contents, renew_file
+from reportgen.base.kinds import kinds, titles
+from reportgen.base.source import (
+    LARGEST,
+    MappingNode,
+    Node,
+    Scalar,
+    SequenceNode,
+    Source,
+    decoded,
+    encoding_of,
+    read_own,
+    read_text,
+)
+from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
+from reportgen.base.source_text import at, put
+from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
+from reportgen.page import html
+from reportgen.page.dragging import Resident
+from reportgen.page.fields import Form, written_at
+from reportgen.page.html import Live
+from reportgen.page.live import LiveSession, empty_document
+from reportgen.page.making import Maker
+from reportgen.page.ownership import owners
+from reportgen.report.case import Case
+
+PART_KEYS = "kind", "parameters"
+"""What is begun of a part."""
+MOST_STEPS = 500
+"""So many changes can be undone."""
+HERE = Mark("")
+SCRIPTS, STYLES = ("live.js", "edit.js"), ("live.css", "edit.css")
+Asked = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Change:
+    """A file before and after a change."""
+
+    file: Path
+    before: bytes
+    after: bytes
+
+
+class RefusedChangeError(Exception):
+    """What is asked for cannot be done; the key of the words that say why, and what fills them."""
+
+    def __init__(self, key: str, **arguments: str) -> None:
+        super().__init__(key)
+        self.key, self.arguments = key, arguments
+
+
+@dataclass
+class EditSession(LiveSession):
+    """The live session of the file at `path`, with its form."""
+
+    path: Path = Path()
+    products: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    """The commands that make something of the file, by the names of their products."""
+    lock: threading.RLock = field(default_factory=threading.RLock)
+    done: list[Change] = field(default_factory=list)
+    undone: list[Change] = field(default_factory=list)
+    dragging: threading.Lock = field(default_factory=threading.Lock)
+    _resident: tuple[Case, Resident | None] | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        self.maker = Maker(self.products, lambda making: self._publish(making=making))
+
+    def close(self) -> None:
+        self.maker.close()
+        super().close()
+
+    # --- what is served
+
+    def made(self, name: str) -> bytes | None:
+        file = self.maker.files.get(name)
+        return file.read_bytes() if file is not None and file.is_file() else None
+
+    def make(self, asked: Asked) -> Mapping[str, Any]:
+        """Begin to make a product by its name, or end what is being made."""
+        if asked.get("end"):
+            self.maker.end()
+            return {}
+        return {"begun": self.maker.make(str(asked["product"]))}
+
+    def page(self) -> str:
+        now = self.revision
+        live = Live({**now.words["live"], **now.words["edit"]}, now.moving, now.reports, SCRIPTS, STYLES, self.form())
+        return html.write(now.document or empty_document(now), now.words["page"], now.panels, live, now.report)
+
+    @property
+    def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
+        return {**super().answers, "form.json": lambda: {"form": self.form()}, "owners.json": self.owners}
+
+    @property
+    def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
+        return {"edit.json": self.edit, "drag.json": self.drag, "make.json": self.make}
+
+    def form(self) -> str:
+        """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
+        with self.lock:
+            language, words = self._spoken()
+            text = self._text(self.path)
+            source = (
+                Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
+            )
+            problems = self._problems(source, language)
+        kind = at(source.top, ("kind",))
+        known = isinstance(kind, Scalar) and kind.text in kinds()
+        form = (
+            Form(catalogue.kind(kind.text), language, source.top)
+            if known and isinstance(kind, Scalar) and isinstance(source.top, MappingNode)
+            else None
+        )
+        return html.template("form.html.j2").render(
+            words=words["edit"],
+            form=form,
+            kind=kind.text if isinstance(kind, Scalar) else "",
+            title=titles(language).get(kind.text, "") if isinstance(kind, Scalar) else "",
+            file=self.path.name,
+            problems=problems,
+            faults=_by_place(problems, source),
+            can_undo=bool(self.done),
+            can_redo=bool(self.undone),
+            products=list(self.products),
+            part_kinds=part_kinds(),
+            kind_titles=titles(language),
+        )
+
+    def owners(self) -> Mapping[str, Any]:
+        """Which bars and points are each value's own, by the place of its field; where fixed points are drawn (mm)."""
+        with self.dragging:
+            resident = self._resident_machine()
+        with self.lock:
+            text = self._text(self.path)
+        top = None if isinstance(text, Fault) else read_own(text).top
+        if resident is None or not isinstance(top, MappingNode):
+            return {"fields": [], "ground": {}}
+        machine, scale = resident.samples.machine, resident.samples.scale
+        fields = owners(machine, top, Source(str(self.path), top=top))
+        ground = {name: [at.real * scale, -at.imag * scale] for name, at in machine.linkage.ground.items()}
+        return {
+            "fields": [{"where": list(where), "bars": own.bars, "points": own.points} for where, own in fields],
+            "ground": ground,
+        }
+
+    def _resident_machine(self) -> Resident | None:
+        """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
+        case = self.case
+        if case is not None and (self._resident is None or self._resident[0] is not case):
+            self._resident = case, Resident.of(case)
+        return self._resident[1] if self._resident else None
+
+    def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
+        return self.revision.language, self.revision.words
+
+    def _problems(self, source: Source, language: Language) -> list[Problem]:
+        """The faults of a text as it stands; of one without, its warnings."""
+        return catalogue.problems_of(source, self.path, language)
+
+    # --- what is asked
+
+    def edit(self, asked: Asked) -> Mapping[str, Any]:
+        """Make a change and answer with the form as it then is; what keeps it from being made is `refused`.
+
+        Raises `KeyError`, `TypeError` and `ValueError` for what no page of this program asks.
+        """
+        operation, where = str(asked["op"]), _place(asked.get("where", []))
+        said: dict[str, Any] = {}
+        with self.lock:
+            try:
+                if operation in ("undo", "redo"):
+                    self._step(operation)
+                else:
+                    self._change(operation, where, asked)
+            except RefusedChangeError as refusal:
+                words = self._spoken()[1]["edit"]["refused"]
+                said["refused"] = str(words[refusal.key]).format(**refusal.arguments)
+                if refusal.key == "meanwhile":
+                    said["meanwhile"] = refusal.arguments["there"]
+        self.touched.set()
+        return {"form": self.form(), **said}
+
+    def _change(self, operation: str, where: Where, asked: Asked) -> None:
+        if not where:
+            raise ValueError("the whole file is no value")
+        file, place = self._file_of(where)
+        before = self._bytes(file)
+        text = self._decoded(before, file)
+        if "was" in asked and operation in ("set", "instead"):
+            self._same(text, place, str(asked["was"]), str(asked["value"]))
+        if operation == "instead" and not asked.get("value"):
+            asked = {**asked, "value": _the_same(text, place, str(asked["key"]))}
+        try:
+            changed = _changed(text, operation, place, asked)
+        except EditError as error:
+            raise RefusedChangeError("cannot", reason=str(error)) from error
+        if changed != text:
+            mark, codec = encoding_of(before)
+            try:
+                after = mark + changed.encode(codec)
+            except UnicodeEncodeError as error:
+                raise RefusedChangeError("cannot", reason=str(error.reason)) from error
+            self._write(Change(file, before, after))
+            self.undone.clear()
+
+    def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
+        """Raise where another value stands at a place than the page shows, and than it asks for."""
+        there = written_at(at(read_text(text).top, place))
+        if there not in (was, wanted):
+            raise RefusedChangeError("meanwhile", there=there, here=wanted)
+
+    def _step(self, operation: str) -> None:
+        """Undo the last change, or redo it: the bytes of the file are those before it, or after it."""
+        steps = self.done if operation == "undo" else self.undone
+        if not steps:
+            return
+        change = steps[-1] if operation == "undo" else Change(steps[-1].file, steps[-1].after, steps[-1].before)
+        if self._bytes(change.file) != change.after:
+            steps.clear()
+            raise RefusedChangeError("changed")
+        self._put(change.file, change.before)
+        (self.undone if operation == "undo" else self.done).append(steps.pop())
+
+    def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
+        """The samples of what moves with another value at a place, as numbers of four bytes; nothing is written.
+
+        No bytes at all for a value with which there is no such machine; no answer of a kind that is none, which moves
+        when the value is let go.
+        """
+        where = _place(asked["where"])
+        with self.dragging:
+            resident = self._resident_machine()
+            if resident is None:
+                return {}
+            with self.lock:
+                text = self._text(self.path)
+            top = None if isinstance(text, Fault) else read_own(text).top
+            old = at(top, where)
+            if not isinstance(old, Scalar) or top is None:
+                return b""
+            changed = put(top, where, replace(old, text=str(asked["value"]), null=False))
+            assignment, faults = catalogue.understood(Source(str(self.path), top=changed), self.path)
+            if assignment is None or faults:
+                return b""
+            try:
+                return resident.sampled(assignment)
+            except (ReportgenError, ArithmeticError, ValueError, np.linalg.LinAlgError):
+                return b""
+
+    # --- the files
+
+    def _file_of(self, where: Where) -> tuple[Path, Where]:
+        """The file in which a place stands, and the place in it: that of a part, for one below a part's own file."""
+        source = read_text(self._decoded(self._bytes(self.path), self.path))
+        if where[:1] == (PARTS,) and len(where) > 2 and isinstance(where[1], int) and where[2] != "file":
+            named = at(source.top, (*where[:2], "file"))
+            if isinstance(named, Scalar) and not named.null and where[2] not in parts.ABOUT:
+                allowed = parts.files(source, self.path)
+                if self.path.parent / named.text in allowed:
+                    return self.path.parent / named.text, where[2:]
+                raise RefusedChangeError("cannot", reason=named.text)
+        return self.path, where
+
+    def _bytes(self, file: Path) -> bytes:
+        try:
+            data = contents(file, LARGEST + 1)
+        except OSError as error:
+            raise RefusedChangeError("unreadable", reason=error.strerror or str(error)) from error
+        if len(data) > LARGEST:
+            raise RefusedChangeError("too_large")
+        return data
+
+    def _text(self, file: Path) -> str | Fault:
+        try:
+            return decoded(self._bytes(file), str(file))
+        except RefusedChangeError as refusal:
+            return Fault("unreadable", Mark(str(file)), {"reason": refusal.arguments.get("reason", str(refusal))})
+
+    def _decoded(self, data: bytes, file: Path) -> str:
+        text = decoded(data, str(file))
+        if isinstance(text, Fault):
+            raise RefusedChangeError("cannot", reason=text.code)
+        return text
+
+    def _write(self, change: Change) -> None:
+        if len(change.after) > LARGEST:
+            raise RefusedChangeError("too_large")
+        self._put(change.file, change.after)
+        self.done.append(change)
+        del self.done[:-MOST_STEPS]
+
+    def _put(self, file: Path, content: bytes) -> None:
+        try:
+            renew_file(file, content)
+        except OSError as error:
+            raise RefusedChangeError("unwritten", reason=error.strerror or str(error)) from error
+
+
+# --- what is meant ------------------------------------------------------------------------------------
+
+
+def _place(steps: Any) -> Where:
+    if not isinstance(steps, list) or any(type(step) not in (str, int) for step in steps):
+        raise TypeError("a place is a list of keys and numbers")
+    return tuple(steps)
+
+
+def _changed(text: str, operation: str, where: Where, asked: Asked) -> str:
+    """The text with a change; raises `EditError`, `KeyError` and `ValueError`."""
+    match operation:
+        case "set":
+            return with_value(text, where, _value(text, where, str(asked["value"]), bool(asked.get("list"))))
+        case "remove":
+            return without(text, where)
+        case "instead":
+            return with_key(text, where, str(asked["key"]), Scalar(str(asked["value"]), HERE, null=not asked["value"]))
+        case "add":
+            listed = at(read_text(text).top, where)
+            count = len(listed.items) if isinstance(listed, SequenceNode) else 0
+            if listed is None or (isinstance(listed, Scalar) and listed.null):
+                return with_value(text, where, SequenceNode((_item(asked),), HERE))
+            return with_value(text, (*where, count), _item(asked))
+        case "move":
+            return exchanged(text, where, int(asked["first"]))
+    raise ValueError(operation)
+
+
+def _item(asked: Asked) -> Node:
+    """A new item of a list: a part with the data of its kind to begin with, else a table that is still empty."""
+    if "kind" not in asked:
+        return MappingNode((), HERE)
+    kind = str(asked["kind"])
+    if kind not in part_kinds():
+        raise ValueError(kind)
+    top = read_own(catalogue.sample(kind, "en")).top
+    assert isinstance(top, MappingNode), "a file to begin with is in order"
+    return replace(top, entries=tuple(entry for entry in top.entries if entry[0].text in PART_KEYS))
+
+
+@cache
+def part_kinds() -> tuple[str, ...]:
+    """The kinds that can be a part of a coursework."""
+    return tuple(kind for kind in kinds() if catalogue.kind(kind).part)
+
+
+def _the_same(text: str, place: Where, key: str) -> str:
+    """What stands at a place in the unit of another key beside it; "" where that is of another dimension."""
+    top = read_text(text).top
+    old, kind = at(top, place), at(top, ("kind",))
+    if not isinstance(old, Scalar) or not isinstance(kind, Scalar) or kind.text not in kinds():
+        return ""
+    schema = file_schema(catalogue.kind(kind.text))
+    units = [schema[UNIT_KEY] for schema in places(schema, schema, (*place[:-1], key)) if UNIT_KEY in schema]
+    return next(filter(None, (converted(old.text, unit) for unit in units)), "")
+
+
+def _value(text: str, where: Where, typed: str, as_items: bool) -> Node:
+    if as_items:
+        old = at(read_text(text).top, where)
+        if typed.strip() in ("all", "find") and not isinstance(old, SequenceNode | None):
+            return Scalar(typed.strip(), HERE)
+        return Scalar("all", HERE) if typed.strip() == "all" else as_list(typed)
+    return Scalar(typed, HERE, null=not typed)
+
+
+def converted(text: str, unit: str) -> str:
+    """A quantity in another unit of the same dimension, with three figures; "" for one of any other."""
+    try:
+        return f"{read_quantity(text, unit).si / read_unit(unit, unit):.3g} {unit}"
+    except QuantityFault:
+        return ""
+
+
+def _by_place(problems: list[Problem], source: Source) -> dict[Where, list[Problem]]:
+    """The faults by the places of the fields beside which they stand: of an item of a list of values, its list."""
+    places: dict[Where, list[Problem]] = {}
+    for problem in problems:
+        where = problem.where
+        while where and isinstance(where[-1], int) and not isinstance(at(source.top, where), MappingNode):
+            where = where[:-1]
+        if problem.mark.file == source.file:
+            places.setdefault(where, []).append(problem)
+    return places

@@ -1,0 +1,384 @@
+"""What a form asks for a file: its fields in order, by what the schema lets stand at each place and what stands there.
+
+No field is made by hand: unit, bounds, choices and defaults come from the readers of the keys, rules of several keys
+from the checks, names and remarks from the words.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from reportgen.assignment.common import PARTS, Kind
+from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY, UNIT_NAME_KEY
+from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema
+from reportgen.base.errors import Where
+from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
+from reportgen.base.kinds import kinds
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode
+from reportgen.base.source_text import flow, path_text
+from reportgen.base.units import Language
+
+SCALARS = {"string", "number", "integer", "boolean", "null"}
+NEVER = ("kind",)
+"""Keys that are not asked for: with another kind the file would be another one."""
+
+
+@dataclass(frozen=True)
+class FieldLine:
+    """What a form asks at one place: by one line (`text`, `quantity`, `number`, `choice`, `list`, `date`)."""
+
+    where: Where
+    words: FieldWords
+    look: str
+    text: str
+    there: bool
+    required: bool
+    choices: tuple[tuple[str, str], ...] = ()
+    unit: str = ""
+    low: float | None = None
+    high: float | None = None
+    default: str = ""
+    instead: tuple[tuple[str, str], ...] = ()
+    """Keys by which the same may be said, with what they are called."""
+    grid: bool = False
+
+    @property
+    def key(self) -> str:
+        return str(self.where[-1])
+
+    @property
+    def id(self) -> str:
+        return f"f:{path_text(self.where)}"
+
+
+@dataclass(frozen=True)
+class FieldGroup:
+    """Fields below one title: a section of the file, a group of keys, an item of a list, a part."""
+
+    where: Where
+    title: str
+    remark: str = ""
+    entries: tuple[FieldLine | FieldGroup, ...] = ()
+    there: bool = True
+    of_list: bool = False
+    can_grow: bool = False
+    required: bool = False
+    file: str = ""
+    """The file of its own that a part stands in."""
+
+    @property
+    def id(self) -> str:
+        return f"g:{path_text(self.where)}:{self.title}" if not self.of_list else f"g:{path_text(self.where)}"
+
+    @property
+    def present(self) -> tuple[FieldLine | FieldGroup, ...]:
+        """What is asked at once: what stands in the file, and what must."""
+        return tuple(inner for inner in self.entries if inner.there or _is_asked(inner))
+
+    @property
+    def absent(self) -> tuple[FieldLine | FieldGroup, ...]:
+        """What may be added."""
+        return tuple(inner for inner in self.entries if not (inner.there or _is_asked(inner)))
+
+
+def _is_asked(inner: FieldLine | FieldGroup) -> bool:
+    return isinstance(inner, FieldLine) and inner.required
+
+
+@dataclass(frozen=True)
+class Form:
+    """All that is asked for a file of one kind in a language."""
+
+    kind: Kind
+    language: Language
+    top: MappingNode
+    root: Schema = field(init=False)
+    words: Mapping[str, FieldWords] = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "root", file_schema(self.kind))
+        object.__setattr__(self, "words", field_words(self.kind.name, self.language))
+
+    @property
+    def groups(self) -> list[FieldGroup]:
+        """The sections of the file, the kind's own data first."""
+        sections = {key: about for key, about in self.root["properties"].items() if key not in NEVER}
+        order = sorted(sections, key=lambda key: (key not in ("parameters", "indicator"), key == PARTS))
+        single, groups = [], []
+        for key in order:
+            made = self._at((key,), key, sections[key], self._node(self.top, key), key in self.root["required"])
+            if isinstance(made, FieldGroup):
+                groups.append(made)
+            elif made is not None:
+                single.append(made)
+        heads = [group for group in groups if group.where[0] in ("parameters", "indicator")]
+        rest = [group for group in groups if group not in heads]
+        first = [FieldGroup((), self._words("kind").label, entries=tuple(single))] if single else []
+        return [*heads, *first, *rest]
+
+    # --- places
+
+    def _node(self, table: Node | None, key: str) -> Node | None:
+        entry = table.find(key) if isinstance(table, MappingNode) else None
+        return entry[1] if entry else None
+
+    def _words(self, path: str) -> FieldWords:
+        return self.words.get(path, FieldWords(path.rpartition(".")[2]))
+
+    def _at(
+        self, where: Where, path: str, about: Schema, node: Node | None, required: bool
+    ) -> FieldLine | FieldGroup | None:
+        """What is asked at a place, by the alternatives that its schema has and the node that stands there."""
+        allowed = list(alternatives(about, self.root))
+        tables = [schema for schema in allowed if "properties" in schema]
+        names = [inner for schema in allowed for inner in _by_name(schema)]
+        lists = [schema["items"] for schema in allowed if isinstance(schema.get("items"), dict)]
+        single = [schema for schema in allowed if _is_single(schema)]
+        if where == (PARTS,):
+            return self._parts(node)
+        if isinstance(node, MappingNode) and tables:
+            return replace(self._table(where, path, tables, node), required=required)
+        if isinstance(node, MappingNode) and names:
+            return replace(self._named(where, path, names, node), required=required)
+        if lists and not (single and not isinstance(node, SequenceNode)):
+            items = [schema for items in lists for schema in alternatives(items, self.root)]
+            if any("properties" in schema for schema in items):
+                return replace(self._items(where, path, lists, node), required=required)
+            return self._entry(where, path, "list", about, node, required)
+        if single:
+            return self._entry(where, path, "", about, node, required)
+        if tables:
+            return self._table(where, path, tables, node)
+        if names:
+            return self._named(where, path, names, node)
+        return None
+
+    def _table(self, where: Where, path: str, tables: Sequence[Schema], node: Node | None) -> FieldGroup:
+        """A table by the form that its own keys say it has; of one that is not there, what says its form."""
+        tag = _tag(tables)
+        chosen = node.find(tag) if isinstance(node, MappingNode) and tag else None
+        value = chosen[1].text if chosen and isinstance(chosen[1], Scalar) else ""
+        form = next((schema for schema in tables if schema["properties"].get(tag, {}).get("const") == value), tables[0])
+        properties, required = form["properties"], form.get("required", ())
+        if tag:
+            every = [choice for schema in tables for choice in choices_of(schema["properties"].get(tag, {}))]
+            properties = {**properties, tag: {"enum": every}}
+            if chosen is None:
+                properties = {tag: properties[tag]}
+        made = []
+        for key in sorted(properties, key=lambda key: self._order(f"{path}.{key}")):
+            entry = self._at(
+                (*where, key),
+                f"{path}.{key}",
+                properties[key],
+                self._node(node, key),
+                key in required and node is not None,
+            )
+            if entry is not None:
+                made.append(entry)
+        words = self._words(path)
+        there = isinstance(node, MappingNode)
+        inner = self._grouped(where, self._one_of(where, made))
+        return FieldGroup(where, words.label, words.remark, tuple(inner), there=there)
+
+    def _order(self, path: str) -> int:
+        known = list(self.words)
+        return known.index(path) if path in self.words else len(known)
+
+    def _one_of(self, where: Where, entries: Sequence[FieldLine | FieldGroup]) -> list[FieldLine | FieldGroup]:
+        """Keys of which one is given: only the one that is, with a switch to the others."""
+        by_key = {entry.where[-1]: entry for entry in entries}
+        kept: list[FieldLine | FieldGroup] = []
+        for entry in entries:
+            others = [by_key[key] for key in self._alternatives(where, entry) if key in by_key]
+            if not isinstance(entry, FieldLine) or not others:
+                kept.append(entry)
+                continue
+            standing = [alike for alike in (entry, *others) if alike.there]
+            if entry is (standing or [min((entry, *others), key=entries.index)])[0] or entry.there:
+                switch = tuple((alike.where[-1], _label(alike)) for alike in others if isinstance(alike, FieldLine))
+                kept.append(
+                    _with_switch(entry, tuple((str(key), label) for key, label in switch), self._must(where, entry))
+                )
+        return kept
+
+    def _alternatives(self, where: Where, entry: FieldLine | FieldGroup) -> list[str]:
+        path = tuple(str(step) for step in where if not isinstance(step, int))
+        return alternatives_to(self.kind, (*path, str(entry.where[-1])))
+
+    def _must(self, where: Where, entry: FieldLine) -> bool:
+        """Whether one of several keys that say the same has to stand there."""
+        checks = (check for check in self.kind.checks if getattr(check, "where", None) == where)
+        return any(entry.key in check.names and check.required for check in checks)  # type: ignore[attr-defined]
+
+    def _grouped(self, where: Where, entries: Sequence[FieldLine | FieldGroup]) -> Iterator[FieldLine | FieldGroup]:
+        """The entries of a table below the titles of their groups, where words give them any."""
+        present = {self._title(entry) for entry in entries}
+        titles = [title for title in ("", *group_titles(self.language)) if title in present]
+        if len(where) > 1 or len(titles) < 2:
+            yield from entries
+            return
+        for title in titles:
+            inner = tuple(entry for entry in entries if self._title(entry) == title)
+            there = any(entry.there or _is_asked(entry) for entry in inner)
+            if title:
+                yield FieldGroup(where, title, entries=inner, there=there)
+            else:
+                yield from inner
+
+    def _title(self, entry: FieldLine | FieldGroup) -> str:
+        path = ".".join(str(step) for step in entry.where if not isinstance(step, int))
+        return self._words(path).group
+
+    def _named(self, where: Where, path: str, names: Sequence[Schema], node: Node | None) -> FieldGroup:
+        """A table whose keys are names that the user gives."""
+        words = self._words(path)
+        made: list[FieldLine | FieldGroup] = []
+        for key, value in node.entries if isinstance(node, MappingNode) else ():
+            entry = self._at((*where, key.text), path, {"anyOf": list(names)}, value, True)
+            if isinstance(entry, FieldGroup):
+                made.append(FieldGroup(entry.where, key.text, entries=entry.entries, of_list=True))
+            elif isinstance(entry, FieldLine):
+                made.append(_called(entry, key.text))
+        return FieldGroup(where, words.label, words.remark, tuple(made), there=isinstance(node, MappingNode))
+
+    def _items(self, where: Where, path: str, lists: Sequence[Schema], node: Node | None) -> FieldGroup:
+        words = self._words(path)
+        made = []
+        for index, item in enumerate(node.items if isinstance(node, SequenceNode) else ()):
+            entry = self._at((*where, index), path, {"anyOf": list(lists)}, item, True)
+            if isinstance(entry, FieldGroup):
+                made.append(FieldGroup(entry.where, str(index + 1), entries=entry.entries, of_list=True))
+        return FieldGroup(
+            where, words.label, words.remark, tuple(made), there=isinstance(node, SequenceNode), can_grow=True
+        )
+
+    def _parts(self, node: Node | None) -> FieldGroup:
+        """The parts of a coursework: each in place as the form of its own kind, one in its own file by its name."""
+        from reportgen import catalogue
+
+        words, made = self._words(PARTS), []
+        for index, item in enumerate(node.items if isinstance(node, SequenceNode) else ()):
+            where: Where = (PARTS, index)
+            if not isinstance(item, MappingNode):
+                continue
+            file, kind = (self._node(item, key) for key in ("file", "kind"))
+            if isinstance(file, Scalar) and not file.null:
+                title = self._node(item, "title")
+                called = title.text if isinstance(title, Scalar) and not title.null else file.text
+                made.append(FieldGroup(where, called, file=file.text, of_list=True))
+            elif isinstance(kind, Scalar) and kind.text in kinds():
+                inner = Form(catalogue.kind(kind.text), self.language, item)
+                title = self._node(item, "title")
+                own = self._entry((*where, "title"), f"{PARTS}.title", "", {"type": "string"}, title, False)
+                data = [_below(group, where) for group in inner.groups if group.where[:1] == ("parameters",)]
+                made.append(FieldGroup(where, f"{index + 1}. {kind.text}", entries=(own, *data), of_list=True))
+        return FieldGroup((PARTS,), words.label, words.remark, tuple(made), there=bool(made), can_grow=True)
+
+    # --- one line
+
+    def _entry(self, where: Where, path: str, look: str, about: Schema, node: Node | None, required: bool) -> FieldLine:
+        allowed = list(alternatives(about, self.root))
+        facts = _facts(allowed)
+        choices = list(dict.fromkeys(choice for schema in allowed for choice in choices_of(schema)))
+        words = choice_words(self.language)
+        free = any(_is_single(schema) and not choices_of(schema) and schema.get("type") != "null" for schema in allowed)
+        if not look:
+            look = "quantity" if facts.get("unit") else "choice" if choices and not free else facts.get("look", "text")
+        default = about.get("default")
+        return FieldLine(
+            where=where,
+            words=self._words(path),
+            look=look,
+            text=written_at(node),
+            there=node is not None,
+            required=required,
+            choices=tuple((choice, words.get(choice, choice)) for choice in choices),
+            unit=facts.get("unit", ""),
+            low=facts.get("low"),
+            high=facts.get("high"),
+            default="" if default is None or isinstance(default, list | dict) else _spelled(default),
+            grid=look == "list",
+        )
+
+
+def _label(entry: FieldLine) -> str:
+    return entry.words.label
+
+
+def _with_switch(entry: FieldLine, instead: tuple[tuple[str, str], ...], required: bool) -> FieldLine:
+    return replace(entry, instead=instead, required=entry.required or required)
+
+
+def _called(entry: FieldLine, name: str) -> FieldLine:
+    return replace(entry, words=FieldWords(name))
+
+
+def _below(inner: Any, where: Where) -> Any:
+    """A group or an entry at a place below another one."""
+    if isinstance(inner, FieldGroup):
+        entries = tuple(_below(entry, where) for entry in inner.entries)
+        return replace(inner, where=(*where, *inner.where), entries=entries)
+    return replace(inner, where=(*where, *inner.where))
+
+
+def _is_single(schema: Schema) -> bool:
+    types = schema.get("type", "string" if "const" in schema or "enum" in schema else "")
+    return bool(set(types if isinstance(types, list) else [types]) & (SCALARS - {"null"}))
+
+
+def _by_name(schema: Schema) -> Iterator[Schema]:
+    if "properties" not in schema:
+        if isinstance(schema.get("additionalProperties"), dict):
+            yield schema["additionalProperties"]
+        yield from schema.get("patternProperties", {}).values()
+
+
+def _tag(tables: Sequence[Schema]) -> str:
+    """The key by whose value tables of several forms are told apart; "" where there is one form."""
+    if len(tables) < 2:
+        return ""
+    keys = [key for key, about in tables[0]["properties"].items() if "const" in about]
+    return keys[0] if keys else ""
+
+
+def _facts(allowed: Sequence[Schema]) -> dict[str, Any]:
+    """Unit, bounds and look of a line, of the alternatives at its place."""
+    for schema in allowed:
+        if UNIT_KEY in schema:
+            return {"unit": schema[UNIT_KEY], **_bounds(schema.get(RANGE_KEY, {}))}
+    for schema in allowed:
+        if schema.get("type") in ("number", "integer"):
+            return {"look": "number", **_bounds(schema)}
+        if schema.get("format") == "date":
+            return {"look": "date"}
+        if UNIT_NAME_KEY in schema:
+            return {"look": "text"}
+    return {}
+
+
+def _bounds(schema: Mapping[str, float]) -> dict[str, float | None]:
+    low, high = schema.get("minimum"), schema.get("maximum")
+    return {
+        "low": schema.get("exclusiveMinimum") if low is None else low,
+        "high": schema.get("exclusiveMaximum") if high is None else high,
+    }
+
+
+def written_at(node: Node | None) -> str:
+    """What stands at a place as it is typed there."""
+    match node:
+        case Scalar(text, null=null):
+            return "" if null else text
+        case SequenceNode():
+            return flow(node)[1:-1]
+        case MappingNode():
+            return flow(node)
+        case _:
+            return ""
+
+
+def _spelled(default: object) -> str:
+    return str(default).lower() if isinstance(default, bool) else str(default)

@@ -1,0 +1,77 @@
+"""What is made of a file on its page: one product after another, each by a process of its own that can be ended."""
+
+from __future__ import annotations
+
+import subprocess
+import threading
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+LAST_LINES = 12
+"""Of what a process complains so many lines are told."""
+PATIENCE = 5.0
+"""A process that was asked to end has so long (s) to tidy up."""
+
+
+@dataclass
+class Maker:
+    """Makes products by commands that print the paths of their files; `tell` hears of each step."""
+
+    commands: Mapping[str, Sequence[str]]
+    """The command of each product, by its name."""
+    tell: Callable[[Mapping[str, Any]], None]
+    files: dict[str, Path] = field(default_factory=dict)
+    """What has been made, by the names under which a page may ask for it."""
+    _process: subprocess.Popen[str] | None = None
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+    _ended: bool = False
+
+    def make(self, product: str) -> bool:
+        """Begin to make a product, unless one is being made; raises `KeyError` for what is none."""
+        command = self.commands[product]
+        with self._lock:
+            if self._process is not None or self._ended:
+                return False
+            self._process = subprocess.Popen(
+                command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
+            )
+        self.tell({"product": product, "state": "running"})
+        threading.Thread(target=self._wait, args=(product, self._process), daemon=True).start()
+        return True
+
+    def _wait(self, product: str, process: subprocess.Popen[str]) -> None:
+        printed, complaint = process.communicate()
+        with self._lock:
+            self._process = None
+        paths = [Path(line) for line in printed.splitlines() if Path(line).is_file()]
+        self.files |= {path.name: path.absolute() for path in paths}
+        state = "ended" if process.returncode < 0 or process.returncode > 128 else "failed"
+        self.tell(
+            {
+                "product": product,
+                "state": "done" if process.returncode == 0 else state,
+                "files": [[path.name, str(path)] for path in paths],
+                "complaint": "\n".join(complaint.splitlines()[-LAST_LINES:]) if process.returncode else "",
+            }
+        )
+
+    def end(self) -> None:
+        """End what is being made; it leaves nothing half-written."""
+        with self._lock:
+            process = self._process
+        if process is not None:
+            process.terminate()
+
+    def close(self) -> None:
+        """End what is being made, and wait for it."""
+        self._ended = True
+        with self._lock:
+            process = self._process
+        if process is not None:
+            process.terminate()
+            try:
+                process.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                process.kill()

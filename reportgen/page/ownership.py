@@ -1,0 +1,158 @@
+"""Which drawn parts a value of the file belongs to, found by moving it a little: no table by hand.
+
+What a machine is made of says itself what has changed: lengths of crank and rods, fixed points, guides, masses.
+A load is the value's own where the linkage has stayed the same.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.assignment import Assignment
+from reportgen.base.errors import Where
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source
+from reportgen.base.source_text import put
+from reportgen.base.units import NUMBER
+from reportgen.machine import Crank, Dyad, Guide, Linkage
+from reportgen.machine.analysis import Machine, analyse
+
+SHARE = 1.01
+"""A value is moved by this factor, one that is 0 by `STEP` in its own unit."""
+STEP = 0.5
+SAME = 1e-9
+"""What differs by a smaller share has not changed."""
+SAMPLES = 13
+MOST_VALUES = 120
+"""So many values of a file are looked at."""
+_NUMBER = re.compile(rf"\s*({NUMBER})(| .*|/.*)")
+
+Bar = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Owned:
+    """The bars, each by the points at its ends, and the points that are a value's own."""
+
+    bars: tuple[Bar, ...] = ()
+    points: tuple[str, ...] = ()
+
+    def __bool__(self) -> bool:
+        return bool(self.bars or self.points)
+
+
+def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, Owned]]:
+    """What each value of the machine's data owns, by its place; values that move nothing that is drawn have none."""
+    data = top.find("parameters")
+    leaves = _leaves(data[1], ("parameters",)) if data else iter(())
+    for (where, scalar), _ in zip(leaves, range(MOST_VALUES), strict=False):
+        if (text := moved(scalar.text)) is None:
+            continue
+        changed = replace(source, top=put(top, where, replace(scalar, text=text)))
+        assignment, faults = catalogue.understood(changed, Path(source.file))
+        if assignment is None or faults:
+            continue
+        if owned := difference(machine, _machine(assignment)):
+            yield where, owned
+
+
+def _machine(assignment: Assignment) -> Machine:
+    machine: Machine = catalogue.module(assignment.kind).machine(replace(assignment, parts=()))
+    return machine
+
+
+def _leaves(node: Node, where: Where) -> Iterator[tuple[Where, Scalar]]:
+    match node:
+        case Scalar(null=False):
+            yield where, node
+        case SequenceNode(items):
+            for index, item in enumerate(items):
+                yield from _leaves(item, (*where, index))
+        case MappingNode(entries):
+            for key, value in entries:
+                yield from _leaves(value, (*where, key.text))
+
+
+def moved(text: str) -> str | None:
+    """A value moved by a hundredth, in its own unit; None for what is no number."""
+    typed = _NUMBER.fullmatch(text)
+    if typed is None:
+        return None
+    number = float(typed[1])
+    return f"{number * SHARE if number else STEP:.9g}{typed[2]}"
+
+
+def difference(machine: Machine, changed: Machine) -> Owned:
+    """What two machines of one kind do not have in common, as bars and points."""
+    before, after = machine.linkage, changed.linkage
+    bars = [*_bars(before, after)]
+    points = [*_points(before, after)]
+    if not bars and not points:
+        if _differ(machine.speed, changed.speed) and isinstance(before.driver, Crank):
+            return Owned(bars=((before.driver.centre, before.driver.pin),))
+        points = [*_loaded(machine, changed)]
+    return Owned(tuple(dict.fromkeys(bars)), tuple(dict.fromkeys(points)))
+
+
+def _differ(value: complex, other_value: complex) -> bool:
+    return abs(value - other_value) > SAME * max(abs(value), abs(other_value))
+
+
+def _bars(before: Linkage, after: Linkage) -> Iterator[Bar]:
+    """Crank and rods of other lengths."""
+    crank = before.driver
+    if isinstance(crank, Crank) and isinstance(after.driver, Crank) and _differ(crank.length, after.driver.length):
+        yield crank.centre, crank.pin
+    for dyad, changed in zip(before.dyads, after.dyads, strict=False):
+        for end, length, new in zip((dyad.start, dyad.end), dyad.lengths, changed.lengths, strict=True):
+            if isinstance(end, str) and _differ(length, new):
+                yield end, dyad.middle
+
+
+def _points(before: Linkage, after: Linkage) -> Iterator[str]:
+    """Fixed points, points of links, pins of guides and mass centres that have changed."""
+    yield from (name for name, at in before.ground.items() if _differ(at, after.ground.get(name, at)))
+    for dyad, changed in zip(before.dyads, after.dyads, strict=False):
+        if _guides(dyad) != _guides(changed) or _differ(dyad.slide_angle, changed.slide_angle):
+            yield dyad.middle
+    for point, changed_point in zip(before.points, after.points, strict=False):
+        if _differ(point.local, changed_point.local):
+            yield point.name
+    bodies = {body.link: body for body in before.inertias}
+    for body in after.inertias:
+        old = bodies.get(body.link)
+        if old is None or _differ(old.mass, body.mass) or _differ(old.moment, body.moment):
+            yield body.centre
+
+
+def _guides(dyad: Dyad) -> tuple[Mapping[str, Any], ...]:
+    """Place and direction of the guides of a group, rounded so that what floats do to them does not count."""
+    return tuple(
+        {"at": complex(np.round(end.at, 12)), "angle": round(end.angle, 12)}
+        for end in (dyad.start, dyad.end)
+        if isinstance(end, Guide)
+    )
+
+
+def _loaded(machine: Machine, changed: Machine) -> Iterator[str]:
+    """A point of each link on which another load acts."""
+    angles = np.linspace(0.0, 2 * np.pi * machine.turns, SAMPLES)
+    before, after = (analyse(each, angles).applied for each in (machine, changed))
+    pins = _pins(machine.linkage)
+    for load, new in zip(before, after, strict=False):
+        for size, new_size in ((load.force, new.force), (load.couple, new.couple)):
+            greatest = float(np.nanmax(np.abs(size), initial=0.0))
+            if np.nanmax(np.abs(size - new_size), initial=0.0) > SAME * greatest and load.link in pins:
+                yield pins[load.link]
+
+
+def _pins(linkage: Linkage) -> dict[int, str]:
+    """A point of each link that moves, by its number: the inner joint of its group."""
+    pins = {link: dyad.middle for dyad in linkage.dyads for link in dyad.links}
+    return {1: linkage.driver.pin, **pins}

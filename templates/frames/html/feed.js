@@ -1,0 +1,22 @@
+  // Put into each panel where a form stands beside it: other samples of the same machine while a value is drawn, bodies
+  // in their new shape, and where a point is on the drawing.
+  const reshaped = new Map();
+  extended.set(root, {
+    feed: (samples, bodies) => {
+      if (samples.length !== values.length) return;
+      values = samples;
+      shown = {};
+      const items = drawing.parts[0].element.querySelector("svg").children;
+      const next = new Map(Object.entries(bodies).map(([place, body]) => [items[place], body]));
+      for (const [item, body] of reshaped) if (!next.has(item)) { item.innerHTML = body; reshaped.delete(item); }
+      for (const [item, body] of next) {
+        if (!reshaped.has(item)) reshaped.set(item, item.innerHTML);
+        item.innerHTML = body;
+      }
+      if (!state.playing) draw();
+    },
+    spotAt: (name) => {
+      const spot = animation.spots.find((one) => one.name === name);
+      return spot && [value(spot.at), -value(spot.at + 1)];
+    },
+  });

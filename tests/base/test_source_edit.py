@@ -1,0 +1,131 @@
+"""One thing in a YAML text changed: all other characters stay, and what comes out is read as it was meant."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from reportgen import catalogue
+from reportgen.base.errors import Mark, Where
+from reportgen.base.kinds import kinds
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, plain, read_text
+from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
+from reportgen.base.source_text import at
+from tests.lanes import matrix
+
+TEXT = """\
+# head
+kind: shaper
+report: {language: en, student: {name: , id: }}   # cover
+# drawing: {crank: 30 mm}     # on paper
+parameters:
+  a: 270 mm      # AC
+  H: 420 mm
+  # G3: 200 N    # rocker
+  cutting:
+    F: 1000 N
+
+parts:
+  - kind: cam
+    variant: 1
+  - {file: pair.yaml, title: "Gears: first"}
+"""
+
+
+def said(text: str, where: Where, value: str) -> str:
+    return with_value(text, where, Scalar(value, Mark("")))
+
+
+@pytest.mark.parametrize(
+    ("where", "value", "old", "new"),
+    [
+        (("parameters", "a"), "275 mm", "a: 270 mm", "a: 275 mm"),
+        (("report", "student", "name"), "Ngô An", "name: , id", "name: Ngô An, id"),
+        (("report", "student", "class"), "K57", "id: }}", "id: , class: K57}}"),
+        (("report", "course"), "a # b: c", "id: }}", 'id: }, course: "a # b: c"}'),
+        (("parameters", "G3"), "210 N", "# G3: 200 N", "G3: 210 N"),
+        (("drawing", "crank"), "40 mm", "# drawing: {crank: 30 mm}", "drawing: {crank: 40 mm}"),
+        (("parameters", "cutting", "free"), "0.05", "F: 1000 N\n", "F: 1000 N\n    free: 0.05\n"),
+        (("parameters", "flywheel", "delta"), "1/50", "F: 1000 N\n", "F: 1000 N\n  flywheel: {delta: 1/50}\n"),
+        (("parts", 1, "title"), "Bánh răng", '"Gears: first"', '"Bánh răng"'),
+        (("parts", 0, "variant"), "2\n3", "variant: 1", 'variant: "2\\n3"'),
+    ],
+)
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_a_value_is_put_in_its_place(where: Where, value: str, old: str, new: str, newline: str) -> None:
+    text, changed = (one.replace("\n", newline) for one in (TEXT, TEXT.replace(old, new)))
+    assert said(text, where, value) == changed
+
+
+@pytest.mark.parametrize(
+    ("where", "old", "new"),
+    [
+        (("parameters", "H"), "  H: 420 mm", "  # H: 420 mm"),
+        (("report", "language"), "{language: en, student", "{student"),
+        (("report", "student", "id"), "name: , id: }", "name: }"),
+        (("parameters", "cutting"), "  cutting:\n    F: 1000 N\n", ""),
+        (("parts", 0), "  - kind: cam\n    variant: 1\n", ""),
+        (("parts", 0, "kind"), "kind: cam\n    variant", "variant"),
+    ],
+)
+def test_a_key_or_an_item_is_taken_out(where: Where, old: str, new: str) -> None:
+    assert without(TEXT, where) == TEXT.replace(old, new, 1)
+
+
+def test_what_was_taken_out_comes_back_as_it_was() -> None:
+    assert said(without(TEXT, ("parameters", "H")), ("parameters", "H"), "420 mm") == TEXT
+
+
+def test_a_key_gives_way_to_another_that_says_the_same() -> None:
+    changed = with_key(TEXT, ("parameters", "a"), "b", Scalar("27 cm", Mark("")))
+    assert changed == TEXT.replace("a: 270 mm", "b: 27 cm")
+
+
+def test_items_change_places() -> None:
+    changed = plain(read_text(exchanged(TEXT, ("parts",), 0)).top)  # type: ignore[arg-type]
+    assert [part.get("kind") for part in changed["parts"]] == [None, "cam"]
+    assert exchanged(exchanged(TEXT, ("parts",), 0), ("parts",), 0) == TEXT
+
+
+def test_lists() -> None:
+    text = "a: [1, 2]\nb:\n  - 1\n"
+    assert with_value(text, ("a",), as_list("3, 4 mm")) == "a: [3, 4 mm]\nb:\n  - 1\n"
+    assert said(text, ("b", 1), "2") == "a: [1, 2]\nb:\n  - 1\n  - 2\n"
+    assert said(text, ("a", 2), "3") == "a: [1, 2, 3]\nb:\n  - 1\n"
+    with pytest.raises(EditError):
+        as_list("1], c: [2")
+
+
+@pytest.mark.parametrize("text", ["", "a: [1", "- 1", "a: 1\n b: 2"])
+def test_what_is_no_table_is_left(text: str) -> None:
+    with pytest.raises(EditError):
+        said(text, ("a",), "2")
+
+
+def places(node: Node, where: Where = ()) -> Iterator[tuple[Where, Scalar]]:
+    match node:
+        case Scalar():
+            yield where, node
+        case SequenceNode(items):
+            for index, item in enumerate(items):
+                yield from places(item, (*where, index))
+        case MappingNode(entries):
+            for key, value in entries:
+                yield from places(value, (*where, key.text))
+
+
+@pytest.mark.parametrize("kind", matrix(tuple(kinds()), ("shaper", "linkage")))
+def test_every_value_of_a_file_to_begin_with(kind: str) -> None:
+    """Each value of a sample can be another one and its own again, byte for byte; and no other is touched by it."""
+    text = catalogue.sample(kind, "vi")
+    top = read_text(text).top
+    assert top is not None
+    for where, scalar in list(places(top))[:: 1 if kind == "shaper" else 5]:
+        changed = said(text, where, "95 mm")
+        read = at(read_text(changed).top, where)
+        assert isinstance(read, Scalar)
+        assert (read.text, read.quoted) == ("95 mm", scalar.quoted)
+        if not scalar.null:
+            back = with_value(changed, where, scalar)
+            assert back == text

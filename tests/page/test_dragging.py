@@ -1,0 +1,93 @@
+"""What moves while a value is drawn: the samples of a whole animation of the changed machine at the same scales."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen import catalogue
+from reportgen.assignment import Assignment
+from reportgen.base.source import MappingNode, Scalar, Source, read_source
+from reportgen.base.source_text import at, put
+from reportgen.cases import open_case, opened
+from reportgen.page.dragging import Resident, tracks
+from reportgen.page.ownership import Owned, moved, owners
+from reportgen.page.panel import PanelWriter
+from reportgen.page.sampling import Samples
+from reportgen.report.case import MachineAnalysis
+from tests.lanes import matrix
+
+FOLDER = Path(__file__).parents[2] / "assignments"
+CHANGES = (
+    ("slider-crank-01", ("parameters", "r"), "101 %"),
+    ("engine-twin-05", ("parameters", "lambda"), "1/3.7"),
+    ("shaper-01", ("parameters", "a"), "275 mm"),
+    ("linkage-8", ("parameters", "masses", 0, "G"), "101 N"),
+)
+
+
+def changed(file: Path, where: tuple[str | int, ...], value: str) -> Assignment:
+    source = read_source(file)
+    old = at(source.top, where)
+    assert source.top is not None
+    assert isinstance(old, Scalar)
+    if value.endswith("%"):
+        number, _, unit = old.text.partition(" ")
+        value = f"{float(number) * float(value[:-1]) / 100:g} {unit}"
+    top = put(source.top, where, Scalar(value, old.mark))
+    assignment, faults = catalogue.understood(Source(str(file), top=top), file)
+    assert not faults
+    assert assignment is not None
+    return assignment
+
+
+def unpacked(answer: bytes) -> tuple[dict[str, str], np.ndarray]:
+    length = int.from_bytes(answer[:4], "little")
+    return json.loads(answer[4 : 4 + length]), np.frombuffer(answer[4 + length :], "<f4")
+
+
+@pytest.mark.parametrize(("name", "where", "value"), matrix(CHANGES, [CHANGES[0]]))
+def test_samples_are_those_of_a_whole_animation(name: str, where: tuple[str | int, ...], value: str) -> None:
+    """Track by track, to what numbers of four bytes hold; of the machine as it is, nothing changes."""
+    file = FOLDER / f"{name}.yaml"
+    case = open_case(file)
+    resident = Resident.of(case)
+    assert resident is not None
+    bodies, same = unpacked(resident.sampled(case.assignment))
+    assert bodies == {}
+    assert np.array_equal(same, resident.values, equal_nan=True)
+    assignment = changed(file, where, value)
+    bodies, samples = unpacked(resident.sampled(assignment))
+    other = opened(assignment)
+    assert isinstance(other, MachineAnalysis)
+    animation = Samples(other, resident.samples.kept).animation()
+    writer = PanelWriter(animation, "en", other.words["page"])
+    writer.panel()
+    starts = np.concatenate(([0], np.cumsum(writer.tracks.lengths)))
+    for number, track in zip(resident.numbers, tracks(animation.panes, animation.values), strict=True):
+        own = writer.tracks.number(track)
+        for part in range(1 + np.iscomplexobj(track.values)):
+            expected = writer.tracks.values[slice(*starts[own + part : own + part + 2])]
+            here = samples[slice(*resident.starts[number + part : number + part + 2])]
+            greatest = np.nanmax(np.abs(expected), initial=0.0)
+            np.testing.assert_allclose(here, expected, rtol=0, atol=1e-6 * max(greatest, 1e-30))
+    if where[-1] == "r":
+        assert bodies, "a longer crank is drawn longer"
+
+
+def test_each_value_leads_to_what_it_moves() -> None:
+    """The shaper's lengths and loads, by its drawing: A over C, rocker CD, link DE, ram E; the crank is a H/(2 l3)."""
+    file = FOLDER / "shaper-01.yaml"
+    source = read_source(file)
+    case = open_case(file)
+    assert isinstance(case, MachineAnalysis)
+    assert isinstance(source.top, MappingNode)
+    owned = {where[-1]: own for where, own in owners(case.analysis.machine, source.top, source)}
+    assert owned["l4"] == Owned(bars=(("D", "E"),))
+    assert owned["H"] == Owned(bars=(("A", "B"),))
+    assert "D" in owned["l3"].points
+    assert owned["b"] == owned["F"] == Owned(points=("E",))
+    assert [moved(text) for text in ("1/3.6", "0 mm", "50 mm", "left")] == ["1.01/3.6", "0.5 mm", "50.5 mm", None]

@@ -1,0 +1,127 @@
+"""`reportgen edit` in a browser: what is drawn follows a slider, what is typed goes to the file, a fault is told."""
+
+from __future__ import annotations
+
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from reportgen import catalogue
+from reportgen.base.source import read_text
+from reportgen.base.source_text import at
+from tests.lanes import proof
+from tests.page.browser import Browser, axe
+
+PATIENCE = 30.0
+TYPE = """
+const field = document.getElementById(arguments[0]);
+field.focus();
+field.value = arguments[1];
+field.dispatchEvent(new Event("change", { bubbles: true }));
+"""
+SLIDE = """
+const bar = document.getElementById(arguments[0]).closest(".field").querySelector("[type=range]");
+bar.value = arguments[1];
+bar.dispatchEvent(new Event("input", { bubbles: true }));
+"""
+PRESS = """
+const field = document.getElementById(arguments[0]);
+field.focus();
+for (const key of arguments[1]) field.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+"""
+PASTE = """
+const clipboardData = new DataTransfer();
+clipboardData.setData("text", arguments[1]);
+const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-column="1"]`);
+cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+"""
+PLACE = "return document.querySelector('[data-stage=machine] svg').innerHTML"
+
+
+def until(condition: Callable[[], object]) -> None:
+    end = time.monotonic() + PATIENCE
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
+@contextmanager
+def editing(*arguments: object) -> Iterator[str]:
+    """The command: the address that it prints, until Ctrl-C."""
+    command = [sys.executable, "-m", "reportgen.cli", "edit", *map(str, arguments), "--no-open"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    try:
+        yield process.stdout.readline().strip()
+    finally:
+        process.send_signal(signal.SIGINT)
+        assert process.wait(PATIENCE) == 0
+
+
+def written(file: Path, *where: str) -> str:
+    node = at(read_text(file.read_text(encoding="utf-8")).top, ("parameters", *where))
+    return getattr(node, "text", "")
+
+
+@proof
+def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path) -> None:
+    """From a kind to a machine with another crank: slider, typed values, a fault with its remedy, undo, an editor."""
+    file = tmp_path / "mine.yaml"
+    with editing("shaper", "-o", file, "--lang", "en", "--out", tmp_path / "out") as address:
+        begun = file.read_text(encoding="utf-8")
+        assert begun == catalogue.sample("shaper", "en")
+        browser.show(address, still=True)
+        here = browser.run(PLACE)
+        browser.run(SLIDE, "f:parameters.a", 300)
+        until(lambda: browser.run(PLACE) != here)
+        assert file.read_text(encoding="utf-8") == begun, "nothing is written while a value is drawn"
+        browser.run(TYPE, "f:parameters.a", "95")
+        until(lambda: written(file, "a") == "95")
+        until(lambda: browser.run("return document.querySelector('#problems li')?.textContent || ''"))
+        assert browser.run("return document.body.classList.contains('stale')")
+        browser.run("document.querySelector('[data-goto]').click()")
+        assert browser.run("return document.activeElement.id") == "f:parameters.a"
+        browser.run("document.querySelector('[data-remedy]').click()")
+        until(lambda: written(file, "a") == "95 mm")
+        browser.run("document.getElementById('undo').click()")
+        browser.run("document.getElementById('undo').click()")
+        until(lambda: file.read_text(encoding="utf-8") == begun)
+        browser.run("document.querySelector('[data-make=pdf]').click()")
+        until(lambda: browser.run("return document.querySelector('#making a')?.textContent || ''"))
+        assert (tmp_path / "out" / "mine" / "report.pdf").read_bytes().startswith(b"%PDF-")
+        # What an editor writes is in the form.
+        file.write_text(begun.replace("a: 270 mm", "a: 280 mm"), encoding="utf-8")
+        until(lambda: browser.run("return document.getElementById('f:parameters.a').value") == "280 mm")
+        assert not [message for message in browser.messages() if "favicon" not in message]
+
+
+@proof
+@pytest.mark.parametrize(
+    ("kind", "key", "language", "width", "dark"),
+    [("engine-twin", "H", "vi", 360, True), ("shaper", "a", "en", 1440, False)],
+)
+def test_the_form_can_be_used_by_all(
+    browser: Browser, tmp_path: Path, kind: str, key: str, language: str, width: int, dark: bool
+) -> None:
+    """axe finds nothing, nothing is scrolled sideways, a key alone changes a value, cells of a workbook are taken."""
+    file = tmp_path / "mine.yaml"
+    with editing(kind, "-o", file, "--lang", language) as address:
+        before = written(file, key)
+        browser.show(address, width=width, height=800, dark=dark, still=True)
+        assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
+        browser.run(PRESS, f"f:parameters.{key}", ["ArrowUp", "Enter"])
+        until(lambda: re.fullmatch(r"\d+ mm", written(file, key)) and written(file, key) != before)
+        if kind == "engine-twin":
+            text = file.read_text(encoding="utf-8")
+            browser.run(PASTE, 1, "-2,4\t24\n")
+            until(lambda: "[1.0, -2.4, -2.5" in file.read_text(encoding="utf-8"))
+            changed = file.read_text(encoding="utf-8").replace("1.0, -2.4, -2.5", "1.0, -2.5, -2.5")
+            assert changed.replace("[28,  24, ", "[28,  23.2, ") == text, "all else is as it was"
+        assert browser.violations(axe()) == []

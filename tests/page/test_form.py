@@ -1,0 +1,336 @@
+"""The form of a file: a field for every key, changes that leave the rest of the file, faults beside their fields."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import re
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+import pytest
+
+from reportgen import catalogue
+from reportgen.assignment.schema import alternatives, file_schema
+from reportgen.base.errors import Where
+from reportgen.base.kinds import kinds
+from reportgen.base.source import LARGEST, MappingNode, read_text
+from reportgen.base.units import Language
+from reportgen.cases import open_case
+from reportgen.page.choosing import Chooser
+from reportgen.page.editing import EditSession
+from reportgen.page.fields import FieldGroup, FieldLine, Form
+from reportgen.page.making import Maker
+from reportgen.page.serving import Server
+
+SHAPER = catalogue.sample("shaper", "en")
+
+
+def session(folder: Path, text: str | bytes = SHAPER, name: str = "shaper.yaml") -> EditSession:
+    file = folder / name
+    file.write_bytes(text.encode() if isinstance(text, str) else text)
+    return EditSession(partial(open_case, file), "en", path=file)
+
+
+def entries(groups: Any) -> Iterator[FieldLine]:
+    for group in groups:
+        yield from entries(group.entries) if isinstance(group, FieldGroup) else (group,)
+
+
+def put(edited: EditSession, where: Where, value: str, **more: Any) -> dict[str, Any]:
+    return dict(edited.edit({"op": "set", "where": list(where), "value": value, **more}))
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+@pytest.mark.parametrize("kind", kinds())
+def test_every_key_has_its_field(kind: str, language: Language) -> None:
+    """All keys of the sections, and all parameters, in one form, each with words that are not its key alone."""
+    known = catalogue.kind(kind)
+    top = read_text(catalogue.sample(kind, language)).top
+    assert isinstance(top, MappingNode)
+    groups = Form(known, language, top).groups
+    asked = {entry.where for entry in entries(groups)} | set(_tables(groups))
+    root = file_schema(known)
+    (parameters,) = alternatives(root["properties"]["parameters"], root)
+    alike = {entry.where[-1]: {key for key, _ in entry.instead} for entry in entries(groups)}
+    shown = {where[1] for where in asked if where[:1] == ("parameters",) and len(where) > 1}
+    assert parameters["properties"].keys() <= shown | {key for keys in alike.values() for key in keys}
+    assert root["properties"].keys() - {"kind"} <= {where[0] for where in asked if where}
+    texts = {where: text for where, text in _written(top) if where[0] != "kind"}
+    for entry in entries(groups):
+        if entry.where in texts:
+            assert entry.text == texts[entry.where]
+
+
+def _tables(groups: Any) -> Iterator[Where]:
+    for group in groups:
+        if isinstance(group, FieldGroup):
+            yield group.where
+            yield from _tables(group.entries)
+
+
+def _written(node: Any, where: Where = ()) -> Iterator[tuple[Where, str]]:
+    for key, value in node.entries:
+        if isinstance(value, MappingNode):
+            yield from _written(value, (*where, key.text))
+        elif hasattr(value, "text"):
+            yield (*where, key.text), "" if value.null else value.text
+
+
+def test_a_quantity_knows_unit_bounds_and_what_may_stand_instead() -> None:
+    top = read_text(SHAPER).top
+    assert isinstance(top, MappingNode)
+    fields = {entry.where: entry for entry in entries(Form(catalogue.kind("shaper"), "en", top).groups)}
+    l3, speed = fields["parameters", "l3"], fields["parameters", "n"]
+    assert (l3.look, l3.unit, l3.low, l3.high, l3.text) == ("quantity", "mm", 0.1, 1e5, "550 mm")
+    assert (speed.instead[0][0], speed.required) == ("omega1", True)
+    assert ("parameters", "omega1") not in fields
+    assert fields["parameters", "g"].default == "9.81 m/s2"
+    assert fields["positions", "direction"].choices[1][0] == "clockwise"
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16"])
+@pytest.mark.parametrize("newline", ["\n", "\r\n"])
+def test_a_change_leaves_the_rest_of_the_file(tmp_path: Path, encoding: str, newline: str) -> None:
+    before = SHAPER.replace("\n", newline).encode(encoding)
+    edited = session(tmp_path, before)
+    link = tmp_path / "link.yaml"
+    link.symlink_to(edited.path)
+    edited.path.chmod(0o640)
+    edited.path = link
+    assert "refused" not in put(edited, ("parameters", "a"), "275 mm", was="270 mm")
+    assert link.read_bytes() == SHAPER.replace("a: 270", "a: 275").replace("\n", newline).encode(encoding)
+    assert link.is_symlink()
+    assert link.stat().st_mode & 0o777 == 0o640
+    edited.edit({"op": "undo"})
+    assert link.read_bytes() == before
+    edited.edit({"op": "redo"})
+    assert b"275" in link.read_bytes().replace(b"\0", b"")
+
+
+def test_what_is_typed_is_saved_and_its_fault_stands_beside_it(tmp_path: Path) -> None:
+    edited = session(tmp_path)
+    form = put(edited, ("parameters", "a"), "95", was="270 mm")["form"]
+    assert "  a: 95   " in edited.path.read_text(encoding="utf-8")
+    field = form[form.index('id="f:parameters.a"') :]
+    assert 'aria-invalid="true"' in field[: field.index(">")]
+    assert 'data-remedy="95 mm"' in field[: field.index("parameters.b")]
+    assert 'data-goto="[&#34;parameters&#34;, &#34;a&#34;]"' in form
+    assert (
+        'aria-invalid="true"'
+        not in put(edited, ("parameters", "a"), "95 mm", was="95")["form"].partition("f:parameters.b")[0]
+    )
+
+
+@pytest.mark.parametrize("value", ["a # b", "a: b", "two\nlines", "0,35", "[1", "'", '"', "{{ 7*7 }}", "<script>"])
+def test_nothing_typed_becomes_anything_else(tmp_path: Path, value: str) -> None:
+    edited = session(tmp_path)
+    form = put(edited, ("report", "faculty"), value)["form"]
+    top = read_text(edited.path.read_text(encoding="utf-8")).top
+    assert isinstance(top, MappingNode)
+    assert dict(_written(top))["report", "faculty"] == value
+    assert "<script>" not in form
+
+
+def test_one_key_gives_way_to_another(tmp_path: Path) -> None:
+    """ω₁ in place of n is the same speed; a mass in place of a weight has to be typed."""
+    edited = session(tmp_path, SHAPER.replace("# G3: 200 N", "G3: 200 N"))
+    edited.edit({"op": "instead", "where": ["parameters", "n"], "key": "omega1", "value": ""})
+    assert "  omega1: 9.32 rad/s   " in edited.path.read_text(encoding="utf-8")
+    assert catalogue.check(edited.path) == []
+    edited.edit({"op": "instead", "where": ["parameters", "G3"], "key": "m3", "value": ""})
+    assert "  m3:   " in edited.path.read_text(encoding="utf-8")
+
+
+def test_parts_are_added_moved_and_removed(tmp_path: Path) -> None:
+    """Two cams and gears in place, with the data of a file to begin with; undone, the file is as it was."""
+    edited = session(tmp_path)
+    for kind in ("cam", "gear-pair"):
+        edited.edit({"op": "add", "where": ["parts"], "kind": kind})
+    assert [problem for problem in catalogue.check(edited.path) if problem.level == "error"] == []
+    form = put(edited, ("parts", 0, "parameters", "h"), "41 mm", was="40 mm")["form"]
+    assert 'id="f:parts.1.parameters.z1"' in form
+    edited.edit({"op": "move", "where": ["parts"], "first": 0})
+    edited.edit({"op": "remove", "where": ["parts", 0]})
+    assert [part.alone.kind for part in catalogue.load(edited.path).parts] == ["cam"]
+    with pytest.raises(ValueError, match="shaper"):
+        edited.edit({"op": "add", "where": ["parts"], "kind": "shaper"})
+    for _ in range(5):
+        edited.edit({"op": "undo"})
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
+
+
+def test_an_editor_meanwhile_is_not_written_over(tmp_path: Path) -> None:
+    edited = session(tmp_path)
+    edited.path.write_text(SHAPER.replace("a: 270 mm", "a: 260 mm").replace("b: 520", "b: 521"), encoding="utf-8")
+    answer = put(edited, ("parameters", "a"), "275 mm", was="270 mm")
+    assert answer["meanwhile"] == "260 mm"
+    assert "260 mm" in edited.path.read_text(encoding="utf-8")
+    # Another value goes to the newest text.
+    assert "refused" not in put(edited, ("parameters", "H"), "419 mm", was="420 mm")
+    assert "b: 521" in edited.path.read_text(encoding="utf-8")
+    edited.path.write_text(SHAPER, encoding="utf-8")
+    assert "refused" in edited.edit({"op": "undo"})
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
+
+
+@pytest.mark.parametrize("text", ["", "a: [1", "- 1\n", "kind: shaper\nparameters: &a {a: 1}\nreport: *a\n"])
+def test_a_text_that_no_form_can_hold_is_told_and_left(tmp_path: Path, text: str) -> None:
+    edited = session(tmp_path, text)
+    assert 'id="problems"' in edited.form()
+    put(edited, ("parameters", "a", "b", 3), "1 mm")
+    assert edited.path.read_text(encoding="utf-8") == text
+
+
+def test_files_that_cannot_be_written(tmp_path: Path) -> None:
+    edited = session(tmp_path)
+    edited.path.chmod(0o444)
+    assert "refused" in put(edited, ("parameters", "a"), "275 mm")
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
+    edited.path.chmod(0o644)
+    assert "refused" in put(edited, ("report", "faculty"), "x" * LARGEST)
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
+    edited.path.unlink()
+    assert "refused" in put(edited, ("parameters", "a"), "275 mm")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_file_of_a_part_is_changed_below_its_folder_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "work"
+    folder.mkdir()
+    for file in (folder / "cam.yaml", tmp_path / "cam.yaml"):
+        file.write_text(catalogue.sample("cam", "en"), encoding="utf-8")
+    whole = f"{SHAPER}\nparts:\n  - {{file: cam.yaml}}\n  - {{file: ../cam.yaml}}\n"
+    edited = session(folder, whole)
+    put(edited, ("parts", 0, "parameters", "h"), "41 mm")
+    assert "h: 41 mm" in (folder / "cam.yaml").read_text(encoding="utf-8")
+    assert "refused" in put(edited, ("parts", 1, "parameters", "h"), "41 mm")
+    assert "h: 40 mm" in (tmp_path / "cam.yaml").read_text(encoding="utf-8")
+    assert edited.path.read_text(encoding="utf-8") == whole
+
+
+# --- what is made -------------------------------------------------------------------------------------
+
+
+def maker(folder: Path, script: str) -> tuple[Maker, list[Any]]:
+    heard: list[Any] = []
+    command = (sys.executable, "-c", script, str(folder / "report.pdf"))
+    return Maker({"pdf": command}, heard.append), heard
+
+
+def made(maker: Maker, heard: list[Any]) -> Any:
+    assert maker.make("pdf")
+    assert not maker.make("pdf"), "one at a time"
+    end = time.monotonic() + 20
+    while len(heard) < 2 and time.monotonic() < end:
+        time.sleep(0.01)
+    assert heard[0] == {"product": "pdf", "state": "running"}
+    return heard[1]
+
+
+def test_what_is_made_is_told_with_its_files(tmp_path: Path) -> None:
+    script = "import sys; open(sys.argv[1], 'w').write('%PDF-'); print(sys.argv[1]); sys.stdout.flush()"
+    writer, heard = maker(tmp_path, script + "; import time; time.sleep(0.2)")
+    assert made(writer, heard)["files"] == [["report.pdf", str(tmp_path / "report.pdf")]]
+    assert writer.files == {"report.pdf": tmp_path / "report.pdf"}
+
+
+def test_what_cannot_be_made_is_told(tmp_path: Path) -> None:
+    said = made(*maker(tmp_path, "import sys; print('given.yaml:1:1: error', file=sys.stderr); sys.exit(1)"))
+    assert (said["state"], said["complaint"], said["files"]) == ("failed", "given.yaml:1:1: error", [])
+
+
+def test_what_is_being_made_can_be_cancelled(tmp_path: Path) -> None:
+    slow, heard = maker(tmp_path, "import time; time.sleep(60)")
+    threading.Timer(0.2, slow.end).start()
+    assert made(slow, heard)["state"] == "ended"
+    slow.close()
+    assert not slow.make("pdf")
+    with pytest.raises(KeyError):
+        slow.make("other")
+
+
+# --- what is chosen -----------------------------------------------------------------------------------
+
+
+def test_a_kind_is_chosen_and_its_file_begun(tmp_path: Path) -> None:
+    """The page names every kind; a kind that is chosen has its file, the second choice is no other one."""
+    begun: list[str] = []
+
+    def begins(kind: str) -> Path:
+        begun.append(kind)
+        return tmp_path / f"{kind}.yaml"
+
+    chooser = Chooser(lambda: open_case(tmp_path), "en", begins=begins)
+    assert set(re.findall(r'data-kind="([^"]*)"', chooser.page())) == set(kinds())
+    assert {f"scheme-{kind}.json" for kind in kinds()} == chooser.answers.keys()
+    chooser.ready.set()
+    with pytest.raises(KeyError):
+        chooser.begin({"kind": "../shaper"})
+    for _ in range(2):
+        assert chooser.begin({"kind": "shaper"}) == {"begun": True}
+    assert (begun, chooser.path) == (["shaper"], tmp_path / "shaper.yaml")
+
+
+def test_a_kind_shows_its_scheme(tmp_path: Path) -> None:
+    chooser = Chooser(lambda: open_case(tmp_path), "en", example=open_case)
+    scheme = chooser.scheme("four-bar")
+    assert scheme["body"].startswith("<svg")
+    assert ".four-bar-" in scheme["rules"]
+
+
+# --- what is served -----------------------------------------------------------------------------------
+
+
+@contextmanager
+def served(edited: EditSession) -> Iterator[Server]:
+    server = Server(edited)
+    thread = threading.Thread(target=server.serve_forever, args=(0.01,), daemon=True)
+    thread.start()
+    yield server
+    edited.close()
+    server.shutdown()
+    server.server_close()
+
+
+def test_only_its_own_page_may_change_the_file(tmp_path: Path) -> None:
+    edited = session(tmp_path)
+    with served(edited) as server:
+        address = urlsplit(server.address)
+        own = {"Origin": f"http://{address.netloc}", "Content-Type": "application/json"}
+        body = json.dumps({"op": "set", "where": ["parameters", "a"], "value": "1 mm", "file": "/etc/passwd"})
+
+        def status(path: str, headers: dict[str, str], content: str | None = body) -> int:
+            with closing(http.client.HTTPConnection(address.netloc, timeout=10)) as connection:
+                connection.request("POST", path, content, headers)
+                return connection.getresponse().status
+
+        path = f"{address.path}edit.json"
+        assert status(path, own | {"Origin": "http://elsewhere.example"}) == 403
+        assert status(path, {"Content-Type": "application/json"}) == 403
+        assert status(path, own | {"Host": "elsewhere.example"}) == 403
+        assert status("/wrong/edit.json", own) == 404
+        assert status(f"{address.path}other.json", own) == 404
+        assert status(path, own | {"Content-Type": "text/plain"}) == 415
+        assert status(path, own | {"Content-Length": str(LARGEST + 1)}, None) == 413
+        for nonsense in (
+            "[]",
+            "{",
+            '{"op": "set"}',
+            '{"op": "set", "where": [], "value": ""}',
+            '{"op": "remove", "where": []}',
+            '{"op": "write", "where": ["kind"]}',
+            '{"op": "set", "where": [[]], "value": 1}',
+        ):
+            assert status(path, own, nonsense) == 400
+        assert edited.path.read_text(encoding="utf-8") == SHAPER
+        assert status(path, own) == 200
+        assert "a: 1 mm" in edited.path.read_text(encoding="utf-8")
+        assert sorted(file.name for file in tmp_path.iterdir()) == ["shaper.yaml"]
