@@ -61,7 +61,9 @@ class SpringLaw(Law):
 
         def direction(motion: Motion) -> Complexes:
             along = self.along(motion)
-            return np.asarray(sense * along / np.abs(along))
+            # A spring whose ends meet pulls in no direction.
+            length = np.abs(along)
+            return np.asarray(sense * along / np.where(length > 0, length, 1.0))
 
         return direction
 

@@ -265,6 +265,36 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("gravity in a plane", {"AB: 120 mm": "…\n  plane: horizontal\n  g: 9.8 m/s2"}, "6:6 plane-with-gravity"),
         ("a weight without gravity", {"AB: 120 mm": "…\n  g: 0 m/s2\n  G2: 3 N"}, "6:3 weight-without-gravity", "m2"),
         ("a load on no link", {"AB: 120 mm": "…\n  loads: [{by: constant, link: 4, M: 2 N m}]"}, "5:32 no-such-link"),
+        (
+            "a spring without an end",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, c: 4 N/mm, free: 9 mm}]"},
+            "5:13 missing-key",
+        ),
+        (
+            "a spring to nowhere",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: X, c: 4 N/mm, free: 9 mm}]"},
+            "5:34 no-such-point",
+        ),
+        (
+            "a spring between points of one link",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: {link: 3, at: D}, c: 4 N/mm, free: 9 mm}]"},
+            "5:34 spring-on-one-link",
+        ),
+        (
+            "a spring about no pin",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, about: A, c: 4 N m/rad, free: 9 deg}]"},
+            "5:30 no-such-pin",
+        ),
+        (
+            "a torsion spring in newtons a millimetre",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, about: D, c: 4 N/mm, free: 9 deg}]"},
+            "5:36 wrong-unit",
+        ),
+        (
+            "an end that is none",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: [3 mm], c: 4 N/mm, free: 9 mm}]"},
+            "5:34 spring-end",
+        ),
         ("a face of no slider", {"AB: 120 mm": "…\n  faces: {3: {from: -1 mm, to: 2 mm}}"}, "5:11 no-slider"),
         (
             "a load at no point of its link",
