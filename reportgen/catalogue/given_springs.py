@@ -172,7 +172,7 @@ def loads(
             continue
         kinds = ("torsional stiffness", "angle") if spring.twists else ("stiffness", "length")
         datum(ids.spring_rate(number), spring.c, Symbol("c", str(number)), kinds[0])
-        slack = Symbol("φ" if spring.twists else "l", f"{number},0")
+        slack = Symbol("φ" if spring.twists else "l", f"0{number}")
         datum(ids.spring_free(number), spring.free, slack, kinds[1])
         own = _loads(number, spring, linkage, (*others, *made))
         made += own

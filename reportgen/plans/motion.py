@@ -27,6 +27,7 @@ from reportgen.formula import (
     ids,
     meet,
     quotient,
+    sign,
     sqrt,
     turned,
     unit,
@@ -328,7 +329,8 @@ def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
     drawn = q.define(ids.relative_segment("t", pin), across / q["mu.a"], segment("n", on_plan(pin, True)))
     along = unit(arm)
     corner = k.vertex("a", ids.relative_corner("n", pin), -(q[ids.relative_segment("n", pin)] * along))
-    k.vertex("a", image(pin), corner + sense * (drawn * turned(along)))
+    way = sign(q[ids.signed("eps", DRIVER)])
+    k.vertex("a", image(pin), corner + way * (drawn * turned(along)))
     k.segment(ids.segment("a", "p", image(pin)), POLES["a"], on_plan(pin, True), k.image("a", pin), "a")
     k.direction("a", pin)
 
