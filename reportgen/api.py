@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
-from reportgen.assignment import Assignment
+from reportgen.assignment import Assignment, parts
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs, placed
 from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
-from reportgen.base.files import reported, scratch, version
+from reportgen.base.files import contents, reported, scratch, version
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
@@ -302,7 +302,10 @@ def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
-    """The student's handout, and the answer sheet to fill in, of what is to be asked; no answer is in them."""
+    """The student's handout, the answer sheet of what is to be asked, and the assignment to check oneself by.
+
+    No answer is in them.  The files of a coursework's parts keep their names.
+    """
     from reportgen.marking.key import Ask, key_of
     from reportgen.marking.paper import task_of
     from reportgen.marking.sheet import answer_book
@@ -314,7 +317,9 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     letter = letter_of(case.assignment, engine)
     task = task_of(case, key, chosen.by_section)
     files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}
-    return {**files, "answers.xlsx": write_xlsx(answer_book(key, chosen.by_section))}
+    files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section))
+    own = {part.name: contents(part) for part in parts.files(read_source(path), path) if part.parent == path.parent}
+    return {**files, **own, "assignment.yaml": contents(path)}
 
 
 def key_files(

@@ -186,6 +186,7 @@ class MachineCase(MachineAnalysis):
         known = names(report) | {
             "answer_tables": asked.answers,
             "asks_scales": asked.scales,
+            "sheet_apart": asked.by_section,
             "asked": asked.positions,
             "known_tables": asked.known,
         }

@@ -138,7 +138,7 @@ def a_class(new: Newcomer) -> None:
     new.reportgen("variants", demo / "spec.yaml", "roster.csv", "-o", "class")
     new.made(*(f"class/{student}.yaml" for student in STUDENTS))
     new.reportgen("batch", "roster.csv", "--assignments", "class", "--out", "handed-out")
-    products = ("task.pdf", "answers.xlsx", "report.pdf", "key.pdf")
+    products = ("task.pdf", "answers.xlsx", "assignment.yaml", "report.pdf", "key.pdf")
     new.made(*(f"handed-out/{student}/{product}" for student in STUDENTS for product in products))
     new.reportgen("key", f"class/{STUDENTS[0]}.yaml")
     new.made(f"out/{STUDENTS[0]}/key.pdf", f"out/{STUDENTS[0]}/key.xlsx")

@@ -281,8 +281,8 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
 """What no figure may pass."""
 
 
-def main() -> int:
-    house, passed = House(ROOT), 0
+def main(root: Path = ROOT) -> int:
+    house, passed = House(root), 0
     for counting, limit in LIMITS.items():
         counted = counting(house)
         count, places = (counted, ()) if isinstance(counted, int) else (len(counted), counted)

@@ -83,7 +83,8 @@ class Desk:
         return self.language == OWN
 
     def formats(self, known: Sequence[str], enough: str) -> str:
-        return enough if self.brief else ",".join(known)
+        """Of the formats of a command those to be made: what no typesetter makes does not change with the engine."""
+        return enough if self.brief else ",".join(known) if self.engine == "typst" else "pdf"
 
     @property
     def out(self) -> Path:
@@ -248,9 +249,11 @@ def key(at: Desk) -> None:
 
 
 def task(at: Desk) -> None:
-    """Task and answer sheet as a batch makes them."""
-    files = api.task_files(at.file, at.engine, at.language or None)
-    assert {name: data[:2] for name, data in files.items()} == {"task.pdf": b"%P", "answers.xlsx": b"PK"}
+    """Task and answer sheet as a batch makes them, and the assignment beside them."""
+    files = dict(api.task_files(at.file, at.engine, at.language or None))
+    assert files.pop("assignment.yaml") == at.file.read_bytes()
+    starts = {name: data[:2] for name, data in files.items() if not name.endswith(".yaml")}
+    assert starts == {"task.pdf": b"%P", "answers.xlsx": b"PK"}
 
 
 def compare(at: Desk) -> None:

@@ -23,10 +23,11 @@ from reportgen.base.template_folders import search_path
 from reportgen.cli import app
 from reportgen.report.prose import Prose
 from reportgen.writers import pdflatex
+from tests import house
 from tests.lanes import matrix, proof
 
 ROOT = Path(__file__).parent.parent
-PAGES = ("README.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
+PAGES = ("README.md", "README.vi.md", *sorted(f"docs/{page.name}" for page in (ROOT / "docs").glob("*.md")))
 """For users: each is read, and its commands are run, by itself."""
 
 TELLING = ("README.md",)
@@ -165,6 +166,20 @@ def follow(document: str, place: Path) -> list[str]:
     ]
 
 
+def lint(place: Path, *files: str) -> str:
+    """What the style and the types of `make lint` have against new or changed files, "" for nothing."""
+    if (known := ROOT / ".mypy_cache").is_dir():
+        # Where types were checked before, only these files are new.
+        shutil.copytree(known, place / known.name, dirs_exist_ok=True)
+    code = [file for file in files if file.startswith("reportgen/")]
+    checks = (("ruff", "format", "--check", *files), ("ruff", "check", *files), ("mypy", *code))
+    done = [
+        subprocess.run([sys.executable, "-m", *check], cwd=place, capture_output=True, text=True, check=False)
+        for check in checks
+    ]
+    return "".join(one.stdout + one.stderr for one in done if one.returncode)
+
+
 # --- what is shown is so --------------------------------------------------------------------------
 
 
@@ -191,6 +206,61 @@ def test_a_machine_added_as_described_has_its_report(tmp_path: Path) -> None:
         check=False,
     )
     assert done.returncode == 0
+    assert lint(place, "reportgen/catalogue/plunger_pump.py", "tests/textbook/test_plunger_pump.py") == ""
+    shutil.copy(ROOT / "ARCHITECTURE.md", place)
+    assert house.main(place) == 0
+
+
+MISTAKEN = """
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
+from reportgen.marking.marking import mark
+from reportgen.marking.mistakes import mistakes_in
+from tests.marking import students
+
+scheme = students.scheme("slider-crank-01")
+made = [one for id in scheme.ledger.families for one in mistakes_in(scheme, id, {}) if one.name == "cosine-for-sine"]
+for mistake in made:
+    world = students.worked_out(scheme, mistake)
+    if students.effect(scheme, world) is not None:
+        named = {cell.mistake for cell in mark(scheme, students.written(scheme, world)).first_errors}
+        print(mistake.where, *named)
+for language in ("en", "vi"):
+    words = load_words(search_path(language))
+    print(words["mistakes"]["cosine-for-sine"], words["mistake_names"]["cosine-for-sine"], sep=": ")
+"""
+"""Students of the tests take the cosine for the sine wherever it shows: what marking calls that."""
+
+
+@proof
+def test_a_mistake_added_as_described_is_named(tmp_path: Path) -> None:
+    place = copy_of_repository(tmp_path)
+    shown = section(text_of("docs/extending.md"), "## A mistake")
+    code, *words = [body for name, body in _FENCE.findall(shown) if name in ("python", "yaml")]
+    changed = place / "reportgen/marking/mistakes.py"
+    head, end, rest = changed.read_text(encoding="utf-8").partition("\n\n\ndef _with_a_wrong_input(")
+    changed.write_text(f"{head}\n{code.rstrip()}{end}{rest}", encoding="utf-8")
+    for language, lines in zip(("en", "vi"), words, strict=True):
+        file = place / "templates" / language / "words.yaml"
+        text = file.read_text(encoding="utf-8")
+        for table, line in re.findall(r"^(\w+:\n)(  .+\n)", lines, re.MULTILINE):
+            assert text.count(f"\n{table}") == 1
+            text = text.replace(f"\n{table}", f"\n{table}{line}")
+        file.write_text(text, encoding="utf-8")
+    assert lint(place, str(changed.relative_to(place))) == ""
+    done = subprocess.run(
+        [sys.executable, "-c", MISTAKEN],
+        cwd=place,
+        env={**os.environ, "PYTHONPATH": f"{place}{os.pathsep}{ROOT}"},
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=True,
+    )
+    *named, english, vietnamese = done.stdout.splitlines()
+    assert named
+    assert all("cosine-for-sine" in line.split() for line in named), named
+    assert (english.split(": ")[1], vietnamese.split(": ")[1]) == ("cosine for sine", "cos thay sin")
 
 
 @pytest.mark.parametrize(

@@ -18,6 +18,7 @@ from pydantic_core import PydanticCustomError, core_schema
 
 from reportgen.base.files import school_strays
 from reportgen.base.moments import moment
+from reportgen.base.slips import in_quotes
 from reportgen.base.source import STRANGE, Quoted
 from reportgen.base.template_folders import school_folder, schools, templates
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
@@ -213,10 +214,12 @@ class Flag(Reader):
 
 @dataclass(frozen=True, slots=True)
 class TypedText(Reader):
-    """One line of text, kept exactly as typed."""
+    """One line of text, kept as typed but for typographic quotation marks around all of it."""
 
     def read(self, value: object) -> str:
         text = _text(value, "text")
+        if not isinstance(value, Quoted):
+            text = in_quotes(text) or text
         if len(text) > LONGEST_TEXT:
             raise fault("text-too-long", largest=str(LONGEST_TEXT))
         if STRANGE.search(text):

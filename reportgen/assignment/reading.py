@@ -19,6 +19,7 @@ from reportgen.assignment.fields import RESERVED
 from reportgen.assignment.schema import keys_at
 from reportgen.base.errors import Fault, Finding, Mark, Where
 from reportgen.base.files import contents, leads_out
+from reportgen.base.slips import meant, slip
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
 from reportgen.base.source_text import at
 from reportgen.base.template_folders import school_files
@@ -27,6 +28,10 @@ from reportgen.base.words import as_error, close_or_known, language_of
 
 Model = TypeVar("Model", bound=BaseModel)
 _WHOLE = "file"
+MISTYPED = frozenset(
+    {"unknown-key", "unknown-kind", "wrong-type", "choice", "not-a-number", "unknown-unit", "date", "moment"}
+)
+"""Faults that a slip of typing may be behind."""
 _CONTROLS = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 
 
@@ -53,7 +58,7 @@ def assess(
             findings += [finding for finding in check_one(draft) if finding.where not in places]
     # What the source already refuses is not judged a second time.
     refused = {fault.mark.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
-    placed = [_placed(finding, top) for finding in findings]
+    placed = [_placed(finding, top) for finding in _without_renamed(findings)]
     faults += [fault for fault in placed if fault.mark.line not in refused]
     if faults or kind is None:
         return None, faults
@@ -166,7 +171,8 @@ def _top(source: Source) -> tuple[MappingNode | None, list[Fault]]:
     if isinstance(source.top, MappingNode):
         return source.top, faults
     if source.top is not None and not faults:
-        faults.append(Fault("wrong-type", source.top.mark, {"expected": "mapping"}))
+        wrong = Fault("wrong-type", source.top.mark, {"expected": "mapping"})
+        faults.append((isinstance(source.top, Scalar) and slip(source.top.text, source.top.mark)) or wrong)
     return None, faults
 
 
@@ -249,7 +255,22 @@ def _finding(key: str, detail: ErrorDetails, content: Any, schema: dict[str, Any
 
 def _unknown(where: Where, known: Sequence[str]) -> Finding:
     key = str(where[-1])
-    return Finding("unknown-key", where, {"key": key, **close_or_known(key, known)}, at="key")
+    return Finding("unknown-key", where, {"key": key, **close_or_known(meant(key), known)}, at="key")
+
+
+def _without_renamed(findings: Sequence[Finding]) -> list[Finding]:
+    """The findings without those of keys that are missing only because they stand there misspelt."""
+    misspelt = {
+        (finding.where[:-1], finding.arguments["close"])
+        for finding in findings
+        if finding.code == "unknown-key" and "close" in finding.arguments
+    }
+    return [
+        finding
+        for finding in findings
+        if finding.code != "missing-key"
+        or not any((finding.where[:-1], key) in misspelt for key in finding.arguments["key"].split(" | "))
+    ]
 
 
 def _real(location: Where, content: Any) -> Iterator[str | int]:
@@ -284,5 +305,11 @@ def _placed(finding: Finding, top: MappingNode) -> Fault:
             continue
         return Fault(finding.code, key_mark, finding.arguments, finding.where)
     unwritten = isinstance(node, Scalar) and node.null
-    mark: Mark = key_mark if finding.at == "key" or unwritten else node.mark
+    at_key = finding.at == "key"
+    mark: Mark = key_mark if at_key or unwritten else node.mark
+    text = str(finding.where[-1]) if at_key else node.text if isinstance(node, Scalar) and not node.quoted else ""
+    # What is said of a value in order, as that it is out of range, stays.
+    mistyped = slip(text, mark) if finding.code in MISTYPED else None
+    if mistyped is not None:
+        return replace(mistyped, where=finding.where)
     return Fault(finding.code, mark, finding.arguments, finding.where)

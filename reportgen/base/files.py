@@ -20,7 +20,7 @@ from pathlib import Path
 from reportgen.base.errors import Fault, Mark, OutputError
 
 SETS = {
-    "task": r"task\.pdf|answers\.xlsx",
+    "task": r"task\.pdf|answers\.xlsx|assignment\.yaml",
     "report": r"report\.(pdf|html|docx|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
     "sheet": r"sheet-\d+\.(pdf|dxf)",

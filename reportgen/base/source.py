@@ -12,7 +12,7 @@ import codecs
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import islice
 from operator import attrgetter
 from pathlib import Path
@@ -22,6 +22,7 @@ import yaml
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
+from reportgen.base.slips import misplaced, slips_above
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
 """What the first bytes of a text say of the others."""
@@ -178,7 +179,10 @@ def read_text(text: str, file: str = "") -> Source:
     except _StoppedError:
         return Source(file, text, faults=tuple(loader.faults))
     except yaml.MarkedYAMLError as fault:
-        return Source(file, text, faults=(*loader.faults, _syntax(fault, file)))
+        told, lines = _syntax(fault, file), _lines(text)
+        if told.arguments.get("hint") == "syntax-indent":
+            told = replace(told, mark=misplaced(lines, told.mark))
+        return Source(file, text, faults=(*loader.faults, *(slips_above(lines, told.mark.line, file) or [told])))
     except ValueError:
         # A number in an escape or a directive that Python refuses to read.
         here = Mark(file, loader.line + 1, loader.column + 1)
@@ -352,9 +356,13 @@ def _is_parted(before: yaml.Node, key: yaml.Node, value: yaml.Node) -> bool:
 
 def _tabs(text: str, file: str) -> Iterator[Fault]:
     """Tabs that stand where YAML wants blanks: in front of a line or right after a key."""
-    for number, line in enumerate(re.split(r"\r\n|\r|\n", text), start=1):
+    for number, line in enumerate(_lines(text), start=1):
         if match := re.match(r" *(?:[\w.-]+:)?(\t)", line):
             yield Fault("tab", Mark(file, number, match.start(1) + 1))
+
+
+def _lines(text: str) -> list[str]:
+    return re.split(r"\r\n|\r|\n", text)
 
 
 def _syntax(fault: yaml.MarkedYAMLError, file: str) -> Fault:

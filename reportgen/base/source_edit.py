@@ -17,6 +17,8 @@ from reportgen.base.source_text import at, entry_text, flow, item_lines, quoted
 
 _REMARK = re.compile(r"#[ \t]?(?P<entry>(?P<key>[^\s:#][^:#]*):(?:[ \t].*)?)$")
 
+SHOWN = 60
+"""So much of what was typed is told."""
 BRACKETS = 2000
 """A text with fewer brackets is not set in itself deeper than any reader bears."""
 
@@ -117,7 +119,7 @@ def as_list(text: str) -> SequenceNode:
     source = read_text(f"[{text}]")
     if isinstance(source.top, SequenceNode) and not source.faults:
         return source.top
-    raise EditError(f"this is no list: {text}")
+    raise EditError(f"this is no list: {text if len(text) <= SHOWN else text[:SHOWN] + '…'}")
 
 
 # --- what stands where --------------------------------------------------------------------------------

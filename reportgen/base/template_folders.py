@@ -22,6 +22,11 @@ def samples() -> Path:
     return _packed("samples", "assignments")
 
 
+def documentation() -> Path:
+    """The folder of the documentation, in the same way."""
+    return _packed("docs", "docs")
+
+
 def _packed(name: str, beside: str) -> Path:
     package = Path(__file__).resolve().parents[1]
     packed = package / name

@@ -245,6 +245,12 @@ def messages(language: Language) -> Mapping[str, Any]:
     return _read(templates() / language / "messages.yaml")
 
 
+@cache
+def helps(language: Language) -> Mapping[str, Any]:
+    """The help of the command line: its `frame`, the short `start`, and `texts` by their English ones."""
+    return _read(templates() / language / "help.yaml")
+
+
 def word(key: str, language: Language | None, /, **arguments: object) -> str:
     """A text of the command line with its arguments filled in."""
     said = {name: one if isinstance(one, FILLS) else str(one) for name, one in arguments.items()}
@@ -288,8 +294,9 @@ def as_error(faults: Iterable[Fault], language: Language | None) -> AssignmentEr
 
 def close_or_known(key: str, known: Sequence[str]) -> dict[str, str]:
     """What to say of an unknown key: the known one it was probably meant to be, or all that are known."""
+    # What differs in case alone is nearer than anything else.
     same = [name for name in known if name.casefold() == key.casefold()]
-    close = difflib.get_close_matches(key, known, n=1, cutoff=0.6) or same
+    close = same or difflib.get_close_matches(key, known, n=1, cutoff=0.6)
     return {"close": close[0]} if close else {"known": ", ".join(known)}
 
 

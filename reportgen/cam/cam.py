@@ -15,6 +15,7 @@ from reportgen.base.units import MM
 from reportgen.cam import file
 from reportgen.cam.design import NoCamError, touch
 from reportgen.cam.file import PerPhase, designed, exceeded, motion_of, positions_of, steep
+from reportgen.cam.formulas import lowest_of_face, valued
 from reportgen.cam.laws import PHASES, AccelerationGraph
 
 if TYPE_CHECKING:
@@ -161,7 +162,7 @@ def _swing(given: Parameters) -> Iterator[Finding]:
     if fastest >= 1:
         yield Finding("cam-overtakes", (*TOP, "phases"))
     if flat:
-        start = math.asin(given.r0.si / given.a.si) if given.r0 and given.a else 0.0
+        start = float(valued(lowest_of_face, given.r0.si, given.a.si)) if given.r0 and given.a else 0.0
         if start + motion.stroke >= math.pi / 2:
             yield _past(start + motion.stroke)
 

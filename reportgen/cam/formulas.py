@@ -159,6 +159,11 @@ def base_radius_of_arm(a: Expression, arm: Expression, ψ0: Expression) -> Expre
     return sqrt(a**2 + arm**2 - 2 * a * arm * cos(ψ0))
 
 
+def lowest_of_face(r0: Expression, a: Expression) -> Expression:
+    """ψ₀ = arcsin(r₀/a), where a flat face touches the base circle."""
+    return asin(r0 / a)
+
+
 # --- the cam --------------------------------------------------------------------------------------
 
 
@@ -223,7 +228,7 @@ def _enter_under_face(q: Sheet, kind: CamKind) -> None:
         ρ = r0 + s + dds
     else:
         a = q["cam.a"]
-        ψ0 = q.define("cam.psi0", asin(r0 / a))
+        ψ0 = q.define("cam.psi0", lowest_of_face(r0, a))
         at, k = q.define("cam.q", ψ0 + s), q.define("cam.k", factor(ds, kind.opposite))
         L = q.define("cam.contact", a * cos(at) / k)
         x, y = _inverted(q, kind, a - L * cos(at), L * sin(at))

@@ -321,7 +321,7 @@ class FollowerMotion:
             here = numbers == number
             if here.any():
                 values = {"x": interval.x(turned[here]), "Φ": interval.angle, "h": self.stroke}
-                for row, formula in zip(motion, interval.own, strict=True):
+                for row, formula in zip(motion[: derivatives + 1], interval.own[: derivatives + 1], strict=True):
                     row[here] = evaluate(formula, values)
         return motion[0], motion[1], motion[2]
 

@@ -225,7 +225,8 @@ def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[f
     """Where in an interval a function of it is greatest, and its value in its unit: sampled, then ever closer."""
     x = np.linspace(low, high, 361)
     for _ in range(8):
-        y = np.nan_to_num(of(x), nan=-np.inf, posinf=np.inf, neginf=-np.inf)
+        y = of(x)
+        y = np.where(np.isnan(y), -np.inf, y)
         best = int(y.argmax())
         top = float(x[best]), float(y[best])
         x = np.linspace(x[max(best - 1, 0)], x[min(best + 1, x.size - 1)], 33)

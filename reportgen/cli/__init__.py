@@ -91,8 +91,9 @@ def _app() -> typer.Typer:
     """The commands in the order of the help."""
     import typer
 
-    from reportgen.cli import instructor, student, takeaway
-    from reportgen.cli.common import Commands, begin
+    from reportgen.cli import instructor, reading, student, takeaway
+    from reportgen.cli.common import begin
+    from reportgen.cli.helping import Command, Commands
 
     made = typer.Typer(
         name="reportgen",
@@ -122,8 +123,9 @@ def _app() -> typer.Typer:
         instructor.batch,
         instructor.key,
         instructor.grade,
+        reading.docs,
     ):
-        made.command()(command)
+        made.command(cls=Command)(command)
     return made
 
 

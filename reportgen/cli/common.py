@@ -56,17 +56,6 @@ def _use_templates(folder: Path | None) -> Path | None:
     return folder
 
 
-class Commands(TyperGroup):
-    """The commands, of which an unknown one is told with the one it was probably meant to be."""
-
-    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
-        if args[0] not in self.commands:
-            from reportgen.base.words import unknown
-
-            raise typer.BadParameter(unknown("no_command", args[0], list(self.commands), None), ctx=ctx)
-        return super().resolve_command(ctx, args)
-
-
 def begin(
     context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version.", is_eager=True)] = False,
@@ -75,8 +64,21 @@ def begin(
     if version:
         print("reportgen", own_version())
     elif context.invoked_subcommand is None:
-        print(context.get_help(), file=sys.stderr)
-        raise typer.Exit(WRONG_USAGE)
+        from reportgen.cli.console import is_double_clicked
+        from reportgen.cli.helping import start
+
+        if is_double_clicked():
+            _choose(context)
+        else:
+            print(start())
+
+
+def _choose(context: typer.Context) -> None:
+    """As `edit` alone: who double-clicks has no command line; a file is begun at home, never beside the program."""
+    if Path.cwd() == Path(sys.argv[0]).absolute().parent:
+        os.chdir(Path.home())
+    assert isinstance(context.command, TyperGroup), "only a group has commands"
+    context.invoke(context.command.commands["edit"])
 
 
 @contextmanager

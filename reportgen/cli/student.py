@@ -170,9 +170,12 @@ def edit(
         _begin(kind, file, lang)
         return file
 
+    def products(file: Path) -> dict[str, tuple[str, ...]]:
+        return _products(file, out, lang)
+
     with ending(lang):
         if what is None:
-            served.choose(begin, opener(), lang, lambda file: _products(file, out, lang), browser=not no_open)
+            served.choose(begin, opener(), lang, products, browser=not no_open)
             return
         begins = what in kinds() and not Path(what).exists()
         if output is not None and not begins:
@@ -183,7 +186,7 @@ def edit(
         if begins:
             file = output or Path(f"{what}.yaml")
             _begin(what, file, lang)
-        served.edit(file, opener(), lang, _products(file, out, lang), browser=not no_open)
+        served.edit(file, opener(), lang, products, browser=not no_open)
 
 
 def _begin(kind: str, file: Path, lang: Language | None) -> None:

@@ -427,10 +427,10 @@ SAMPLE, COLUMN, ROW, GAP = 18.0, 76.0, 6.5, 2.5
 
 
 def line_styles(words: Mapping[str, str]) -> Scene:
-    """Two columns of samples, lines and arrows; `words` has the text of each by its name."""
+    """Two columns of samples, lines and arrows; `words` has the text of each that is shown by its name."""
     items: list[Item] = []
     for column, pens in enumerate((LINES, ARROWS)):
-        for row, (name, pen) in enumerate(pens):
+        for row, (name, pen) in enumerate((name, pen) for name, pen in pens if name in words):
             start = complex(column * COLUMN, -row * ROW)
             end = start + SAMPLE
             items.append(Arrow(start, end, pen, style.HEAD) if pens is ARROWS else Line(start, end, pen))

@@ -48,7 +48,8 @@ class ExerciseCase(SolvedExercise):
 
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
         """Its title is one of its words."""
-        return (), Prose(self.places).render("exercise-task", {**task_names(self), "answer_tables": asked.answers})
+        title, *rest = Prose(self.places).render("exercise-task", {**task_names(self), "answer_tables": asked.answers})
+        return (title,), rest
 
     @cached_property
     def entries(self) -> ResultEntries:

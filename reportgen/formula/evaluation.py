@@ -165,6 +165,7 @@ def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Val
     Printed numbers evaluate as shown, degrees as radians.  Raises `KeyError` for an unknown id and
     `ValueError` for a symbol without a value.
     """
+    # Searches run this a hundred thousand times, and a list is ready sooner than a generator.
     match node:
         case Number():
             return math.radians(node.shown) if node.unit == "°" else node.shown
@@ -177,9 +178,9 @@ def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Val
                 raise ValueError(f"symbol {node.base} has no value")
             return value
         case Sum(terms):
-            return sum(evaluate(term, values) for term in terms)
+            return sum([evaluate(term, values) for term in terms])
         case Product(factors):
-            return math.prod((evaluate(factor, values) for factor in factors), start=1.0)
+            return math.prod([evaluate(factor, values) for factor in factors], start=1.0)
         case Negative(of):
             return -evaluate(of, values)
         case Fraction(top, bottom):
@@ -189,7 +190,7 @@ def evaluate(node: Expression, values: Mapping[str, Value] | None = None) -> Val
         case Root(of):
             return np.sqrt(evaluate(of, values))
         case Call(name, arguments):
-            return FUNCTIONS[name](*(evaluate(argument, values) for argument in arguments))
+            return FUNCTIONS[name](*[evaluate(argument, values) for argument in arguments])
         case Chain(parts):
             return evaluate(parts[-1], values)
         case _:

@@ -124,9 +124,10 @@ class GearPair:
         return np.stack([self.at("lambda", t=0.0)[0], self.at("lambda", t=1.0)[1]])
 
     @property
-    def to_pitch_point(self) -> float:
-        """How far (m) the pitch point lies from N₁ on the line of action, r_b1 tan α_w."""
-        return float(self["d_b"][0]) / 2 * math.tan(float(self["alpha_w"]))
+    def to_pitch_point(self) -> Floats:
+        """How far (m) the pitch point lies from N₁ and from N₂ on the line of action [2], r_b tan α_w."""
+        rolled: Floats = self["d_b"] / 2 * np.tan(self["alpha_w"])
+        return rolled
 
     # --- what is asked of it
 

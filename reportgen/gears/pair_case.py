@@ -143,7 +143,7 @@ def _animation(case: PairCase) -> Animation:
 
 def _moving(pair: GearPair, φ: Floats, at: float) -> tuple[list[MovingItem], Floats]:
     """Wheels, line of action and points of contact, so many mm of paper a metre; and how many pairs touch."""
-    at_pitch = pair.to_pitch_point
+    at_pitch = float(pair.to_pitch_point[0])
     ratio = pair.teeth[0] / pair.teeth[1]
     items: list[MovingItem] = []
     for number, turns in ((0, φ), (1, -ratio * φ)):

@@ -86,7 +86,7 @@ def centre(pair: GearPair, number: int) -> complex:
 
 def on_line(pair: GearPair, rolled: float) -> complex:
     """The point of the line of action so far (m) from N₁, the pitch point at 0."""
-    at_pitch = pair.to_pitch_point
+    at_pitch = float(pair.to_pitch_point[0])
     return complex((rolled - at_pitch) * np.exp(1j * (math.pi - float(pair["alpha_w"]))))
 
 
@@ -108,7 +108,7 @@ def tooth(case: SolvedPair) -> float:
 
 def _shown(pair: GearPair) -> tuple[list[list[Complexes]], Complexes]:
     """The teeth of each wheel that are drawn, and all their points (m)."""
-    at_pitch = pair.to_pitch_point
+    at_pitch = float(pair.to_pitch_point[0])
     outlines = [list(_teeth(pair, number, at_pitch)) for number in (0, 1)]
     return outlines, np.concatenate([points for teeth in outlines for points in teeth])
 
@@ -117,7 +117,7 @@ def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
     """Three teeth of each wheel touching at the pitch point, built as by hand."""
     pair = case.gears
     ends = [on_line(pair, 0.0), on_line(pair, float(pair["g"]))]
-    at_pitch = pair.to_pitch_point
+    at_pitch = float(pair.to_pitch_point[0])
     outlines, drawn = _shown(pair)
     usual, with_ends = mesh_scale(case)
     at = size.per_unit(usual) * MM
@@ -192,7 +192,7 @@ def _construction(
     o, r_b = centre(pair, number), float(pair["d_b"][number]) / 2
     α_w = float(pair["alpha_w"])
     to_n = (1j, -1j)[number] * np.exp(-1j * α_w)
-    whole = r_b * math.tan(α_w)
+    whole = float(pair.to_pitch_point[number])
     reach = math.sqrt(float(pair["d_a"][number]) ** 2 / 4 - r_b**2)
     for step in range(math.floor(reach / whole * STEPS) + 1):
         rolled = whole * step / STEPS
@@ -216,7 +216,7 @@ def _working_flank(pair: GearPair, number: int, rolled: float, at: float) -> Ite
     flank = wheel.flank(r) * np.exp(1j * turned(pair, number, rolled))
     yield Polyline(tuple((o + flank) * at), WORKING)
     pitch_point = float(np.angle(-o))
-    rolled_here = wheel.r_b * math.tan(float(pair["alpha_w"]))
+    rolled_here = float(pair.to_pitch_point[number])
     before, after = ((rolled_here - float(rho[number])) / wheel.r_b for rho in (pair["rho_a"], pair["rho_p"]))
     radius = float(pair["d_w"][number]) / 2 * at
     yield Arc(o * at, radius, pitch_point - before, pitch_point - after, Pen(0.6, style.BLUE))

@@ -154,11 +154,11 @@ def _neighbours(scheme: TrainScheme, z: Wholes, k: int, modules: Fraction) -> Fl
     return holds
 
 
-def _assembly(scheme: TrainScheme, z: Wholes, k: int) -> Flags:
+def _assembly(u: NDArray[np.float64], z: Wholes, k: int) -> Flags:
     """u₁H z₁ (1 + kP)/k is whole for some whole P: just when in lowest terms u₁H z₁/k has no factor of k below."""
     z1, _, z2p, _ = z
     # Willis's ratio is a fraction over z₁z₂′, which rounding gives back exactly.
-    above = np.rint(ratios(scheme, z) * z1 * z2p).astype(np.int64)
+    above = np.rint(u * z1 * z2p).astype(np.int64)
     below = k * z2p // np.gcd(above, k * z2p)
     holds: Flags = np.gcd(below, k) == 1
     return holds
@@ -192,11 +192,12 @@ def unshifted(scheme: TrainScheme, z: Wholes) -> Flags:
 def judged(demand: Demand, z: Wholes) -> Mapping[str, Flags]:
     """Which trains fulfil each of the conditions."""
     scheme, k = demand.of, demand.satellites
+    u = ratios(scheme, z)
     return {
-        "ratio": demand.off(ratios(scheme, z)) <= demand.tolerance + DUST,
+        "ratio": demand.off(u) <= demand.tolerance + DUST,
         "interference": _interference(scheme, z),
         "neighbours": _neighbours(scheme, z, k, demand.modules),
-        "assembly": _assembly(scheme, z, k),
+        "assembly": _assembly(u, z, k),
     }
 
 

@@ -173,7 +173,8 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
     Raises `AssignmentError` if the sheet cannot be read.
     """
     scheme = marking_scheme(case, Policy(guard=False))
-    submission = read_submission(sheet, scheme.key, scheme.key.language)
+    # What the file is called does not matter: whose sheet it is shows by its data.
+    submission = read_submission(sheet, lambda _: scheme.key, scheme.key.language, by_data=True)
     # What the sheet has no row for is not missing, nor is a scale.
     filled = {id for id, _ in (*submission.values, *submission.problems)}
     rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}

@@ -153,6 +153,7 @@ def _asked_for(case: Case, key: Key, by_section: bool) -> AskedFor:
         positions=tuple(map(key.label, asked)),
         known=tuple(_known_tables(key, known)),
         scales=any(row.role is Role.scale for row in key.asked),
+        by_section=by_section,
     )
 
 

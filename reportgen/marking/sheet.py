@@ -190,13 +190,15 @@ def read_submission(
     key_of: Callable[[str], Key] | Key,
     language: Language | None = None,
     pages: Sequence[Page] | None = None,
+    by_data: bool = False,
 ) -> Submission:
     """The answer sheet of a file, or of its `pages` where they have been read, by the key of its assignment.
 
     The assignment is the one that its page of information names, or its title, or else the file's stem.
     `key_of` finds a key by the name that the sheet gives, which may be any text, and raises `KeyError` if
     there is none.  Raises `AssignmentError`, worded in `language`, if the file cannot be read, is no
-    answer sheet or belongs to another assignment or machine.
+    answer sheet or belongs to another assignment or machine; `by_data` also where the given data that it shows are
+    not those of the assignment.
     """
     pages = read(path, language) if pages is None else pages
     sheets = _sheets(pages)
@@ -219,7 +221,14 @@ def read_submission(
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
         raise as_error([Fault("sheet-of-another", kind[1], about)], language)
     reading = _Reading(key, language)
-    for answers in sheets if key.parts else sheets[:1]:
+    answered = sheets if key.parts else sheets[:1]
+    if by_data:
+        shown = [fault for answers in answered for fault in _data_shown(key, *answers)]
+        unsaid = not shown and named is not None and name != key.id
+        about = {"text": name, "wanted": key.id}
+        if faults := [Fault("sheet-of-another", mark, about)] if unsaid else [one for one in shown if one is not None]:
+            raise as_error(faults, language)
+    for answers in answered:
         reading.sheet(*answers)
     return Submission(
         key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
@@ -270,6 +279,24 @@ def _titled(rows: Sequence[Sequence[SheetCell]]) -> tuple[str, Mark] | None:
         if dash and title.strip().casefold() in _words("title") and name.strip():
             return name.strip(), cell.mark
     return None
+
+
+def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
+    """A fault at its cell for each given value of a sheet that is not the assignment's, None for each that is."""
+    heads = page.rows[head]
+    at, column = (next(n for n, cell in enumerate(heads) if _says(cell, name)) for name in ("id", "value"))
+    given = {row.id: row for row in key.rows if row.role is Role.given and row.single}
+    for cells in page.rows[head + 1 :]:
+        row = given.get(cells[at].text.strip()) if max(at, column) < len(cells) else None
+        entry = given_entry(row, 0) if row else None
+        if row is None or entry is None or cells[column].blank:
+            continue
+        own = cells[column].text.strip().replace(units.MINUS, "-").replace(",", ".")
+        # Data that the sheet shows are read back to the figures that it was written with.
+        if re.fullmatch(units.NUMBER, own):
+            about = {"symbol": symbol_text(row, key), "text": own, "wanted": f"{entry.value} {row.unit}".strip()}
+            same = math.isclose(float(own), float(str(entry.value)), rel_tol=1e-9)
+            yield None if same else Fault("sheet-other-data", cells[column].mark, about)
 
 
 # --- reading it -----------------------------------------------------------------------------------

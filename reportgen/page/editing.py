@@ -17,7 +17,6 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import parts
-from reportgen.assignment.common import PARTS
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Fault, Mark, Problem, ReportgenError, Where
@@ -25,6 +24,7 @@ from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, titles
 from reportgen.base.source import (
     LARGEST,
+    MOST_TOKENS,
     MappingNode,
     Node,
     Scalar,
@@ -42,7 +42,7 @@ from reportgen.page import html
 from reportgen.page.dragging import Resident
 from reportgen.page.fields import Form, written_at
 from reportgen.page.html import Live
-from reportgen.page.live import LiveSession, empty_document
+from reportgen.page.live import PART, LiveSession, empty_document
 from reportgen.page.making import Maker
 from reportgen.page.ownership import owners
 from reportgen.report.case import Case
@@ -58,9 +58,8 @@ Asked = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Change:
-    """A file before and after a change."""
+    """The file before and after a change."""
 
-    file: Path
     before: bytes
     after: bytes
 
@@ -80,11 +79,18 @@ class EditSession(LiveSession):
     path: Path = Path()
     products: Mapping[str, Sequence[str]] = field(default_factory=dict)
     """The commands that make something of the file, by the names of their products."""
+    of_part: Callable[[Path], EditSession] | None = None
+    """Begins the session of a part's file; None where none is opened."""
+    whole: str = ""
+    """Of a part, the name of the coursework's file."""
     lock: threading.RLock = field(default_factory=threading.RLock)
     done: list[Change] = field(default_factory=list)
     undone: list[Change] = field(default_factory=list)
     dragging: threading.Lock = field(default_factory=threading.Lock)
     _resident: tuple[Case, Resident | None] | None = None
+    _opening: threading.Lock = field(default_factory=threading.Lock)
+    _parts: dict[Path, tuple[int, EditSession | None]] = field(default_factory=dict)
+    """The files of parts by the numbers under which they are served, which stay when parts are moved."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -120,11 +126,43 @@ class EditSession(LiveSession):
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
         return {"edit.json": self.edit, "drag.json": self.drag, "make.json": self.make}
 
+    def below(self, name: str) -> EditSession | None:
+        """The session of a part's file by its number: of one that the file names as it stands, in its folder or below.
+
+        No request names a file: where it stands is asked of the coursework's text each time.
+        """
+        allowed = self._part_files() if self.of_part is not None else []
+        with self._opening:
+            for file, (number, session) in self._parts.items():
+                if str(number) == name and file in allowed and self.of_part is not None:
+                    opened = session or self.of_part(file)
+                    self._parts[file] = number, opened
+                    return opened
+        return None
+
+    def _part_files(self, source: Source | None = None) -> list[Path]:
+        """The files of parts that the text names and that may be opened."""
+        if source is None:
+            with self.lock:
+                text = self._text()
+            source = Source("") if isinstance(text, Fault) else read_text(text)
+        return [file for file in parts.files(source, self.path) if file.is_file()]
+
+    def _pages(self, source: Source) -> Mapping[str, tuple[str, str]]:
+        """The address of each part's own page and the name of its file, by its path."""
+        if self.of_part is None:
+            return {}
+        files = self._part_files(source)
+        with self._opening:
+            for file in files:
+                self._parts.setdefault(file, (len(self._parts), None))
+            return {str(file): (f"{PART}{self._parts[file][0]}/", file.name) for file in files}
+
     def form(self) -> str:
         """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
         with self.lock:
             language, words = self._spoken()
-            text = self._text(self.path)
+            text = self._text()
             source = (
                 Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
             )
@@ -148,6 +186,9 @@ class EditSession(LiveSession):
             can_redo=bool(self.undone),
             products=list(self.products),
             part_kinds=part_kinds(),
+            pages=self._pages(source),
+            folder=self.path.parent,
+            whole=self.whole,
             kind_titles=titles(language),
         )
 
@@ -156,7 +197,7 @@ class EditSession(LiveSession):
         with self.dragging:
             resident = self._resident_machine()
         with self.lock:
-            text = self._text(self.path)
+            text = self._text()
         top = None if isinstance(text, Fault) else read_own(text).top
         if resident is None or not isinstance(top, MappingNode):
             return {"fields": [], "ground": {}}
@@ -208,24 +249,26 @@ class EditSession(LiveSession):
     def _change(self, operation: str, where: Where, asked: Asked) -> None:
         if not where:
             raise ValueError("the whole file is no value")
-        file, place = self._file_of(where)
-        before = self._bytes(file)
-        text = self._decoded(before, file)
+        before = self._bytes()
+        text = self._decoded(before)
         if "was" in asked and operation in ("set", "instead"):
-            self._same(text, place, str(asked["was"]), str(asked["value"]))
+            self._same(text, where, str(asked["was"]), str(asked["value"]))
         if operation == "instead" and not asked.get("value"):
-            asked = {**asked, "value": _the_same(text, place, str(asked["key"]))}
+            asked = {**asked, "value": _the_same(text, where, str(asked["key"]))}
         try:
-            changed = _changed(text, operation, place, asked)
+            changed = _changed(text, operation, where, asked)
         except EditError as error:
             raise RefusedChangeError("cannot", reason=str(error)) from error
+        # Only a text of that many characters can hold more than a file may: of another no form could be made.
+        if len(changed) > MOST_TOKENS and read_text(changed).faults:
+            raise RefusedChangeError("too_large")
         if changed != text:
             mark, codec = encoding_of(before)
             try:
                 after = mark + changed.encode(codec)
             except UnicodeEncodeError as error:
                 raise RefusedChangeError("cannot", reason=str(error.reason)) from error
-            self._write(Change(file, before, after))
+            self._write(Change(before, after))
             self.undone.clear()
 
     def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
@@ -239,11 +282,11 @@ class EditSession(LiveSession):
         steps = self.done if operation == "undo" else self.undone
         if not steps:
             return
-        change = steps[-1] if operation == "undo" else Change(steps[-1].file, steps[-1].after, steps[-1].before)
-        if self._bytes(change.file) != change.after:
+        change = steps[-1] if operation == "undo" else Change(steps[-1].after, steps[-1].before)
+        if self._bytes() != change.after:
             steps.clear()
             raise RefusedChangeError("changed")
-        self._put(change.file, change.before)
+        self._put(change.before)
         (self.undone if operation == "undo" else self.done).append(steps.pop())
 
     def drag(self, asked: Asked) -> Mapping[str, Any] | bytes:
@@ -258,7 +301,7 @@ class EditSession(LiveSession):
             if resident is None:
                 return {}
             with self.lock:
-                text = self._text(self.path)
+                text = self._text()
             top = None if isinstance(text, Fault) else read_own(text).top
             old = at(top, where)
             if not isinstance(old, Scalar) or top is None:
@@ -272,37 +315,25 @@ class EditSession(LiveSession):
             except (ReportgenError, ArithmeticError, ValueError, np.linalg.LinAlgError):
                 return b""
 
-    # --- the files
+    # --- the file
 
-    def _file_of(self, where: Where) -> tuple[Path, Where]:
-        """The file in which a place stands, and the place in it: that of a part, for one below a part's own file."""
-        source = read_text(self._decoded(self._bytes(self.path), self.path))
-        if where[:1] == (PARTS,) and len(where) > 2 and isinstance(where[1], int) and where[2] != "file":
-            named = at(source.top, (*where[:2], "file"))
-            if isinstance(named, Scalar) and not named.null and where[2] not in parts.ABOUT:
-                allowed = parts.files(source, self.path)
-                if self.path.parent / named.text in allowed:
-                    return self.path.parent / named.text, where[2:]
-                raise RefusedChangeError("cannot", reason=named.text)
-        return self.path, where
-
-    def _bytes(self, file: Path) -> bytes:
+    def _bytes(self) -> bytes:
         try:
-            data = contents(file, LARGEST + 1)
+            data = contents(self.path, LARGEST + 1)
         except OSError as error:
             raise RefusedChangeError("unreadable", reason=error.strerror or str(error)) from error
         if len(data) > LARGEST:
             raise RefusedChangeError("too_large")
         return data
 
-    def _text(self, file: Path) -> str | Fault:
+    def _text(self) -> str | Fault:
         try:
-            return decoded(self._bytes(file), str(file))
+            return decoded(self._bytes(), str(self.path))
         except RefusedChangeError as refusal:
-            return Fault("unreadable", Mark(str(file)), {"reason": refusal.arguments.get("reason", str(refusal))})
+            return Fault("unreadable", Mark(str(self.path)), {"reason": refusal.arguments.get("reason", str(refusal))})
 
-    def _decoded(self, data: bytes, file: Path) -> str:
-        text = decoded(data, str(file))
+    def _decoded(self, data: bytes) -> str:
+        text = decoded(data, str(self.path))
         if isinstance(text, Fault):
             raise RefusedChangeError("cannot", reason=text.code)
         return text
@@ -310,13 +341,13 @@ class EditSession(LiveSession):
     def _write(self, change: Change) -> None:
         if len(change.after) > LARGEST:
             raise RefusedChangeError("too_large")
-        self._put(change.file, change.after)
+        self._put(change.after)
         self.done.append(change)
         del self.done[:-MOST_STEPS]
 
-    def _put(self, file: Path, content: bytes) -> None:
+    def _put(self, content: bytes) -> None:
         try:
-            renew_file(file, content)
+            renew_file(self.path, content)
         except OSError as error:
             raise RefusedChangeError("unwritten", reason=error.strerror or str(error)) from error
 

@@ -42,7 +42,8 @@ class FieldLine:
     default: str = ""
     instead: tuple[tuple[str, str], ...] = ()
     """Keys by which the same may be said, with what they are called."""
-    grid: bool = False
+    most: int | None = None
+    """A list takes no more items."""
 
     @property
     def key(self) -> str:
@@ -300,7 +301,7 @@ class Form:
             low=facts.get("low"),
             high=facts.get("high"),
             default="" if default is None or isinstance(default, list | dict) else _spelled(default),
-            grid=look == "list",
+            most=next((schema["maxItems"] for schema in allowed if "maxItems" in schema), None),
         )
 
 

@@ -23,6 +23,8 @@ from reportgen.report.case import Case
 
 NOBODY = "–"
 """What stands on the page of a file that was never right."""
+PART = "part/"
+"""Below it are the pages of parts that stand in files of their own."""
 AHEAD = 0.2
 """The time (s) that the moving part has to itself before the report is begun."""
 
@@ -160,6 +162,10 @@ class LiveSession:
 
     def made(self, name: str) -> bytes | None:
         """The content of a file that was made on the page, by its name; None for any other."""
+        return None
+
+    def below(self, name: str) -> LiveSession | None:
+        """The session of a part's page, by its name; None for any other."""
         return None
 
     @property

@@ -19,7 +19,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from reportgen.base.source import LARGEST
-from reportgen.page.live import LiveSession
+from reportgen.page.live import PART, LiveSession
 
 HOST = "127.0.0.1"
 BEAT = 10.0
@@ -52,6 +52,13 @@ class Server(ThreadingHTTPServer):
     @property
     def address(self) -> str:
         return f"http://{HOST}:{self.server_port}/{self.token}/"
+
+    def asked_of(self, name: str) -> tuple[LiveSession | None, str]:
+        """Whose page a name below the secret address is asked of, and the name there."""
+        if not name.startswith(PART):
+            return self.session, name
+        part, _, rest = name.removeprefix(PART).partition("/")
+        return self.session.below(part), rest
 
     def get_request(self) -> tuple[socket.socket, Any]:
         """The next connection; where no more files can be opened it waits, and would be asked at once again."""
@@ -117,13 +124,17 @@ class _Request(BaseHTTPRequestHandler):
         folder, _, name = urlsplit(self.path).path[1:].partition("/")
         if not secrets.compare_digest(folder.encode(), self.server.token.encode()):
             self._refuse(HTTPStatus.NOT_FOUND)
+            return
+        session, name = self.server.asked_of(name)
+        if session is None:
+            self._refuse(HTTPStatus.NOT_FOUND)
         elif name == "":
-            self._send(self.server.session.page().encode(), "text/html; charset=utf-8")
+            self._send(session.page().encode(), "text/html; charset=utf-8")
         elif name == "news":
-            self._tell()
-        elif name.startswith(MADE) and (made := self.server.session.made(name.removeprefix(MADE))) is not None:
+            self._tell(session)
+        elif name.startswith(MADE) and (made := session.made(name.removeprefix(MADE))) is not None:
             self._send(made, mimetypes.guess_type(name)[0] or "application/octet-stream")
-        elif name in (answers := self.server.session.answers):
+        elif name in (answers := session.answers):
             answer = answers[name]()
             self._send(json.dumps(answer, ensure_ascii=False).encode(), "application/json")
         else:
@@ -132,10 +143,16 @@ class _Request(BaseHTTPRequestHandler):
     def do_POST(self) -> None:
         """Do what a page of this server asks for: in JSON, of a size that a file may have."""
         folder, _, name = urlsplit(self.path).path[1:].partition("/")
-        takes, length = self.server.session.takes, self.headers.get("Content-Length", "")
+        length, foreign = (
+            self.headers.get("Content-Length", ""),
+            not self._known() or self.headers.get("Origin") is None,
+        )
+        secret = secrets.compare_digest(folder.encode(), self.server.token.encode())
+        # Nothing is opened for who may not ask.
+        session, name = self.server.asked_of(name) if secret and not foreign else (None, name)
+        takes = session.takes if session is not None else {}
         refused = (
-            (HTTPStatus.FORBIDDEN, not self._known() or self.headers.get("Origin") is None),
-            (HTTPStatus.NOT_FOUND, not secrets.compare_digest(folder.encode(), self.server.token.encode())),
+            (HTTPStatus.FORBIDDEN, foreign),
             (HTTPStatus.NOT_FOUND, name not in takes),
             (HTTPStatus.UNSUPPORTED_MEDIA_TYPE, self.headers.get("Content-Type") != "application/json"),
             (HTTPStatus.LENGTH_REQUIRED, not length.isascii() or not length.isdecimal()),
@@ -177,7 +194,7 @@ class _Request(BaseHTTPRequestHandler):
         self.end_headers()
         self.wfile.write(body)
 
-    def _tell(self) -> None:
+    def _tell(self, session: LiveSession) -> None:
         """Tell each revision as it appears, until the page goes or the server ends."""
         self.close_connection = True
         self.send_response(HTTPStatus.OK)
@@ -185,7 +202,7 @@ class _Request(BaseHTTPRequestHandler):
         for name, value in HEADERS.items():
             self.send_header(name, value)
         self.end_headers()
-        session, known = self.server.session, None
+        known = None
         while not session.closed:
             current = session.next_revision(known, BEAT)
             line = f"data: {json.dumps(current.news, ensure_ascii=False)}\n\n" if current is not known else ":\n\n"

@@ -9,7 +9,7 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import TextIO
@@ -32,18 +32,24 @@ QUIET, LONGEST = 20, 200
 
 LOOKING = 0.05
 """From one look at the file to the next (s)."""
-EMPTY: Mapping[str, Sequence[str]] = {}
 HEARING = 0.5
 """How long (s) an interruption may have to wait."""
 _ONE_AT_A_TIME = threading.Lock()
 
 
+Products = Callable[[Path], Mapping[str, Sequence[str]]]
+"""The commands that make something of a file, by the names of their products."""
 Opener = Callable[[Path, Language | None], Case]
 """Opens the case of an assignment file; raises `AssignmentError` with its faults."""
 
 
 def nobody(case: Case, document: Document) -> None:
     """Takes no notice of a finished report."""
+
+
+def nothing(path: Path) -> Mapping[str, Sequence[str]]:
+    """Makes nothing of a file."""
+    return {}
 
 
 def watch(
@@ -70,7 +76,7 @@ def edit(
     path: Path,
     opens: Opener,
     language: Language | None = None,
-    products: Mapping[str, Sequence[str]] = EMPTY,
+    products: Products = nothing,
     browser: bool = True,
     port: int = 0,
     stream: TextIO = sys.stdout,
@@ -79,21 +85,15 @@ def edit(
     if not path.is_file():
         opens(path, language)
     path = path.absolute()
-    serve(
-        EditSession(partial(opens, path, language), language, path=path, products=products),
-        path,
-        opens,
-        browser,
-        port,
-        stream,
-    )
+    with _with_parts(path, opens, language, products) as session:
+        serve(session, path, opens, browser, port, stream)
 
 
 def choose(
     begins: Callable[[str], Path],
     opens: Opener,
     language: Language | None = None,
-    products: Callable[[Path], Mapping[str, Sequence[str]]] = lambda path: EMPTY,
+    products: Products = nothing,
     browser: bool = True,
     stream: TextIO = sys.stdout,
 ) -> None:
@@ -105,11 +105,25 @@ def choose(
             while not chooser.chosen.wait(HEARING):
                 pass
             path = chooser.path.absolute()
-            session = EditSession(partial(opens, path, language), language, path=path, products=products(path))
-            with _followed(session, path, opens):
+            with _with_parts(path, opens, language, products) as session, _followed(session, path, opens):
                 server.session = session
                 chooser.ready.set()
                 _wait()
+
+
+@contextmanager
+def _with_parts(path: Path, opens: Opener, language: Language | None, products: Products) -> Iterator[EditSession]:
+    """The session of an edited file; those of its parts' files are open and renewed from when they are asked for."""
+    with ExitStack() as followed:
+
+        def of_part(file: Path) -> EditSession:
+            part = EditSession(
+                partial(opens, file, language), language, path=file, products=products(file), whole=path.name
+            )
+            followed.enter_context(_followed(part, file, opens))
+            return part
+
+        yield EditSession(partial(opens, path, language), language, path=path, products=products(path), of_part=of_part)
 
 
 def serve(

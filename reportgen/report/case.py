@@ -108,6 +108,8 @@ class AskedFor:
     """What is given at each position."""
     scales: bool
     """Whether scales are to be chosen."""
+    by_section: bool = False
+    """Whether each section of the sheet begins a page."""
 
 
 @dataclass(frozen=True)

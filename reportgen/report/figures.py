@@ -163,8 +163,10 @@ def short(number: Number) -> Number:
 
 
 def line_styles(report: Report) -> FigureScenes:
-    """The legend of all lines of the report."""
-    return FigureScenes((scheme_figure.line_styles(report.words["line_styles"]),))
+    """The legend of the lines of the report: of forces, paths and instant centres only where it shows any."""
+    shown = {"path": bool(report.machine.paths), "normal": "centres" in report.sections, "reaction": report.has_forces}
+    words = {name: text for name, text in report.words["line_styles"].items() if shown.get(name, True)}
+    return FigureScenes((scheme_figure.line_styles(words),))
 
 
 # --- the machine at one position and over a turn

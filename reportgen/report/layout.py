@@ -64,6 +64,8 @@ FIGURE_HEIGHT = 241.0
 """What of an A4 page a figure may fill above its caption (mm)."""
 TOGETHER_HEIGHT = 155.0
 """Rows of a figure that are together higher than this (mm) stand in two parts, the later one as its continuation."""
+NEARLY_A_PAGE = 200.0
+"""Rows that are together higher than this (mm) fill a page of their own, of which halves would make two half empty."""
 
 # --- equations --------------------------------------------------------------------------------------
 
@@ -173,7 +175,8 @@ def height(rows: Sequence[Sequence[Scene]]) -> float:
 def in_parts(figure: Figure) -> list[list[list[Scene]]]:
     """The rows of a figure in parts: in one or two where pages have room for these, since a high one leaves white."""
     rows = in_rows(figure.scenes)
-    if height(rows) <= TOGETHER_HEIGHT or len(rows) == 1:
+    whole = height(rows)
+    if whole <= TOGETHER_HEIGHT or NEARLY_A_PAGE < whole <= FIGURE_HEIGHT or len(rows) == 1:
         return [rows]
     halves = ([rows[:at], rows[at:]] for at in range(1, len(rows)))
     least = min(halves, key=lambda parts: max(map(height, parts)))

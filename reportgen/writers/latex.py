@@ -40,6 +40,8 @@ STOREYS, LONG, SHORT = 42, 28, 18
 """Of words with what they lead to: a vector equation in two storeys, one in one or the start of a list, other rows."""
 ONE_STOREY = 6
 """So many vectors stand in one storey."""
+CHARACTERS, TEXT_LINE = 85, 5.0
+"""About so many characters stand in a line of text, and what it takes (mm)."""
 
 
 FAMILIES: Mapping[str, tuple[str, str, str]] = dict.fromkeys(
@@ -155,8 +157,17 @@ class _Writer:
         if isinstance(block, tree.Equation):
             return rf"\let\eqend\nobreak {self.block(block)}\let\eqend\relax\par\nobreak"
         room = self.room_to_table(blocks)
-        name, room = ("needed", room) if room else ("neededbelow", _beginning(following))
+        name, room = ("needed", room) if room else ("neededbelow", self.room_to_go_on(blocks))
         return f"{_command(name, f'{room:g}mm')}{self.block(block)}\\par\\nobreak"
+
+    def room_to_go_on(self, blocks: Sequence[tree.Block]) -> float:
+        """About how much paper (mm) words need with what they lead to, and with what that leads to in its turn."""
+        _, following, *after = blocks
+        room = _beginning(following)
+        if len(after) > 1 and isinstance(after[0], tree.Paragraph) and layout.leads(following, after[0], self.language):
+            lines = -(-len(tree.plain(after[0].inlines, self.language)) // CHARACTERS)
+            room += (lines - 1) * TEXT_LINE + self.room_to_go_on(after)
+        return room
 
     def room_to_table(self, blocks: Sequence[tree.Block]) -> float:
         """About how much paper (mm) blocks need that lead one to the next and at last to a table; 0 for others."""

@@ -142,7 +142,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("open bracket", {"[1, 1, 3.6]": "[1, 1, 3.6"}, "19:1 syntax"),
         ("bracket closed twice", {"[1, 1, 3.6]": "[1, 1, 3.6]]"}, "18:23 syntax"),
         ("open quotation", {"language: en": "place: 'en"}, "19:1 syntax"),
-        ("indentation", {"  H: 95 mm": "   H: 95 mm"}, "5:3 syntax"),
+        ("indentation", {"  H: 95 mm": "   H: 95 mm"}, "4:4 syntax"),
         ("second document", {"indicator:": "---\n…"}, "11:1 syntax"),
         (
             "many faults, told in the order of the file",

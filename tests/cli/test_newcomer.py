@@ -39,8 +39,8 @@ def test_it_tells_its_version() -> None:
 def test_help_has_a_short_name() -> None:
     assert reportgen("build", "-h").stdout == reportgen("build", "--help").stdout != ""
     nothing = reportgen()
-    assert (nothing.returncode, nothing.stdout) == (2, "")
-    assert "Commands:" in nothing.stderr
+    assert (nothing.returncode, nothing.stderr) == (0, "")
+    assert "reportgen -h" in nothing.stdout
 
 
 @pytest.mark.parametrize(

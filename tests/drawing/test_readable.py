@@ -231,6 +231,21 @@ def test_the_legend_has_a_sample_of_every_line() -> None:
     assert scene.width < 160
 
 
+@pytest.mark.parametrize(
+    ("name", "left_out"),
+    [
+        ("slotted-lever-01", {"normal", "reaction"}),
+        ("scotch-yoke-01", {"path", "normal"}),
+        ("four-bar-02", {"reaction"}),
+    ],
+)
+def test_the_legend_names_no_line_that_the_report_does_not_have(name: str, left_out: set[str]) -> None:
+    """A motion alone has no reactions, a link about a fixed point no moving centre, a yoke no curved path."""
+    said = {item.content for item in draw(name, "line-styles").scenes[0].items if isinstance(item, Label)}
+    names = report(name).words["line_styles"]
+    assert {one for one, text in names.items() if text not in said} == left_out
+
+
 # --- loads of one pin
 
 

@@ -12,11 +12,14 @@ import pytest
 
 from reportgen import api
 from reportgen.base.units import write
+from reportgen.cases import open_case
 from reportgen.exercise.case import ExerciseCase
 from reportgen.exercise.solution_page import solution
 from reportgen.exercise.views import lettered
 from reportgen.formula import Chain
-from reportgen.report import Document, Equation, text_of
+from reportgen.marking.key import key_of
+from reportgen.marking.paper import task_of
+from reportgen.report import Document, Equation, Paragraph, Section, plain, text_of
 from reportgen.results.tables import print_tables
 from tests.lanes import matrix
 from tests.report import built
@@ -49,6 +52,23 @@ def test_every_exercise_builds(path: Path, engine: Any) -> None:
         if asked.what != "centre" and put_in:
             number = case.printed.number(asked.id)
             assert write(number.value, number.decimals, language) in text
+
+
+def test_the_paper_begins_with_its_title() -> None:
+    """As that of every other kind; whose it is stands below."""
+    case = open_case(FOLDER / "05.yaml", "en")
+    title, below, *_ = task_of(case, key_of(case)).blocks
+    assert isinstance(title, Section)
+    assert isinstance(below, Paragraph)
+    assert plain(below.inlines, "en").startswith("Assignment: 05")
+
+
+def test_no_figure_stands_above_the_title() -> None:
+    """Where the heading of the solution goes to the next page with what follows it, its figure stays below the data."""
+    pages = pymupdf.open(stream=api.typeset(document(FOLDER / "19.yaml", "en"), "typst")[1])
+    first = pages[0].get_text(sort=True)
+    assert first.index("Exercise of plane motion") < first.index("Table 1") < first.index("Figure 1")
+    assert "Solution" in pages[1].get_text()
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

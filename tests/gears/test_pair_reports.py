@@ -226,3 +226,15 @@ def test_the_mesh_names_what_the_text_names(data: str, tmp_path: Path) -> None:
     assert isinstance(case, PairCase)
     found = {item.content for item in mesh(case).items if isinstance(item, Label)}
     assert {Symbol("N", "1"), Symbol("N", "2"), Symbol("B", "1"), Symbol("B", "2"), Symbol("P")} <= found
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_a_unit_stands_with_the_value_and_not_with_the_name(language: str) -> None:
+    table = next(
+        block
+        for block in pair_case("pair-equal-sliding", language).document().blocks
+        if isinstance(block, tree.Table) and block.key == "tab.pair"
+    )
+    rows = [[tree.plain(cell.inlines, "en") for cell in row] for row in table.rows]
+    assert any("mm" in value for _, _, *values in rows for value in values)
+    assert [name for name, *_ in rows if "mm" in name] == []

@@ -186,12 +186,12 @@ class Browser:
         found: list[Mapping[str, list[Any]]] = self.run(LABELS, list(map(float, angles)))
         return found
 
-    def violations(self, source: str) -> list[str]:
-        """What axe-core finds on the page."""
+    def violations(self, source: str, within: str = "html") -> list[str]:
+        """What axe-core finds on the page, or in what is chosen of it."""
         self.command("Runtime.evaluate", expression=source)
         self.driver.set_script_timeout(120)
-        script = "axe.run(document, {resultTypes: ['violations']}).then((found) => arguments[0](found.violations))"
-        found = self.driver.execute_async_script(script)
+        run = f"axe.run({json.dumps(within)}, {{resultTypes: ['violations']}})"
+        found = self.driver.execute_async_script(f"{run}.then((found) => arguments[0](found.violations))")
         return [f"{one['id']}: {node['html'][:120]}" for one in found for node in one["nodes"]]
 
     def printed(self) -> bytes:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import errno
 import http.client
 import json
+import os
 import re
 import sys
 import threading
@@ -19,11 +21,13 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
+from reportgen.base import source
 from reportgen.base.errors import Where
 from reportgen.base.kinds import kinds
 from reportgen.base.source import LARGEST, MappingNode, read_text
 from reportgen.base.units import Language
 from reportgen.cases import open_case
+from reportgen.page import editing
 from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession
 from reportgen.page.fields import FieldGroup, FieldLine, Form
@@ -202,18 +206,92 @@ def test_files_that_cannot_be_written(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_file_of_a_part_is_changed_below_its_folder_alone(tmp_path: Path) -> None:
-    folder = tmp_path / "work"
-    folder.mkdir()
-    for file in (folder / "cam.yaml", tmp_path / "cam.yaml"):
+def test_a_full_disk_is_told_and_leaves_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some of the new text has room: the file is the old one, nothing lies beside it, nothing is there to undo."""
+    edited = session(tmp_path)
+
+    def full(path: Path, content: bytes) -> int:
+        with path.open("wb") as file:
+            file.write(content[:100])
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as disk:
+        disk.setattr(Path, "write_bytes", full)
+        refused = put(edited, ("parameters", "a"), "275 mm")["refused"]
+    assert os.strerror(errno.ENOSPC) in refused
+    assert (list(tmp_path.iterdir()), edited.done) == ([edited.path], [])
+    assert edited.path.read_text(encoding="utf-8") == SHAPER
+    assert "refused" not in put(edited, ("parameters", "a"), "275 mm"), "there is room again"
+
+
+def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """3,000 are told beside their field with the number that is taken; what no form could show is not taken at all."""
+    edited = session(tmp_path, catalogue.sample("engine-twin", "en"), "twin.yaml")
+    rows = ", ".join(f"{row / 2999:.6f}" for row in range(3000))
+    form = put(edited, ("indicator", "s"), rows, list=True)["form"]
+    assert re.search(r'<div id="f:indicator.s.d">(?:(?!</div>).)*2000 or fewer', form, re.DOTALL)
+    assert 'data-list="2000"' in form
+    edited.edit({"op": "undo"})
+    before = edited.path.read_bytes()
+    for module in (source, editing):
+        monkeypatch.setattr(module, "MOST_TOKENS", 2000)
+    for count, told in ((900, "too large"), (1100, "0, 0, …")):
+        refused = put(edited, ("indicator", "intake"), ", ".join(["0"] * count), list=True)["refused"]
+        assert told in refused
+        assert len(refused) < 200
+    assert edited.path.read_bytes() == before
+
+
+@contextmanager
+def whole_of_two(folder: Path) -> Iterator[EditSession]:
+    """A coursework that names a cam beside itself and one outside its folder, and would open both."""
+    (work := folder / "work").mkdir()
+    for file in (work / "cam.yaml", folder / "cam.yaml"):
         file.write_text(catalogue.sample("cam", "en"), encoding="utf-8")
-    whole = f"{SHAPER}\nparts:\n  - {{file: cam.yaml}}\n  - {{file: ../cam.yaml}}\n"
-    edited = session(folder, whole)
-    put(edited, ("parts", 0, "parameters", "h"), "41 mm")
-    assert "h: 41 mm" in (folder / "cam.yaml").read_text(encoding="utf-8")
-    assert "refused" in put(edited, ("parts", 1, "parameters", "h"), "41 mm")
-    assert "h: 40 mm" in (tmp_path / "cam.yaml").read_text(encoding="utf-8")
-    assert edited.path.read_text(encoding="utf-8") == whole
+    whole = session(work, f"{SHAPER}\nparts:\n  - {{file: ../cam.yaml}}\n  - {{file: cam.yaml}}\n")
+    parts: list[EditSession] = []
+
+    def of_part(file: Path) -> EditSession:
+        parts.append(EditSession(partial(open_case, file), "en", path=file, whole=whole.path.name))
+        return parts[-1]
+
+    whole.of_part = of_part
+    yield whole
+    for part in parts:
+        part.close()
+
+
+def test_a_part_in_a_file_of_its_own_has_its_own_form(tmp_path: Path) -> None:
+    """Its page writes this file alone; the number of a page stays when parts are moved, and ends with the part."""
+    with whole_of_two(tmp_path) as whole:
+        before = whole.path.read_bytes()
+        (page,) = re.findall(r'href="part/(\w+)/"', whole.form())
+        part = whole.below(page)
+        assert part is not None
+        assert part is whole.below(page), "opened once"
+        assert "f:parameters.h" in part.form()
+        assert 'href="../../"' in part.form()
+        put(part, ("parameters", "h"), "41 mm")
+        assert "h: 41 mm" in (tmp_path / "work" / "cam.yaml").read_text(encoding="utf-8")
+        assert whole.path.read_bytes() == before
+        put(part, ("parameters", "h"), "41")
+        led = rf'<a href="part/{page}/"><code>cam.yaml:\d+</code>'
+        assert re.search(led, whole.form()), "a fault leads there"
+        whole.edit({"op": "move", "where": ["parts"], "first": 0})
+        assert whole.below(page) is part
+        whole.edit({"op": "remove", "where": ["parts", 0]})
+        assert whole.below(page) is None
+
+
+def test_no_page_leads_to_a_part_outside_the_folder(tmp_path: Path) -> None:
+    """Neither by a name that leads out, nor by a link that takes the place of a file later."""
+    with whole_of_two(tmp_path) as whole:
+        (page,) = re.findall(r'href="part/(\w+)/"', whole.form())
+        assert all(whole.below(name) is None for name in ("", "..", "2", "cam.yaml"))
+        (own := tmp_path / "work" / "cam.yaml").unlink()
+        own.symlink_to(tmp_path / "cam.yaml")
+        assert whole.below(page) is None
+        assert "part/" not in whole.form()
 
 
 # --- what is made -------------------------------------------------------------------------------------
@@ -300,24 +378,50 @@ def served(edited: EditSession) -> Iterator[Server]:
     server.server_close()
 
 
+def answered(server: Server, method: str, name: str, headers: dict[str, str], content: str | None = None) -> int:
+    """The status of the answer to a request below the secret address; of another one, if `name` begins with `/`."""
+    address = urlsplit(server.address)
+    with closing(http.client.HTTPConnection(address.netloc, timeout=10)) as connection:
+        connection.request(method, name if name.startswith("/") else address.path + name, content, headers)
+        return connection.getresponse().status
+
+
+def own_headers(server: Server) -> dict[str, str]:
+    return {"Origin": f"http://{urlsplit(server.address).netloc}", "Content-Type": "application/json"}
+
+
+def test_the_page_of_a_part_is_served_by_the_same_rules(tmp_path: Path) -> None:
+    body = json.dumps({"op": "set", "where": ["parameters", "h"], "value": "41 mm"})
+    with whole_of_two(tmp_path) as whole:
+        (page,) = re.findall(r'href="(part/\w+/)"', whole.form())
+        with served(whole) as server:
+            own, wrong = own_headers(server), f"/wrong/{page}"
+            assert answered(server, "POST", f"{page}edit.json", {}, body) == 403
+            assert answered(server, "POST", f"{wrong}edit.json", own, body) == 404
+            assert answered(server, "GET", wrong, {}) == 404
+            assert [part for _, part in whole._parts.values() if part] == [], "nothing is opened for them"
+            assert answered(server, "GET", page, {}) == 200
+            assert answered(server, "GET", "part/7/", {}) == 404
+            assert answered(server, "POST", "part/../edit.json", own, body) == 404
+            assert answered(server, "POST", f"{page}edit.json", own, body) == 200
+    assert "h: 41 mm" in (tmp_path / "work" / "cam.yaml").read_text(encoding="utf-8")
+    assert "h: 40 mm" in (tmp_path / "cam.yaml").read_text(encoding="utf-8")
+
+
 def test_only_its_own_page_may_change_the_file(tmp_path: Path) -> None:
     edited = session(tmp_path)
     with served(edited) as server:
-        address = urlsplit(server.address)
-        own = {"Origin": f"http://{address.netloc}", "Content-Type": "application/json"}
+        own, path = own_headers(server), "edit.json"
         body = json.dumps({"op": "set", "where": ["parameters", "a"], "value": "1 mm", "file": "/etc/passwd"})
 
-        def status(path: str, headers: dict[str, str], content: str | None = body) -> int:
-            with closing(http.client.HTTPConnection(address.netloc, timeout=10)) as connection:
-                connection.request("POST", path, content, headers)
-                return connection.getresponse().status
+        def status(name: str, headers: dict[str, str], content: str | None = body) -> int:
+            return answered(server, "POST", name, headers, content)
 
-        path = f"{address.path}edit.json"
         assert status(path, own | {"Origin": "http://elsewhere.example"}) == 403
         assert status(path, {"Content-Type": "application/json"}) == 403
         assert status(path, own | {"Host": "elsewhere.example"}) == 403
         assert status("/wrong/edit.json", own) == 404
-        assert status(f"{address.path}other.json", own) == 404
+        assert status("other.json", own) == 404
         assert status(path, own | {"Content-Type": "text/plain"}) == 415
         assert status(path, own | {"Content-Length": str(LARGEST + 1)}, None) == 413
         for nonsense in (

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from reportgen import api
+from reportgen.base.made import RECORD
 from reportgen.report import Contents, Section, plain
 from tests.lanes import matrix, proof
 from tests.report import built, pages
@@ -184,8 +185,8 @@ def test_a_new_process_gives_the_same_bytes_and_a_source_that_compiles(
     done = subprocess.run(command, cwd=built.ROOT, check=True, capture_output=True, text=True, timeout=300)
     folder = tmp_path / path.stem
     assert done.stdout.splitlines() == [str(folder / "report.pdf")]
-    kept = folder / f"report{api.SUFFIX[engine]}"
-    assert set(folder.iterdir()) == {folder / "report.pdf", kept}
+    kept, record = folder / f"report{api.SUFFIX[engine]}", folder / RECORD
+    assert set(folder.iterdir()) == {folder / "report.pdf", kept, record}
     pdf = (folder / "report.pdf").read_bytes()
     report = built.report(path, engine, built.own_language(path))
     assert pdf == report.pdf

@@ -12,7 +12,7 @@ import pytest
 
 from reportgen.base.template_folders import templates
 from reportgen.cases import MachineCase, open_case
-from reportgen.report import text_of
+from reportgen.report import Section, Table, plain, text_of
 from reportgen.report.comments import top_reactions
 from reportgen.report.report import Report
 from tests.lanes import matrix
@@ -96,3 +96,21 @@ def test_words_that_were_struck_out_stay_out(language: str) -> None:
     for path in (templates() / language).rglob("*.*"):
         text = path.read_text(encoding="utf-8")
         assert [word for word in WORDS[language] if word in text] == []
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_a_report_of_motion_alone_has_no_caption_of_forces(language: Any) -> None:
+    report, _ = page("four-bar-02", language)
+    captions = [plain(block.caption, language) for block in report.case.document().blocks if isinstance(block, Table)]
+    assert not report.has_forces
+    assert [one for one in captions if re.search(r"\b(lực|forces?)\b", one)] == []
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_a_heading_within_a_line_ends_as_a_sentence(language: Any) -> None:
+    """“Measured results. The plan …”: what follows on the line begins anew, as behind bold words of a paragraph."""
+    report, _ = page("four-bar-02", language)
+    blocks = report.case.document().blocks
+    titles = [plain(block.title, language) for block in blocks if isinstance(block, Section) and block.level > 3]
+    assert titles
+    assert [one for one in titles if not one.endswith(".")] == []

@@ -24,6 +24,7 @@ from reportgen.report import (
     Paragraph,
     Plate,
     Reference,
+    Section,
     Table,
     Text,
 )
@@ -275,3 +276,15 @@ def test_no_figure_passes_a_long_table() -> None:
     found = [(number, places[0].y0) for number, places in where if places]
     assert [number for number, _ in found] == [1, 1]
     assert found[0][1] < found[1][1]
+
+
+@needs_tex
+def test_a_part_begins_below_the_text_that_follows_a_figure() -> None:
+    """A figure and the last lines before a heading have gone to the next page: the part has its beginning there."""
+    filling = tuple(Paragraph((Text(f"Line {n}."),)) for n in range(38))
+    figure = Figure((Scene(100.0, 80.0, ()),), (Text("waits"),), "fig.waits", "1")
+    overrunning = Paragraph((Text("More words than this page has room for. " * 6),))  # three lines do not part
+    part = Section(1, (Text("Conclusion"),))
+    pages = by_latex(*filling[:30], figure, *filling[30:], overrunning, part, Paragraph((Text("Last words."),)))
+    assert ["waits" in page.get_text() for page in pages] == [False, True]
+    assert "Last words." in pages[1].get_text()

@@ -246,6 +246,11 @@
         all[from + index] ??= columns.map(() => "0");
         line.forEach((one, column) => { if (first + column < columns.length) all[from + index][first + column] = one; });
       });
+      const most = Math.min(...inputs.map((input) => Number(input.dataset.list) || Infinity));
+      if (all.length > most) {
+        document.getElementById("refused").textContent = words.many_rows.replace("{count}", all.length).replace("{most}", most);
+        return;
+      }
       put(inputs, all);
       if (turned) queue.then(() => { document.getElementById("refused").textContent = words.commas; });
     });

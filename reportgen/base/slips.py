@@ -1,0 +1,97 @@
+"""Slips of typing that make a line mean something else: named as what they are, at their own place.
+
+`a:0.255 m` and `a = 0.255 m` are texts to YAML, not keys with values; “95 mm” in typographic quotes is no number; and a
+blank that was copied from a page (U+00A0) is none that parts anything.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterator
+
+from reportgen.base.errors import Fault, Mark
+
+_NAME = r"[^\W\d]\w*(?:\.\w+)*"
+_UNPARTED = re.compile(rf"(?P<lead>[ ]*(?:- )?)(?P<key>{_NAME})(?::(?![\s/])|[ ]*=[ ]*)(?P<value>\S.*?)\s*")
+_NEXT = re.compile(rf"\s+{_NAME}\s*[:=].*")
+"""Where a text runs on over the lines of further keys."""
+_ODD_BLANK = re.compile("[\u00a0\u1680\u2000-\u200b\u202f\u205f\u3000\ufeff]")
+_QUOTES = {"“": "”", "”": "”", "„": "“”", "«": "»", "‘": "’", "’": "’", "‚": "‘’"}
+"""Typographic quotation marks and what closes them."""
+
+
+def in_quotes(text: str) -> str | None:
+    """What stands in typographic quotation marks, None for a text that does not."""
+    inner = text.strip()
+    return inner[1:-1] if len(inner) > 1 and inner[-1] in _QUOTES.get(inner[0], "") else None
+
+
+def meant(key: str) -> str:
+    """The key that a text was meant to be, the text itself without a slip."""
+    unparted = _UNPARTED.fullmatch(key)
+    return unparted["key"] if unparted else in_quotes(key) or _ODD_BLANK.sub("", key)
+
+
+def slip(text: str, mark: Mark) -> Fault | None:
+    """What is wrong with a text that was to be a key, a value or a section, if it is a slip of typing."""
+    if odd := _ODD_BLANK.search(text):
+        return _odd_blank(odd, mark)
+    if in_quotes(text) is not None:
+        return Fault("typographic-quotes", mark, {"text": text, "fixed": in_quotes(text) or ""})
+    return _unparted(text, mark)
+
+
+def slips_above(lines: list[str], line: int, file: str) -> list[Fault]:
+    """The slips of the line (from 1) where YAML stumbles, or else of the lines right above it."""
+    faults: list[Fault] = []
+    for number in range(min(line, len(lines)), 0, -1):
+        if not _bare(lines[number - 1]).strip():
+            continue
+        slips = list(_slips_in(lines[number - 1], number, file))
+        if not slips and (faults or number < line):
+            break
+        faults[:0] = slips
+    return faults
+
+
+def misplaced(lines: list[str], mark: Mark) -> Mark:
+    """Of a line and the one above, in two columns of one section, the one that is indented unlike all the file."""
+    indents = {number: len(line) - len(line.lstrip(" ")) for number, line in enumerate(lines, 1) if _bare(line).strip()}
+    usual = Counter(filter(None, indents.values())).most_common(1)
+    above = max((number for number in indents if number < mark.line), default=0)
+    if above and usual and indents[above] % usual[0][0] and indents.get(mark.line, 0) % usual[0][0] == 0:
+        return Mark(mark.file, above, indents[above] + 1)
+    return mark
+
+
+def _bare(line: str) -> str:
+    """A line without its comment."""
+    return re.sub(r"(^|\s)#.*", "", line)
+
+
+def _slips_in(line: str, number: int, file: str) -> Iterator[Fault]:
+    if odd := _ODD_BLANK.search(_bare(line)):
+        yield _odd_blank(odd, Mark(file, number))
+    else:
+        indent = len(line) - len(line.lstrip(" "))
+        fault = _unparted(_bare(line).strip(), Mark(file, number, indent + 1))
+        yield from [fault] if fault else []
+
+
+def _odd_blank(blank: re.Match[str], mark: Mark) -> Fault:
+    about = {"text": f"U+{ord(blank[0]):04X}"}
+    return Fault("odd-blank", Mark(mark.file, mark.line, mark.column + blank.start()), about)
+
+
+def _unparted(text: str, mark: Mark) -> Fault | None:
+    """A key and its value that nothing parts, or an equals sign."""
+    match = _UNPARTED.fullmatch(text)
+    if match is None:
+        return None
+    value = _NEXT.sub("", match["value"])
+    end = match.start("value")
+    code = "equals-sign" if "=" in text[len(match["key"]) : end] else "no-blank"
+    column = mark.column + len(match["lead"])
+    fixed = f"{match['key']}: {value}"
+    return Fault(code, Mark(mark.file, mark.line, column), {"text": text[:end].lstrip() + value, "line": fixed})

@@ -1,0 +1,85 @@
+"""Help and pages in the language that is spoken: nothing is left in English where the locale is Vietnamese."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any, get_args
+
+import pytest
+import typer
+
+from reportgen.base.pages import as_html, heading, pages
+from reportgen.base.units import Language
+from reportgen.base.words import SPOKEN, helps
+from reportgen.cli import app
+from reportgen.cli.helping import OTHERS, PAGES, start
+
+GROUP: Any = typer.main.get_command(app)
+COMMANDS: dict[str, Any] = GROUP.commands
+ENGLISH = re.compile(r"\b(the|of|or|and|with|is|Usage|default|required|Options|Arguments|Show|Print|Folder)\b")
+
+
+def texts() -> Iterator[str]:
+    """Every text of the commands, as it stands in their code."""
+    for command in (GROUP, *COMMANDS.values()):
+        yield from (command.help or "").split("\n\n")
+        for parameter in command.params:
+            yield parameter.help or ""
+            if isinstance(parameter.show_default, str):
+                yield parameter.show_default
+
+
+def shown(command: Any, language: Language, monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.setenv(SPOKEN, language)
+    name = "reportgen" if command is GROUP else command.name
+    context: Any = command.context_class(command, info_name=name, help_option_names=["-h", "--help"])
+    return str(command.get_help(context))
+
+
+@pytest.mark.parametrize("language", [language for language in get_args(Language) if language != "en"])
+def test_each_text_has_its_own_in_every_other_language_and_no_other_is_kept(language: Language) -> None:
+    plain = {" ".join(text.split()) for text in texts()} - {""}
+    # Typer's own.
+    plain.add("Show this message and exit.")
+    assert set(helps(language)["texts"]) == plain
+
+
+@pytest.mark.parametrize("name", ["", *COMMANDS])
+def test_help_has_nothing_of_the_other_language(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    command = COMMANDS[name] if name else GROUP
+    vietnamese = shown(command, "vi", monkeypatch)
+    assert not ENGLISH.search(re.sub(r"--[\w-]+|<.*?>", "", vietnamese))
+    assert "Cách dùng: " in vietnamese
+    assert shown(command, "en", monkeypatch).replace("…", "").isascii()
+
+
+def test_each_help_names_a_page_that_there_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert set(PAGES) <= set(COMMANDS)
+    known = pages("en")
+    assert {*PAGES.values(), OTHERS} <= set(known)
+    assert shown(COMMANDS["grade"], "en", monkeypatch).endswith("More: reportgen docs class")
+
+
+def test_the_start_leads_from_the_kinds_to_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
+    for language in get_args(Language):
+        monkeypatch.setenv(SPOKEN, language)
+        named = re.findall(r"reportgen (\w+)", start())
+        assert [name for name in named if name in COMMANDS][:4] == ["kinds", "new", "check", "build"]
+
+
+def test_the_first_page_is_in_the_language_and_the_others_are_all_there() -> None:
+    assert [heading(pages(language)["README"]) for language in ("vi", "en")] == [
+        "reportgen: thuyết minh bài tập lớn Nguyên lý máy",
+        "reportgen",
+    ]
+    assert {"class", "assignment", "commands", "machines"} <= set(pages("vi"))
+
+
+def test_a_page_for_the_browser_has_its_tables_and_the_places_that_links_name() -> None:
+    made = as_html(pages("en")["class"])
+    text = made.read_text(encoding="utf-8")
+    made.unlink()
+    assert '<h3 id="corrections-that-stay">' in text
+    assert "<table>" in text
+    assert "<base href=" in text
