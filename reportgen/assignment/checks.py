@@ -13,7 +13,7 @@ from pathlib import Path
 from statistics import mode
 from typing import Any
 
-from reportgen.assignment.common import Check, Draft, Labels, labels_of, number_of
+from reportgen.assignment.common import Check, Draft, Labels, labels_of, named_worked, number_of
 from reportgen.base.errors import Finding, Where
 from reportgen.base.files import school_strays
 from reportgen.base.template_folders import is_school
@@ -28,6 +28,31 @@ def of_parameters(look: Callable[[Any], Iterator[Finding]]) -> Check:
             yield from look(draft.sections["parameters"])
 
     return check
+
+
+def of_turning(look: Callable[[Any], Iterator[Finding]]) -> Check:
+    """As `of_parameters`, of what only a whole turn asks for: at single instants a machine need but stand."""
+    every = of_parameters(look)
+
+    def check(draft: Draft) -> Iterator[Finding]:
+        if draft.at("positions", "at") is None:
+            yield from every(draft)
+
+    return check
+
+
+def instants(draft: Draft) -> Iterator[Finding]:
+    """Instants stand alone, each once: evenly spaced positions have a number and a start."""
+    positions = draft.at("positions")
+    if not isinstance(positions, dict) or positions.get("at") is None:
+        return
+    for key in ("count", "start"):
+        if positions.get(key) is not None:
+            yield Finding("both-given", ("positions", key), {"first": "at", "second": key}, at="key")
+    at = positions["at"]
+    for index, text in enumerate(at if isinstance(at, list) else ()):
+        if text in at[:index]:
+            yield Finding("repeated", ("positions", "at", index), {"text": str(text)})
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,11 +166,11 @@ def worked_positions(turns: int, names: Labels | None = None) -> Check:
 
     def check(draft: Draft) -> Iterator[Finding]:
         report, positions = draft.sections.get("report"), draft.sections.get("positions")
-        if report is None or positions is None or report.worked_positions is None:
+        if report is None or positions is None or (worked := named_worked(report, positions)) is None:
             return
         labels = labels_of(names, draft.sections.get("parameters"), positions, turns)
         met: set[int] = set()
-        for index, named in enumerate(report.worked_positions):
+        for index, named in enumerate(worked):
             place, number = ("report", "worked_positions", index), number_of(named, labels)
             if number in met:
                 yield Finding("repeated", place, {"text": str(named)})

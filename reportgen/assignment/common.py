@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,6 +14,7 @@ from reportgen.assignment.fields import (
     Angle,
     Date,
     Flag,
+    Instant,
     Interval,
     OneLine,
     Ratio,
@@ -29,6 +31,10 @@ POSITIONS = "positions"
 """The section, or the parameter, that says how many positions a turn has."""
 FEWEST_POSITIONS, MOST_POSITIONS = 4, 360
 Count = Annotated[int, Whole(FEWEST_POSITIONS, MOST_POSITIONS)]
+MOST_INSTANTS = 24
+TENS, ONES = ("", "X", "XX"), ("", "I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX")
+ROMAN = tuple(ten + one for ten in TENS for one in ONES)[: MOST_INSTANTS + 1]
+"""Roman numbers up to that of the last instant; the first of them stands for nothing."""
 Extent = Literal["full", "short"]
 
 
@@ -88,12 +94,30 @@ class ReportSection(Part):
 class Positions(Part):
     """How many positions a turn has, which way the driver goes and where it starts.
 
-    `start` is the driver's angle from +x; None is the natural start of the kind.
+    `start` is the driver's angle from +x; None is the natural start of the kind.  Instants `at` places of the driver
+    (angles of a crank from +x, ways of a slider) stand in place of evenly spaced positions.
     """
 
     count: Count = 8
     direction: Literal["anticlockwise", "clockwise"] = "anticlockwise"
     start: Angle | None = None
+    at: Annotated[tuple[Instant, ...], Field(min_length=1, max_length=MOST_INSTANTS)] | None = None
+
+    @property
+    def number(self) -> int:
+        """How many there are in a turn, or how many instants."""
+        return len(self.at) if self.at else self.count
+
+    @property
+    def first(self) -> Given | None:
+        """The driver's place in position 1, None for the natural start of the kind."""
+        return self.at[0] if self.at else self.start
+
+    def instants(self, turns: int = 1) -> tuple[float, ...]:
+        """How far (rad) a crank has turned from the first instant to each, within a cycle of so many turns."""
+        whole = turns * 2 * math.pi
+        at = self.at or ()
+        return tuple(self.sign * (one.si - at[0].si) % whole if one is not at[0] else 0.0 for one in at)
 
     @property
     def sign(self) -> int:
@@ -102,7 +126,7 @@ class Positions(Part):
 
     def start_or(self, natural: float = 0.0) -> float:
         """The driver's angle in position 1 (rad): as given, else its natural one."""
-        return natural if self.start is None else self.start.si
+        return natural if self.first is None else self.first.si
 
 
 class Drawing(Part):
@@ -216,7 +240,7 @@ class Assignment:
     @property
     def worked_positions(self) -> tuple[int, ...]:
         """Numbers, 1…`cycle_positions`, of the positions written out in full."""
-        worked = self.report.worked_positions
+        worked = named_worked(self.report, self.positions)
         if worked is None:
             return tuple(range(1, self.cycle_positions + 1))
         return tuple(self.labels.index(one) + 1 if isinstance(one, str) else one for one in worked)
@@ -237,7 +261,7 @@ class Assignment:
             raise ValueError(f"{count} positions")
         if POSITIONS in type(self.parameters).model_fields:
             return replace(self, parameters=self.parameters.model_copy(update={POSITIONS: count}))
-        counted = replace(self, positions=self.positions.model_copy(update={"count": count}))
+        counted = replace(self, positions=self.positions.model_copy(update={"count": count, "at": None}))
         worked = self.report.worked_positions
         labels = counted.labels
         kept = None if worked is None else tuple(one for one in worked if number_of(one, labels)) or (2,)
@@ -341,8 +365,19 @@ def file_model(kind: Kind) -> type[Part]:
     return create_model(f"{name}File", __base__=Part, **fields)
 
 
+def named_worked(report: ReportSection, positions: Positions) -> tuple[int | str, ...] | None:
+    """The positions written out in full as the file names them (None: all); of instants all, if it names none."""
+    untold = "worked_positions" not in report.model_fields_set
+    return None if positions.at and untold else report.worked_positions
+
+
 def labels_of(names: Labels | None, parameters: Any, positions: Positions, turns: int) -> Sequence[str]:
-    """What the positions of a cycle of `turns` turns are called: their numbers, if the kind has no names for them."""
+    """What the positions of a cycle of `turns` turns are called: their numbers, if the kind has no names for them.
+
+    Instants have Roman numbers, whatever the kind.
+    """
+    if positions.at:
+        return ROMAN[1 : len(positions.at) + 1]
     if names is None or parameters is None:
         return tuple(map(str, range(1, positions.count * turns + 1)))
     return names(parameters, positions)

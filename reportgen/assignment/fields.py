@@ -32,7 +32,7 @@ _SLUG = r"[a-z0-9][a-z0-9-]{0,60}"
 RESERVED = re.compile(r"(CON|PRN|AUX|NUL|CLOCK|CONIN|CONOUT|COM[0-9]|LPT[0-9])")
 """Names, in capitals, that some systems keep for devices."""
 _INTEGER = re.compile(r"[+-]?[0-9]{1,9}")
-_LABEL = re.compile(r"[a-z]|[0-9]{1,3}")
+_LABEL = re.compile(r"[a-z]|[0-9]{1,3}|[IVX]{1,5}")
 
 
 def fault(code: str, **arguments: str) -> PydanticCustomError:
@@ -265,7 +265,7 @@ class Until(Reader):
 class WorkedPositions(Reader):
     """Positions to write out in full: a list of numbers from 1 and of labels, or "all" (None).
 
-    A label is a letter, or a number in quotation marks.
+    A label is a letter or a Roman number, or a number in quotation marks.
     """
 
     def read(self, value: object) -> tuple[int | str, ...] | None:
@@ -312,6 +312,25 @@ def quantity(unit: str, **ends: float) -> Quantity:
     return Quantity(unit, Interval(**ends))
 
 
+@dataclass(frozen=True, slots=True)
+class Either(Reader):
+    """A quantity of one dimension or of another: the angle of a crank, or the way of a slider."""
+
+    first: Quantity
+    second: Quantity
+
+    def read(self, value: object) -> Given:
+        try:
+            return self.first.read(value)
+        except PydanticCustomError as wrong:
+            if (wrong.context or {}).get("code") != "wrong-unit":
+                raise
+        return self.second.read(value)
+
+    def schema(self) -> dict[str, Any]:
+        return self.first.schema() | {"examples": [f"1 {one.unit}" for one in (self.first, self.second)]}
+
+
 OneLine = Annotated[str, TypedText()]
 Date = Annotated[datetime.date, Day()]
 Length = Annotated[Given, quantity("mm", least=0.1, below=1e5)]
@@ -321,13 +340,17 @@ Angle = Annotated[Given, quantity("deg", least=-360, most=360, tiny=1e-6)]
 CycleAngle = Annotated[Given, quantity("deg", least=0, most=720)]
 RotationalSpeed = Annotated[Given, quantity("rpm", least=1e-3, most=1e5)]
 AngularVelocity = Annotated[Given, quantity("rad/s", least=1e-4, most=1e5)]
+AngularAcceleration = Annotated[Given, quantity("rad/s2", least=-1e9, most=1e9, tiny=1e-6)]
 Force = Annotated[Given, quantity("N", least=-1e9, most=1e9, tiny=1e-6)]
 ForceSize = Annotated[Given, quantity("N", least=0, most=1e9, tiny=1e-6)]
 ForceUnit = Annotated[Given, UnitOf("N")]
 Weight = Annotated[Given, quantity("N", least=0, most=1e7, tiny=1e-6)]
 Mass = Annotated[Given, quantity("kg", least=0, most=1e6, tiny=1e-6)]
 MomentOfInertia = Annotated[Given, quantity("kg m2", least=0, most=1e7, tiny=1e-12)]
-Acceleration = Annotated[Given, quantity("m/s2", least=1e-3, most=100)]
+Gravity = Annotated[Given, quantity("m/s2", least=0, most=100, tiny=1e-3)]
+Acceleration = Annotated[Given, quantity("m/s2", least=-1e5, most=1e5, tiny=1e-6)]
+DEGREES, WAY = quantity("deg", least=-360, most=720, tiny=1e-6), quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
+Instant = Annotated[Given, Either(DEGREES, WAY)]
 Pressure = Annotated[Given, quantity("N/cm2", least=0, most=1e5, tiny=1e-6)]
 RodRatio = Annotated[Given, Ratio(Interval(least=0.001, below=1), inverse="inverse-ratio")]
 Share = Annotated[Given, Ratio(Interval(least=0, most=1, tiny=1e-6))]

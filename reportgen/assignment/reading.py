@@ -13,7 +13,7 @@ from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
 from reportgen.assignment import parts
-from reportgen.assignment.checks import school_of, worked_positions
+from reportgen.assignment.checks import instants, school_of, worked_positions
 from reportgen.assignment.common import PARTS, Assignment, Draft, Drawing, Kind, Positions, sections
 from reportgen.assignment.fields import RESERVED
 from reportgen.assignment.schema import keys_at
@@ -52,7 +52,7 @@ def assess(
     if kind is None:
         findings.insert(0, _no_kind(name, kinds))
     else:
-        numbered = (worked_positions(kind.turns, kind.labels),) if kind.has_positions else ()
+        numbered = (instants, worked_positions(kind.turns, kind.labels)) if kind.has_positions else ()
         for check_one in (school_of(path), *kind.checks, *numbered):
             places = {finding.where for finding in findings}
             findings += [finding for finding in check_one(draft) if finding.where not in places]

@@ -37,6 +37,8 @@ _MOMENT: Dimension = (("kilogram", 1), ("meter", 2), ("second", -2))
 _TIME: Dimension = (("second", 1),)
 _VELOCITY: Dimension = (("meter", 1), ("second", -1))
 _ACCELERATION: Dimension = (("meter", 1), ("second", -2))
+_STIFFNESS: Dimension = (("kilogram", 1), ("second", -2))
+_TORSION: Dimension = (("kilogram", 1), ("meter", 2), ("radian", -1), ("second", -2))
 _ANGULAR_ACCELERATION: Dimension = (("radian", 1), ("second", -2))
 
 PLAIN: Mapping[str, tuple[float, Dimension]] = {
@@ -64,6 +66,9 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "cm/s2": (1e-2, _ACCELERATION),
     "mm/s2": (1e-3, _ACCELERATION),
     "rad/s2": (1.0, _ANGULAR_ACCELERATION),
+    "N/mm": (1e3, _STIFFNESS),
+    "N/m": (1.0, _STIFFNESS),
+    "N m/rad": (1.0, _TORSION),
 }
 """SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
 
@@ -187,6 +192,14 @@ def _ways(body: str) -> list[str]:
     if apart and last != marks[0]:
         return [f"{whole}{''.join(groups[:-1])}.{groups[-1]}"]
     return [whole + "".join(groups)] if apart and len(groups[-1]) == 3 else []
+
+
+def measures(unit: str, like: str) -> bool:
+    """Whether one unit has the dimension of another."""
+    try:
+        return read_unit(unit, like) > 0
+    except QuantityFault:
+        return False
 
 
 def read_unit(text: str, unit: str) -> float:

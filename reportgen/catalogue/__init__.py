@@ -24,7 +24,7 @@ from types import ModuleType
 from typing import Any
 
 from reportgen.assignment import reading
-from reportgen.assignment.common import Assignment, Kind
+from reportgen.assignment.common import Assignment, Kind, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
 from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Problem, TemplateError
@@ -33,9 +33,10 @@ from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
 from reportgen.base.source_text import put, text_of
 from reportgen.base.template_folders import kind_file, samples
-from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
+from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
-from reportgen.catalogue import assembly
+from reportgen.catalogue import assembly, declared_loads, given_springs, wide_sliders
+from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
 
 
@@ -65,7 +66,8 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     """The assignment of nodes that were read from `path` or put together from several files; else its faults."""
     assignment, faults = understood(source, path)
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
-        faults = reading.placed(source, _out_of_reach(machine_of(assignment)))
+        machine = machine_of(assignment)
+        faults = reading.placed(source, [*_misplaced(assignment, machine), *_out_of_reach(machine)])
     return (None if faults else assignment), faults
 
 
@@ -74,8 +76,31 @@ def understood(source: Source, path: Path) -> tuple[Assignment | None, list[Faul
     return reading.assess(source, path, kinds(), kind)
 
 
+def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
+    """Instants at places of another sort of driver; loads on links and points that are not there."""
+    slides = bool(machine.span)
+    for index, at in enumerate(assignment.positions.at or ()):
+        if slides == measures(at.unit, "deg"):
+            words = {"given": at.text, "unit": "mm" if slides else "deg"}
+            yield Finding("wrong-unit", ("positions", "at", index), words)
+    if isinstance(assignment.parameters, UnderGravity):
+        yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)
+        yield from given_springs.faults(assignment.parameters.springs, machine.linkage)
+    if isinstance(assignment.parameters, Driven):
+        points = declared_loads.pins(machine.linkage)
+        for index, load in enumerate(assignment.parameters.loads):
+            where = ("parameters", "loads", index)
+            yield from declared_loads.on_link(points, load.link, load.at, where)
+            yield from declared_loads.sized(load, where)
+            if isinstance(load, declared_loads.OverAngle):
+                yield from declared_loads.over_cycle(load, machine.turns, where)
+
+
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
+    if machine.instants:
+        yield from assembly.at_instants(machine.linkage, machine.angles(machine.cycle_angles), not machine.span)
+        return
     driven_through = (
         assembly.Way(machine.start, machine.start + machine.turn * machine.span, False)
         if machine.span
@@ -153,7 +178,7 @@ def example(path: Path, language: Language | None = None) -> str:
 
 def _understood_positions(assignment: Assignment) -> Iterator[Finding]:
     """Which positions are worked out, where their labels are not their numbers."""
-    if not kind(assignment.kind).has_positions or assignment.report.worked_positions is None:
+    if not kind(assignment.kind).has_positions or named_worked(assignment.report, assignment.positions) is None:
         return
     labels = assignment.labels
     pairs = [(number, labels[number - 1]) for number in assignment.worked_positions]

@@ -122,6 +122,26 @@ def near_dead_point(linkage: Linkage, driven: Way, where: Where) -> Iterator[Fin
         return
 
 
+def at_instants(linkage: Linkage, places: Floats, turning: bool) -> Iterator[Finding]:
+    """The instants at which a group does not assemble, or is so near to a dead point that its forces are rounding."""
+    motion, shown = solve_motion(linkage, places, 1.0), Way(turning=turning).shown
+    size, limit = _size(motion), np.sin(np.radians(LEAST_ANGLE))
+    for index, place in enumerate(map(float, places)):
+        where = ("positions", "at", index)
+        for dyad in linkage.dyads:
+            least = float(clearance(dyad, motion, size)[index])
+            if not least >= limit**2:
+                at = f"{shown(place)}{'°' if turning else ' mm'}"
+                about = {"group": f"{dyad.links[0]}, {dyad.links[1]}", "at": at}
+                yield Finding("no-assembly-at" if least < 0 else "dead-point-at", where, about)
+                break
+
+
+def turns(linkage: Linkage) -> bool:
+    """Whether the crank carries all groups through a whole turn."""
+    return bool(solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0).reachable.all())
+
+
 def too_large(linkage: Linkage, drawn: float, where: Where) -> Iterator[Finding]:
     """A mechanism that no sheet A0 holds when its crank is drawn `drawn` long (m on paper)."""
     motion = solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0)

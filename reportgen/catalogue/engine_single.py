@@ -10,17 +10,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from string import ascii_lowercase
-from typing import Annotated
+from typing import Annotated, ClassVar
 
 import numpy as np
 
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import Assignment, Draft, Positions
-from reportgen.assignment.fields import Acceleration, Interval, Length, Offset, Ratio, Share
+from reportgen.assignment.fields import Gravity, Interval, Length, Offset, Ratio, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import CRANK_DRAWN, Driven, GivenSheet, driven
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import (
     CENTRE_PLANS,
     OFFSET_PLANS,
@@ -43,7 +45,7 @@ GyrationRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1))]
 Indicator = given_loads.Diagram
 
 
-class Parameters(Driven, masses=(1, 2, 3), required=(2, 3), moments=(2,)):
+class Parameters(Driven, masses=(2, 3), required=(2, 3), moments=(2,)):
     """The cylinder, then crank and rod by H, e, K or by R and L; the speed; what moves."""
 
     D: Length
@@ -54,7 +56,8 @@ class Parameters(Driven, masses=(1, 2, 3), required=(2, 3), moments=(2,)):
     e: Offset = Given(0.0, 0.0, "mm", "0 mm")
     s: Share
     rho: GyrationRatio | None = None
-    g: Acceleration = Given(9.8, 9.8, "m/s2", "9.8 m/s2")
+    g: Gravity = Given(9.8, 9.8, "m/s2", "9.8 m/s2")
+    crank_on_axis: ClassVar[bool] = True
 
     @property
     def has_lengths(self) -> bool:
@@ -64,7 +67,7 @@ class Parameters(Driven, masses=(1, 2, 3), required=(2, 3), moments=(2,)):
 
 def _start(geometry: OffsetSlider, positions: Positions) -> float:
     """φ of the first position: the top, unless the file says otherwise."""
-    return geometry.stretched if positions.start is None else geometry.phi(positions.start.si)
+    return geometry.stretched if positions.first is None else geometry.phi(positions.first.si)
 
 
 def _special(geometry: OffsetSlider, start: float) -> tuple[float, ...]:
@@ -169,7 +172,8 @@ def machine(assignment: Assignment) -> Machine:
     q = GivenSheet(given)
     R, L = _enter_lengths(q, given)
     D, s = q.datum("D", given.D), q.datum("s", given.s)
-    q.datum("g", given.g)
+    if given.gravity:
+        q.datum("g", given.g)
     q.speed()
     r = q.define("l.AB", R)
     q.define("l.BC", L)
@@ -188,7 +192,7 @@ def machine(assignment: Assignment) -> Machine:
     geometry = _geometry(given, positions)
     start = _start(geometry, positions)
     places, labels = lettered(positions.count, TURNS, _special(geometry, start))
-    linkage = geometry.linkage(q.inertias({1: "A", 2: "S2", 3: "C"}), given.g.si, q.si("l.BS2"))
+    linkage = geometry.linkage(q.inertias({1: "A", 2: "S2", 3: "C"}), given.gravity, q.si("l.BS2"))
     if given.e.si:
         q.fix("guide.3.at", geometry.line, q["e"])
     piston = Piston.on(geometry.course(start, TURNS), given.D.si, assignment.indicator.table)
@@ -206,7 +210,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=(piston,),
         paths=("S2",),
         compared=compared((*OFFSET_PLANS, *CENTRE_PLANS)),
-        equations=loop_equations(geometry.turn, offset is not None),
+        equations=loop_equations(geometry.turn, offset is not None, given.acceleration),
         facts={"form": "inline" if offset is None else f"offset-{positions.direction}"},
         places=places,
         labels=labels,

@@ -17,7 +17,9 @@ from reportgen.assignment.fields import Angle, Length, RodRatio, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import centred_slider, compared
 from reportgen.formula import PI, ids
 from reportgen.formula.sheet import Sheet
@@ -103,7 +105,8 @@ def machine(assignment: Assignment) -> Machine:
     q = GivenSheet(given)
     H, λ = q.datum("H", given.H), q.datum("lambda", given.lambda_)
     D, s = q.datum("D", given.D), q.datum("s", given.s)
-    q.datum("g", given.g)
+    if given.gravity:
+        q.datum("g", given.g)
     q.datum("crank.angle", given.crank_angle, "δ", "angle")
     q.speed()
     R = q.define("R", H / 2)
@@ -126,7 +129,7 @@ def machine(assignment: Assignment) -> Machine:
         dyads=(Dyad("RRP", (2, 3), "A", "B", guide, (rod, 0.0)), Dyad("RRP", (4, 5), "C", "D", guide, (rod, 0.0))),
         points=(LinkPoint("C", 1, second_pin), LinkPoint("S2", 2, centre), LinkPoint("S4", 4, centre)),
         inertias=q.inertias({2: "S2", 3: "B", 4: "S4", 5: "D"}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
     indicator, possible = assignment.indicator, possible_phases(given.crank_angle.si, positions)
     phases = next(iter(possible.values())) if indicator.firing is None else possible[indicator.firing]
@@ -147,7 +150,7 @@ def machine(assignment: Assignment) -> Machine:
         )
         for link, pin, crank_pin, phase in zip((3, 5), "BD", "AC", phases, strict=True)
     )
-    steps = even_angles(positions, TURNS)
+    steps = cycle_angles(positions, TURNS)
 
     def formulas(q: Sheet) -> None:
         centred_slider(q, turn, 2, 3, "B", angle=phases[0] + steps, along="l.AS2", centre="S2")

@@ -19,7 +19,9 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly, given_loads
 from reportgen.catalogue.assembly import Member
-from reportgen.catalogue.driven import Driven, GivenSheet, driven
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import GivenSheet
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.formula import PI, Symbol, cis, ids
 from reportgen.formula.sheet import Sheet
@@ -162,7 +164,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
         ),
         points=(*articulation, *q.centre_points({2: "B", 4: given.joint})),
         inertias=q.inertias({2: "S2", 3: "C", 4: "S4", 5: "E"}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
 
 

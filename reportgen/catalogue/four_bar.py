@@ -15,16 +15,19 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 from typing import Literal
 
-from reportgen.assignment.checks import of_parameters
+from reportgen.assignment.checks import of_turning
 from reportgen.assignment.common import Assignment, Part
 from reportgen.assignment.fields import Angle, Coordinate, ForceSize, Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly
-from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
+from reportgen.catalogue.driven import driven
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
+from reportgen.catalogue.given_sheet import GivenSheet, accelerated, accelerating, cycle_angles, driver_acceleration
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import compared, components
 from reportgen.formula import (
+    NOTHING,
     Chain,
     Expression,
     Matrix,
@@ -38,9 +41,12 @@ from reportgen.formula import (
     column,
     cos,
     ids,
+    minus,
+    plus,
     signed,
     sin,
     sqrt,
+    times,
 )
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
@@ -58,6 +64,13 @@ def _rocks(q: Sheet) -> bool:
     return q.si("l.AB") < q.si("l.AD")
 
 
+def _turns(q: Sheet) -> bool:
+    """Whether the crank turns fully, by Grashof's theorem: the shortest and the longest make less than the others."""
+    AB, BC, CD, AD = (q.si(ids.length(id)) for id in ("AB", "BC", "DC", "AD"))
+    first, second, third, last = sorted((AB, BC, CD, AD))
+    return first + last < second + third and first in (AB, AD)
+
+
 def cosine(a: Expression, b: Expression, opposite: Expression) -> Expression:
     """The law of cosines for the angle between two sides."""
     return (a**2 + b**2 - opposite**2) / (2 * a * b)
@@ -73,7 +86,7 @@ def proportions(q: Sheet) -> None:
     ends = q.define("sum.ends", first + last, Symbol("l", "", "′"), "length")
     q.set_out("sums", ends, q.define("sum.others", second + third, Symbol("l", "", "″"), "length"))
     q.set_out("swing")
-    if not _rocks(q):
+    if not _rocks(q) or not _turns(q):
         return
     extremes(q, AB, BC, CD, ("AC1", "AC2"), frame=AD, square=AD**2)
 
@@ -148,7 +161,9 @@ def analytic_method(q: Sheet, angle: Floats, points: Iterable[LinkPoint], turn: 
     top3 = ω1**2 * AB * cos(φ1 - φ2) + ω2**2 * BC - ω3**2 * CD * cos(φ2 - φ3)
     for link, top, length in (("2", top2, BC), ("3", top3, CD)):
         q_k = q.define(ids.numerator(link), top, Symbol("q", link), "acceleration", scale=1.0)
-        ε = q.define(ids.formula_angular_acceleration(link), signed(-turn, q_k / (length * sin(φ2 - φ3))), scale=1.0)
+        evenly = signed(-turn, q_k / (length * sin(φ2 - φ3)))
+        ω = q[ids.formula_angular_velocity(link)]
+        ε = q.define(ids.formula_angular_acceleration(link), accelerated(q, turn, evenly, ω), scale=1.0)
         q.set_out("acceleration", q_k, ε)
     q.set_out("slopes")
     q.set_out("coupler_velocity")
@@ -195,16 +210,20 @@ def _coupler_point(q: Sheet, point: LinkPoint, turn: int) -> None:
     v, a = signed(turn, ω2), signed(turn, ε2)
     v_x, v_y = -(ω1 * AB * sin(φ1) + v * BP * sin(φ)), ω1 * AB * cos(φ1) + v * BP * cos(φ)
     q.set_out("coupler_velocity", *components(q, "v", name, v_x, v_y))
-    a_x = -(ω1**2 * AB * cos(φ1) + a * BP * sin(φ) + ω2**2 * BP * cos(φ))
-    a_y = a * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ)
+    ε1 = driver_acceleration(q, turn)
+    a_x = plus(-(ω1**2 * AB * cos(φ1) + a * BP * sin(φ) + ω2**2 * BP * cos(φ)), minus(times(ε1, AB, sin(φ1))))
+    a_y = plus(a * BP * cos(φ) - ω1**2 * AB * sin(φ1) - ω2**2 * BP * sin(φ), times(ε1, AB, cos(φ1)))
     q.set_out("coupler_acceleration", *components(q, "a", name, a_x, a_y))
 
 
 # --- what the words show --------------------------------------------------------------------------
 
 
-def equations(turn: int) -> dict[str, tuple[Chain, ...]]:
-    """The closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in."""
+def equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
+    """The closed loop by components; the matrix equations in symbols, and `-numbers` with entries to fill in.
+
+    The crank `accelerates` in the sense of ω₁ (> 0), against it (< 0) or not at all.
+    """
     AB, BC, CD, AD = (Symbol("l", name) for name in ("AB", "BC", "CD", "AD"))
     φ1, φ2, φ3 = (Symbol("φ", link) for link in "123")
     ω1, ω2, ω3 = (Symbol("ω", link) for link in "123")
@@ -224,6 +243,10 @@ def equations(turn: int) -> dict[str, tuple[Chain, ...]]:
     )
     filled_B, filled_dB = (column(*(Ref(ids.matrix_entry(name, i)) for i in "12")) for name in ("B", "dB"))
     filled_ω, filled_ω1 = column(Ref("f.omega.2"), Ref("f.omega.3")), Ref("omega.1")
+    faster: Expression = NOTHING
+    faster_filled: Expression = NOTHING
+    if accelerates:
+        faster, faster_filled = B * accelerating(accelerates), filled_B * signed(accelerates, Ref("eps.1"))
     return {
         "closure": (
             Chain((AB * cos(φ1) + BC * cos(φ2), AD + CD * cos(φ3))),
@@ -232,8 +255,10 @@ def equations(turn: int) -> dict[str, tuple[Chain, ...]]:
         "velocity": (Chain((A * ω, B * ω1)),),
         "determinant": (Chain((Symbol("Δ"), a11 * a22 - a12 * a21, BC * CD * sin(φ2 - φ3))),),
         "velocity-numbers": (Chain((filled_A * ω, filled_B * filled_ω1)),),
-        "acceleration": (Chain((A * ε, -(dA * ω) + dB * ω1)),),
-        "acceleration-numbers": (Chain((filled_A * ε, -(filled_dA * filled_ω) + filled_dB * filled_ω1)),),
+        "acceleration": (Chain((A * ε, plus(-(dA * ω) + dB * ω1, faster))),),
+        "acceleration-numbers": (
+            Chain((filled_A * ε, plus(-(filled_dA * filled_ω) + filled_dB * filled_ω1, faster_filled))),
+        ),
     }
 
 
@@ -316,11 +341,11 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
         dyads=(Dyad("RRR", (2, 3), "B", "C", "D", lengths=lengths, sign=given.side),),
         points=(*e, *f, *q.centre_points({link: start for link, (start, _) in LINKS.items()})),
         inertias=q.inertias({link: f"S{link}" for link in LINKS}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
 
 
-@of_parameters
+@of_turning
 def _check_turning(given: Parameters) -> Iterator[Finding]:
     """The crank turns fully, without dead points, and link 3 does what the file says of it."""
     linkage = _linkage(given, _sheet(given))
@@ -346,7 +371,7 @@ def machine(assignment: Assignment) -> Machine:
     start = positions.start_or(frame)
     points = tuple(point for point in linkage.points if point.link == 2)
     names = [point.name for point in points]
-    φ1 = turn * (start + turn * even_angles(positions) - frame)
+    φ1 = turn * (start + turn * cycle_angles(positions) - frame)
     plans = ("omega.2", "omega.3", *map(ids.velocity, names), "eps.2", "eps.3", *map(ids.acceleration, names))
     return driven(
         assignment,
@@ -360,9 +385,9 @@ def machine(assignment: Assignment) -> Machine:
         torques=torque_on(given.torque, 3, linkage, positions, start),
         paths=tuple(names),
         compared=compared(plans),
-        equations=equations(turn),
+        equations=equations(turn, given.acceleration),
         facts={
-            "form": "rocker" if _rocks(q) else "crank",
+            "form": ("rocker" if _rocks(q) else "crank") if _turns(q) else "part",
             "side": "left" if turn * given.side > 0 else "right",
             "branch": "left" if given.side > 0 else "right",
             "coupler": "EF" if given.E and given.BF else "E" if given.E else "F" if given.BF else "plain",

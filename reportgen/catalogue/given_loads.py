@@ -20,10 +20,11 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.units import Given
+from reportgen.catalogue.declared_loads import against
 from reportgen.formula import ids
 from reportgen.machine import Linkage
 from reportgen.machine.gas import STROKES, AngleIndicator, Indicator, StrokeIndicator
-from reportgen.machine.laws import ConstantLaw, Law, by_angle, by_stroke, opposing
+from reportgen.machine.laws import ConstantLaw, Law, by_angle, by_stroke
 from reportgen.machine.loads import Torque, crank_motion
 
 # --- the indicator diagram of a four-stroke engine --------------------------------------------------
@@ -197,7 +198,7 @@ def torque_on(
         return ()
     size, motion_at = given.M.si, crank_motion(linkage, positions, start)
     if given.sense == "opposing":
-        law: Law = opposing(size, lambda angle: motion_at(angle).links[link].omega)
+        law: Law = against(size, lambda motion: motion.links[link].omega, motion_at, through=not positions.at)
     else:
         law = ConstantLaw(size if given.sense == "anticlockwise" else -size)
     return (Torque(ids.applied_torque(link), link, law),)

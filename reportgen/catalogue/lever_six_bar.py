@@ -10,21 +10,24 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.assignment.checks import of_parameters, of_turning, one_of
 from reportgen.assignment.common import Assignment, Part, Positions
 from reportgen.assignment.fields import Coordinate, ForceSize, Interval, Length, Ratio, quantity
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly
-from reportgen.catalogue.driven import CRANK_DRAWN, Driven, FixedPoint, GivenSheet, driven
+from reportgen.catalogue.declared_loads import against
+from reportgen.catalogue.driven import driven
 from reportgen.catalogue.four_bar import STRAIGHT, extremes
+from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet
 from reportgen.catalogue.loops import ClosedLoops
+from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.formula import Number, Symbol, acos, cos, ids, sin, sqrt, turned
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Crank, Dyad, Guide, Linkage, LinkPoint
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import ConstantLaw, Law, Stroke, opposing
+from reportgen.machine.laws import ConstantLaw, Law, Stroke
 from reportgen.machine.loads import Applied, course, crank_motion, fixed, turning_points
 
 TURNS = 1
@@ -145,7 +148,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
             *q.centre_points({link: start for link, (start, _) in BARS.items()}),
         ),
         inertias=q.inertias({**{link: f"S{link}" for link in BARS}, 5: "F"}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
 
 
@@ -158,9 +161,8 @@ def _has_swing(q: GivenSheet) -> bool:
     return bool(np.isclose(abs(α1 - α2), q.si("theta"), rtol=0, atol=1e-9))
 
 
-@of_parameters
-def _check_turning(given: Parameters) -> Iterator[Finding]:
-    """The crank turns fully, without dead points, and CD is a rocker with the swing that is asked for."""
+def _lengths(given: Parameters) -> Iterator[Finding]:
+    """The swing that is asked for can be had, and E lies on the coupler."""
     if given.swing is None and (given.AB is None or given.AC is None):
         return
     q = _sheet(given)
@@ -172,8 +174,14 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         longest = given.AC.text if given.AC else f"{q.si('l.AC') * 1e3:.6g} mm"
         upper = f"≤ AC = {longest}"
         yield Finding("out-of-range", ("parameters", "CE"), {"text": given.CE.text, "range": upper})
+
+
+@of_turning
+def _check_turning(given: Parameters) -> Iterator[Finding]:
+    """The crank turns fully, without dead points, and CD is a rocker."""
+    if (given.swing or (given.AB and given.AC)) is None or list(_lengths(given)):
         return
-    linkage = _linkage(given, q)
+    linkage = _linkage(given, _sheet(given))
     members = {
         (2, 3): assembly.Member("AC, CD", ("parameters", "CD")),
         (4, 5): assembly.Member("EF", ("parameters", "EF")),
@@ -184,7 +192,12 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
         yield Finding("not-a-rocker", ("parameters", "CD"), {"link": "3", "rods": "CD"})
 
 
-CHECKS = (one_of("parameters", "AB", "swing"), one_of("parameters", "AC", "swing"), _check_turning)
+CHECKS = (
+    one_of("parameters", "AB", "swing"),
+    one_of("parameters", "AC", "swing"),
+    of_parameters(_lengths),
+    _check_turning,
+)
 
 
 # --- the machine ----------------------------------------------------------------------------------
@@ -210,13 +223,14 @@ def machine(assignment: Assignment) -> Machine:
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
     motion_at = crank_motion(linkage, positions, start)
-    to_and_fro = len(turning_points(linkage, 5, motion_at)) == 2
+    whole = not positions.at or assembly.turns(linkage)
+    to_and_fro = whole and len(turning_points(linkage, 5, motion_at)) == 2
     sliders = (course(linkage, 5, motion_at),) if to_and_fro else ()
     fixed = {name: q.coordinates(name) for name in linkage.ground}
-    loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")})
+    loops = ClosedLoops(linkage, positions.sign, fixed, guides={5: q.coordinates("F")}, accelerates=given.acceleration)
 
     def formulas(q: Sheet) -> None:
-        if given.swing is None:
+        if given.swing is None and whole:
             square = q["D.x"] ** 2 + q["D.y"] ** 2
             extremes(q, q["l.BA"], q["l.AC"], q["l.DC"], ("BC1", "BC2"), frame=sqrt(square), square=square)
         for slider in sliders:
@@ -263,7 +277,7 @@ def _applied(given: Parameters, linkage: Linkage, positions: Positions, start: f
     size, sense = given.force.P.si, given.force.sense
     motion_at = crank_motion(linkage, positions, start, given.speed)
     if sense == "opposing":
-        law: Law = opposing(size, lambda angle: motion_at(angle).points["F"].v.real)
+        law: Law = against(size, lambda motion: motion.points["F"].v.real, motion_at, through=not positions.at)
     else:
         law = ConstantLaw(size if sense == "right" else -size)
     return (Applied("P5", 5, "F", fixed(1 + 0j), law),)

@@ -7,41 +7,30 @@ loads; `linkage_file` says what each key means.
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from reportgen.assignment.checks import of_parameters, one_of
-from reportgen.assignment.common import Assignment, Positions
+from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import linkage_checks
+from reportgen.catalogue import declared_loads, given_springs, linkage_checks, wide_sliders
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import GivenSheet, needs_loads, outline
+from reportgen.catalogue.driven import outline
+from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.linkage_file import Parameters
 from reportgen.catalogue.linkage_words import arms, facts
 from reportgen.catalogue.loops import ClosedLoops
+from reportgen.catalogue.parameters import needs_loads, steady_flywheel, weightless
+from reportgen.catalogue.typed import size_of
 from reportgen.formula import Symbol, ids, turned
-from reportgen.formula.ids import Name
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
-from reportgen.machine import DRIVER, Linkage
+from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine, lettered
-from reportgen.machine.laws import (
-    FULL_TURN,
-    AngleLaw,
-    ConstantLaw,
-    Floats,
-    GasLaw,
-    Law,
-    MotionAt,
-    Resistance,
-    TableLaw,
-    WayLaw,
-    by_stroke,
-    opposing,
-)
+from reportgen.machine.laws import FULL_TURN, Floats, GasLaw, MotionAt, TableLaw, WayLaw, by_stroke
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 from reportgen.machine.motion import Motion, solve_motion
 
@@ -62,10 +51,19 @@ def _check_flywheel(given: Parameters) -> Iterator[Finding]:
         yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
 
 
+def _check_weights(draft: Draft) -> Iterator[Finding]:
+    """In a horizontal plane a body has a mass and no weight."""
+    masses = draft.at("parameters", "masses")
+    count = len(masses) if isinstance(masses, list) else 0
+    yield from weightless([("parameters", "masses", index, "G") for index in range(count)])(draft)
+
+
 CHECKS = (
     one_of("parameters.driver", "n", "omega1", form=("type", "crank")),
-    needs_loads(("masses", "loads")),
+    needs_loads(("masses", "loads", "springs")),
     _check_flywheel,
+    steady_flywheel("parameters", "driver", "epsilon1"),
+    _check_weights,
     linkage_checks.check,
 )
 
@@ -78,6 +76,8 @@ def position_labels(parameters: Parameters, positions: Positions) -> tuple[str, 
 
 def _places(given: Parameters, positions: Positions) -> tuple[tuple[float, ...], tuple[str, ...]]:
     """Uneven positions and their labels; none where every position is an even one."""
+    if positions.at:
+        return positions.instants(given.turns), ROMAN[1 : len(positions.at) + 1]
     if not given.also_at or not isinstance(given.driver, file.CrankDriver):
         return (), ()
     extra = (positions.sign * (angle.si - positions.start_or()) for angle in dict.fromkeys(given.also_at))
@@ -98,12 +98,16 @@ def machine(assignment: Assignment) -> Machine:
         start, span = driver.start.si, driver.span
         turn = 1 if driver.end.si > start else -1
         places = tuple(np.linspace(0.0, FULL_TURN, positions.count))
+        if positions.at:
+            places = tuple((at.si - start) * turn / span * FULL_TURN for at in positions.at)
     built = Machine(
         kind=assignment.kind,
         linkage=linkage,
         start=start,
         turn=turn,
         speed=driver.rate,
+        acceleration=driver.rate2,
+        instants=bool(positions.at),
         count=len(places) or positions.count,
         turns=given.turns if crank else 1,
         span=span,
@@ -113,26 +117,37 @@ def machine(assignment: Assignment) -> Machine:
         places=places,
         labels=labels,
     )
-    declared = _loads(given, linkage, _motion_at(built))
-    loads = LoadsByKind.of(declared)
+    declared = _loads(given, linkage, _motion_at(built), through=not positions.at)
+    q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
+    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, declared)
+    loads = LoadsByKind.of((*declared, *of_springs))
     acting = tuple(load.name for load in declared if load.name not in loads.idle)
-    drawn = assignment.drawing.crank
-    q = _sheet(given, linkage, built, drawn.si if drawn else None)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
-    loops = ClosedLoops(linkage, turn, {name: q.coordinates(name) for name in linkage.ground})
+    faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    fixed_points = {name: q.coordinates(name) for name in linkage.ground}
+    loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
         built,
         sheet=q,
+        faces=faces,
         formulas=loops.write,
         compared=tuple(loops.compared),
         equations=loops.equations,
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,
-        outline=outline(bool(linkage.inertias), loads.act, given.flywheel, driver="crank" if crank else "slide"),
+        outline=outline(
+            bool(linkage.inertias),
+            loads.act,
+            given.flywheel,
+            curves=not positions.at,
+            springs=bool(springs),
+            faces=bool(faces),
+            driver="crank" if crank else "slide",
+        ),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
-        facts=facts(given, tuple(load.name for load in declared), acting),
+        facts={**facts(given, tuple(load.name for load in declared), acting), "springs": springs},
     )
 
 
@@ -154,11 +169,13 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
         q.construct(ids.place(name), x + turned(y))
     if isinstance(driver, file.CrankDriver):
         q.datum(ids.length(driver.centre, driver.pin), driver.length)
-        q.speed(driver.n, driver.omega1, given.flywheel)
+        q.speed(driver.n, driver.omega1, driver.epsilon1, given.flywheel)
         paper = _drawn(built, driver.length.si) if drawn is None else drawn
         q.give(ids.drawn(driver.centre, driver.pin), paper, drawn_length(driver.centre, driver.pin))
     else:
         q.datum(ids.velocity(driver.pin), driver.speed)
+        if driver.acceleration is not None and driver.rate2:
+            q.datum(ids.acceleration(driver.pin), size_of(driver.acceleration))
         q.give("span", built.span, Symbol("H", "1"), "length")
     for group in given.groups:
         if isinstance(group, file.RRR):
@@ -167,7 +184,7 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
                 q.datum(ids.length(outer, middle), length)
         elif isinstance(group, file.RRP):
             q.datum(ids.length(*group.joints), group.length)
-    if any(body.G or body.m for body in given.masses):
+    if given.gravity and any(body.G or body.m for body in given.masses):
         q.datum("g", given.g)
     for body in given.masses:
         q.mass(body.link, body.G, body.m)
@@ -188,27 +205,21 @@ def _drawn(built: Machine, crank: float) -> float:
 # --- loads ----------------------------------------------------------------------------------------
 
 
-def _loads(given: file.Parameters, linkage: Linkage, motion_at: MotionAt) -> tuple[Applied | Torque, ...]:
+def _loads(
+    given: file.Parameters, linkage: Linkage, motion_at: MotionAt, *, through: bool
+) -> tuple[Applied | Torque, ...]:
     """The loads in the order of the file, named P (forces) and M (torques) with their link's number."""
     loads: list[Applied | Torque] = []
     for load in given.loads:
-        link = load.link
         if isinstance(load, file.OverStroke | file.Gas):
-            loads.append(_on_slider(load, given, linkage, motion_at, _name(ids.applied_force, link, loads)))
-            continue
-        direction = cmath.exp(1j * load.direction.si)
-        law = _law(load, direction, given.driver, motion_at)
-        if load.at is None:
-            loads.append(Torque(_name(ids.applied_torque, link, loads), link, law))
+            name = declared_loads.named(ids.applied_force, load.link, loads)
+            loads.append(_on_slider(load, given, linkage, motion_at, name))
+        elif isinstance(load, file.OverWay):
+            loads.append(declared_loads.applied(load, _over_way(load, given.driver), loads))
         else:
-            loads.append(Applied(_name(ids.applied_force, link, loads), link, load.at, fixed(direction), law))
+            law = declared_loads.law_of(load, motion_at, through=through)
+            loads.append(declared_loads.applied(load, law, loads))
     return tuple(loads)
-
-
-def _name(family: Name, link: int, others: Iterable[Applied | Torque]) -> str:
-    """P3; a second one on the same link P3a, then P3b."""
-    count = sum(one.link == link and one.name in family for one in others)
-    return family(link, chr(ord("a") + count - 1)) if count else family(link)
 
 
 def _on_slider(
@@ -228,29 +239,9 @@ def _on_slider(
     return Applied(name, load.link, dyad.middle, fixed(cmath.exp(1j * guide.angle)), TableLaw(stroke, table, turns=1))
 
 
-def _law(
-    load: file.Constant | file.OverAngle | file.OverWay, direction: complex, driver: file.Driver, motion_at: MotionAt
-) -> Law:
-    """How a force along `direction` varies, or a torque where the load has no point."""
-    if not isinstance(load, file.Constant):
-        unit = load.torque_unit if load.at is None else load.unit
-        assert unit is not None, "a table without its unit is refused by the kind's checks"
-        values = tuple(value * unit.si for value in load.values)
-        if isinstance(load, file.OverAngle):
-            return AngleLaw(tuple(angle.si for angle in load.angle), values)
-        assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
-        return WayLaw(tuple(way.si for way in load.way), values, driver.span)
-    size = load.M if load.at is None else load.F
-    assert size is not None, "a load without its size is refused by the kind's checks"
-    if not load.against:
-        return ConstantLaw(size.si)
-
-    def rate(motion: Motion) -> Floats:
-        if load.at is None:
-            return motion.links[load.link].omega
-        return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
-
-    resistance = opposing(abs(size.si), lambda angle: rate(motion_at(angle)))
-    # A crank has an angular velocity of its own, a slide has none.
-    turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
-    return resistance if turns else Resistance(abs(size.si), rate, resistance.reversals)
+def _over_way(load: file.OverWay, driver: file.Driver) -> WayLaw:
+    """How a force or a torque varies over the way of a sliding driver."""
+    unit = load.torque_unit if load.at is None else load.unit
+    assert unit is not None, "a table without its unit is refused by the kind's checks"
+    assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
+    return WayLaw(tuple(way.si for way in load.way), tuple(value * unit.si for value in load.values), driver.span)

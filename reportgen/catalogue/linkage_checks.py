@@ -6,7 +6,6 @@ import cmath
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import pairwise
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from reportgen.base.units import Given
 from reportgen.catalogue import assembly
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.assembly import Member
+from reportgen.catalogue.declared_loads import Constant, OverAngle, listed, on_link, over_cycle, pins, sized, table
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
 from reportgen.machine.laws import STEPS
 from reportgen.machine.loads import crank_motion
@@ -45,7 +45,12 @@ def check(draft: Draft) -> Iterator[Finding]:
 
 
 def _of_a_crank(draft: Draft, given: file.Parameters) -> Iterator[Finding]:
-    """What only a crank has: a sliding driver starts where its way starts, and goes once along it."""
+    """What only a crank has: a sliding driver starts where its way starts, and goes once along it.
+
+    At single instants no further positions stand between them.
+    """
+    if draft.at("positions", "at") is not None and given.also_at:
+        yield Finding("both-given", ("parameters", "also_at"), {"first": "at", "second": "also_at"}, at="key")
     if not isinstance(given.driver, file.SlideDriver):
         return
     for section, keys in (("positions", ("start", "direction")), ("drawing", ("crank",)), TURNING):
@@ -80,11 +85,7 @@ class _Placed:
 
     def carrier(self, link: int, where: Where) -> Iterator[Finding]:
         if link not in self.links:
-            yield Finding("link-not-placed", where, {"text": str(link), "known": _listed(self.links)})
-
-
-def _listed(numbers: set[int]) -> str:
-    return ", ".join(map(str, sorted(numbers)))
+            yield Finding("link-not-placed", where, {"text": str(link), "known": listed(self.links)})
 
 
 def _structure(given: file.Parameters) -> Iterator[Finding]:
@@ -109,7 +110,7 @@ def _structure(given: file.Parameters) -> Iterator[Finding]:
     for name, point in given.points.items():
         if point.link not in placed.links:
             where = (*TOP, "points", name, "link")
-            yield Finding("no-such-link", where, {"text": str(point.link), "known": _listed(placed.links - {GROUND})})
+            yield Finding("no-such-link", where, {"text": str(point.link), "known": listed(placed.links - {GROUND})})
     for index, name in enumerate(given.paths):
         if name not in placed.points:
             yield from placed.need(name, (*TOP, "paths", index))
@@ -143,38 +144,12 @@ def _group(given: file.Parameters, group: file.Group, at: Where, placed: _Placed
             yield from _fixed_points(given, link, placed)
 
 
-def _pins(given: file.Parameters) -> dict[int, set[str]]:
-    """The points of every moving link: its joints and what is fixed to it."""
-    driver = given.driver
-    pins = {DRIVER: {driver.pin}}
-    if isinstance(driver, file.CrankDriver):
-        pins[DRIVER].add(driver.centre)
-    for group in given.groups:
-        dyad = group.dyad
-        pinned = {"RPR": (), "RPP": dyad.links[1:]}.get(dyad.kind, dyad.links)
-        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
-            pins[link] = {end} if isinstance(end, str) else set()
-            pins[link] |= {dyad.middle} if link in pinned else set()
-    for name, point in given.points.items():
-        pins.setdefault(point.link, set()).add(name)
-    return pins
-
-
-def _on_link(pins: dict[int, set[str]], link: int, name: str | None, at: Where) -> Iterator[Finding]:
-    if link not in pins:
-        known = _listed(set(pins))
-        yield Finding("no-such-link", (*at, "link"), {"text": str(link), "known": known})
-    elif name is not None and name not in pins[link]:
-        words = {"text": name, "link": str(link), "known": ", ".join(sorted(pins[link]))}
-        yield Finding("not-on-link", (*at, "at"), words)
-
-
 def _bodies(given: file.Parameters) -> Iterator[Finding]:
     """Masses belong to links and their own points, one to a link."""
-    pins, seen = _pins(given), set[int]()
+    points, seen = pins(given.linkage), set[int]()
     for index, body in enumerate(given.masses):
         at = (*TOP, "masses", index)
-        yield from _on_link(pins, body.link, body.at, at)
+        yield from on_link(points, body.link, body.at, at)
         if body.link in seen:
             yield Finding("mass-twice", (*at, "link"), {"text": str(body.link)})
         seen.add(body.link)
@@ -188,13 +163,13 @@ def _bodies(given: file.Parameters) -> Iterator[Finding]:
 
 
 def _loads(given: file.Parameters) -> Iterator[Finding]:
-    pins = _pins(given)
+    points = pins(given.linkage)
     rails = (rail for group in given.groups for rail in file.rails(group))
     sliders = {link for link, guide, _ in rails if guide.on == GROUND}
     for index, load in enumerate(given.loads):
         at = (*TOP, "loads", index)
         slides = isinstance(given.driver, file.SlideDriver)
-        if slides and not isinstance(load, file.Constant | file.OverWay):
+        if slides and not isinstance(load, Constant | file.OverWay):
             yield Finding("needs-a-crank", (*at, "by"))
             continue
         if isinstance(load, file.OverWay) and not slides:
@@ -202,49 +177,21 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
             continue
         if isinstance(load, file.OverStroke | file.Gas):
             if load.link not in sliders:
-                yield Finding("no-slider", (*at, "link"), {"text": str(load.link), "known": _listed(sliders) or "–"})
+                yield Finding("no-slider", (*at, "link"), {"text": str(load.link), "known": listed(sliders) or "–"})
             if isinstance(load, file.OverStroke):
-                yield from _table(at, "s", load.s, 1.0, inward=load.inward, outward=load.outward)
+                yield from table(at, "s", load.s, 1.0, inward=load.inward, outward=load.outward)
             elif given.turns != 2:
                 yield Finding("gas-needs-two-turns", (*at, "by"))
             continue
-        yield from _on_link(pins, load.link, load.at, at)
-        if not isinstance(load, file.Constant):
-            if isinstance(load, file.OverAngle):
-                angles = tuple(math.degrees(angle.si) for angle in load.angle)
-                yield from _table(at, "angle", angles, 360.0 * given.turns, " deg", values=load.values)
+        yield from on_link(points, load.link, load.at, at)
+        if not isinstance(load, Constant):
+            if isinstance(load, OverAngle):
+                yield from over_cycle(load, given.turns, at)
             else:
                 assert isinstance(given.driver, file.SlideDriver)
                 ways = tuple(way.si * 1e3 for way in load.way)
-                yield from _table(at, "way", ways, given.driver.span * 1e3, " mm", values=load.values)
-            key, forbidden = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
-            if getattr(load, key) is None:
-                yield Finding("missing-key", at, {"key": key})
-            if getattr(load, forbidden) is not None:
-                yield Finding("force-or-torque", (*at, forbidden), at="key")
-        else:
-            wanted, forbidden = ("F", "M") if load.at else ("M", "F")
-            if getattr(load, wanted) is None:
-                yield Finding("missing-key", at, {"key": wanted if load.at or load.F is None else "at"})
-            if getattr(load, forbidden) is not None and getattr(load, wanted) is not None:
-                yield Finding("force-or-torque", (*at, forbidden), at="key")
-
-
-def _table(
-    at: Where, key: str, nodes: tuple[float, ...], last: float, unit: str = "", **rows: tuple[float, ...]
-) -> Iterator[Finding]:
-    """Nodes grow from 0 to `last` and every row has a value for each."""
-    for name, row in rows.items():
-        if len(row) != len(nodes):
-            counts = {"key": name, "given": str(len(row)), "other": key, "wanted": str(len(nodes))}
-            yield Finding("row-length", (*at, name), counts)
-    fall = next((index for index, (one, other) in enumerate(pairwise(nodes), 1) if other <= one), None)
-    if fall is not None:
-        yield Finding("not-increasing", (*at, key, fall), {"key": key})
-        return
-    for index, wanted in ((0, 0.0), (len(nodes) - 1, last)):
-        if abs(nodes[index] - wanted) > 1e-9 * last:
-            yield Finding("table-end", (*at, key, index), {"key": key, "end": f"{wanted:g}{unit}"})
+                yield from table(at, "way", ways, given.driver.span * 1e3, " mm", values=load.values)
+        yield from sized(load, at)
 
 
 # --- structure as declared ------------------------------------------------------------------------
@@ -278,6 +225,8 @@ def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]
         (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
         for index, group in enumerate(given.groups)
     }
+    if positions.at:
+        return
     if isinstance(given.driver, file.SlideDriver):
         yield from _along_the_way(given, given.driver, made, members)
         return

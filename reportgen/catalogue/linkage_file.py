@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -13,10 +11,9 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import (
     Acceleration,
     Angle,
+    AngularAcceleration,
     AngularVelocity,
     Coordinate,
-    CycleAngles,
-    Force,
     ForceUnit,
     Fractions,
     Length,
@@ -24,50 +21,28 @@ from reportgen.assignment.fields import (
     MomentOfInertia,
     Nodes,
     Offset,
-    Reader,
     RotationalSpeed,
     UnitOf,
     Values,
     Weight,
     Whole,
-    fault,
     quantity,
 )
 from reportgen.base.errors import Where
 from reportgen.base.units import Given
-from reportgen.catalogue.driven import Flywheel
+from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle
 from reportgen.catalogue.given_loads import Diagram
+from reportgen.catalogue.parameters import Flywheel, UnderGravity
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 
 MOST_GROUPS = 12
 MOST_NAMES = 60
-LAST_LINK = 40
-_NAME = re.compile(r"[A-OR-Z][0-9]{0,2}|[PQ][0-9]{1,2}")
-
-
-@dataclass(frozen=True, slots=True)
-class PointName(Reader):
-    """A capital letter and at most two digits; P and Q alone are letters of the plans."""
-
-    def read(self, value: object) -> str:
-        if not isinstance(value, str) or not _NAME.fullmatch(value):
-            raise fault("point-name", text=str(value))
-        return value
-
-    def schema(self) -> dict[str, Any]:
-        return {"type": "string", "pattern": f"^({_NAME.pattern})$"}
-
-
-Name = Annotated[str, PointName()]
-Link = Annotated[int, Whole(1, LAST_LINK)]
 Carrier = Annotated[int, Whole(0, LAST_LINK)]
 GroupLink = Annotated[int, Whole(2, LAST_LINK)]
 Speed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
-Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
 DriverWays = Annotated[tuple[Offset, ...], Nodes]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
-LEVEL = Given(0.0, 0.0, "deg", "0 deg")
 
 
 Place = Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)]
@@ -112,6 +87,7 @@ class CrankDriver(Part):
     length: Length
     n: RotationalSpeed | None = None
     omega1: AngularVelocity | None = None
+    epsilon1: AngularAcceleration | None = None
 
     @property
     def driver(self) -> Crank:
@@ -124,9 +100,17 @@ class CrankDriver(Part):
         assert given is not None, "a file without speed is refused by the kind's checks"
         return given.si
 
+    @property
+    def rate2(self) -> float:
+        """ε1 (rad/s²), positive in the sense of ω1."""
+        return 0.0 if self.epsilon1 is None else self.epsilon1.si
+
 
 class SlideDriver(Part):
-    """Link 1 moves along a guide of the frame from the way `start` to the way `end` at a constant speed."""
+    """Link 1 moves along a guide of the frame from the way `start` to the way `end`.
+
+    Its `acceleration` is positive in the sense of its speed.
+    """
 
     type: Literal["slider"]
     pin: Name
@@ -134,6 +118,7 @@ class SlideDriver(Part):
     start: Coordinate = NOWHERE
     end: Coordinate
     speed: Speed
+    acceleration: Acceleration | None = None
 
     @property
     def driver(self) -> SlidingDriver:
@@ -143,6 +128,11 @@ class SlideDriver(Part):
     def rate(self) -> float:
         """|v| (m/s)."""
         return self.speed.si
+
+    @property
+    def rate2(self) -> float:
+        """a (m/s²), positive in the sense of v."""
+        return 0.0 if self.acceleration is None else self.acceleration.si
 
     @property
     def span(self) -> float:
@@ -287,32 +277,7 @@ class Body(Part):
 
     def mass(self, g: float) -> float:
         """m = G/g (kg)."""
-        return self.G.si / g if self.G is not None else self.m.si if self.m is not None else 0.0
-
-
-class Constant(Part):
-    """A force F at a point in a fixed direction, or a torque M; `against` the motion only its size counts."""
-
-    by: Literal["constant"]
-    link: Link
-    at: Name | None = None
-    F: Force | None = None
-    direction: Angle = LEVEL
-    M: Torque | None = None
-    against: Literal["motion"] | None = None
-
-
-class OverAngle(Part):
-    """A force or a torque over the driver's turn from the first position."""
-
-    by: Literal["angle"]
-    link: Link
-    at: Name | None = None
-    direction: Angle = LEVEL
-    unit: ForceUnit | None = None
-    torque_unit: Annotated[Given, UnitOf("N m")] | None = None
-    angle: CycleAngles
-    values: Values
+        return self.G.si / g if self.G is not None and g else self.m.si if self.m is not None else 0.0
 
 
 class OverWay(Part):
@@ -363,7 +328,7 @@ class Declared(Part):
     groups: Annotated[tuple[Pair, ...], Field(max_length=MOST_GROUPS)] | None = None
 
 
-class Parameters(Part):
+class Parameters(UnderGravity):
     """A linkage as the user declares it."""
 
     frame: Annotated[dict[Name, Place], Field(max_length=MOST_NAMES)] = Field(default_factory=dict)
@@ -375,19 +340,18 @@ class Parameters(Part):
     turns: Annotated[int, Whole(1, 2)] = 1
     also_at: Annotated[tuple[Angle, ...], Field(max_length=24)] = ()
     paths: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
-    g: Acceleration = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     flywheel: Flywheel | None = None
     declared: Declared = Declared()
 
     @property
     def linkage(self) -> Linkage:
         """The whole mechanism: frame, driver, groups in their order, points, masses."""
-        bodies = (Inertia(one.link, one.at, one.mass(self.g.si), one.J.si if one.J else 0.0) for one in self.masses)
+        bodies = (Inertia(one.link, one.at, one.mass(self.gravity), one.J.si if one.J else 0.0) for one in self.masses)
         return Linkage(
             ground={name: place(at) for name, at in self.frame.items()},
             driver=self.driver.driver,
             dyads=tuple(group.dyad for group in self.groups),
             points=tuple(LinkPoint(name, one.link, place(one.at)) for name, one in self.points.items()),
             inertias=tuple(body for body in bodies if body.mass or body.moment),
-            gravity=-1j * self.g.si,
+            gravity=-1j * self.gravity,
         )

@@ -9,7 +9,8 @@ from typing import Any
 
 from reportgen.base.shown import view
 from reportgen.catalogue import linkage_file as file
-from reportgen.catalogue.driven import as_typed
+from reportgen.catalogue.declared_loads import LoadRow, row_of
+from reportgen.catalogue.typed import as_typed
 from reportgen.formula import Number, ids, vocabulary
 from reportgen.machine import DyadKind, Guide
 
@@ -57,43 +58,6 @@ class PointRow:
     across: Number
 
 
-@view("phrase", "table")
-@dataclass(frozen=True, slots=True)
-class LoadRow:
-    """A load: its link, how it is given, where and in which direction it acts, its size or its table."""
-
-    id: str
-    link: int
-    by: str
-    torque: bool
-    point: str = ""
-    direction: Number | None = None
-    size: Number | None = None
-    against: bool = False
-    nodes: tuple[float, ...] = ()
-    rows: tuple[tuple[float, ...], ...] = ()
-    bore: Number | None = None
-    intake: str = ""
-
-    @property
-    def phrase(self) -> str:
-        """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
-        acting = "torque" if self.torque else "force"
-        match self.by:
-            case "constant":
-                return f"{acting}-against" if self.against else acting
-            case "gas":
-                return f"gas-{self.intake}".replace(" ", "-")
-            case "stroke":
-                return "stroke"
-        return f"{acting}-{self.by}"
-
-    @property
-    def table(self) -> str:
-        """The key of the table of its values."""
-        return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
-
-
 @view()
 @dataclass(frozen=True, slots=True)
 class MotionRow:
@@ -126,6 +90,7 @@ def facts(given: file.Parameters, loads: tuple[str, ...], acting: Container[str]
         "motions": tuple(_motions(given)),
         "listed": "given" if given.masses else "massless",
         "loads": shown,
+        "declared": (),
         "interpolated": tuple(load for load in shown if load.nodes),
         "two_turns": given.turns == 2,
         "gases": tuple(load for load in shown if load.by == "gas"),
@@ -149,8 +114,10 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
         yield ids.length(driver.centre, driver.pin), "crank", ""
         yield "n", "n", ""
         yield "omega.1", "omega1", ""
+        yield "eps.1", "epsilon1", ""
     else:
         yield ids.velocity(driver.pin), "speed", ""
+        yield ids.acceleration(driver.pin), "acceleration", ""
         yield "span", "span", ""
     for row in rows:
         yield from ((ids.length(rod), "length", rod) for rod, _ in row.lengths)
@@ -230,19 +197,8 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
             return LoadRow(name, load.link, "gas", False, bore=as_typed(load.D), intake=load.intake)
-    torque, direction = load.at is None, as_typed(load.direction)
-    if isinstance(load, file.Constant):
-        size = load.F or load.M
-        assert size is not None
-        return LoadRow(
-            name,
-            link=load.link,
-            by=load.by,
-            torque=torque,
-            point=load.at or "",
-            direction=direction,
-            size=as_typed(size),
-            against=load.against is not None,
-        )
-    nodes = tuple(node.value for node in (load.angle if isinstance(load, file.OverAngle) else load.way))
-    return LoadRow(name, load.link, load.by, torque, load.at or "", direction, nodes=nodes, rows=(load.values,))
+        case file.OverWay():
+            nodes = tuple(way.value for way in load.way)
+            torque, direction = load.at is None, as_typed(load.direction)
+            return LoadRow(name, load.link, load.by, torque, load.at or "", direction, nodes=nodes, rows=(load.values,))
+    return row_of(load, name)

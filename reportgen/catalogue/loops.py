@@ -19,10 +19,10 @@ RPP  r_G + s e_j + t e_k = r_P, e_k the slide's direction on link j         v = 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from reportgen.catalogue.components import STILL, Pair, across, add, along, degrees, less, on, scaled, turned, typed
-from reportgen.catalogue.driven import natural_sizes
+from reportgen.catalogue.given_sheet import natural_sizes
 from reportgen.formula import (
     MINUS_ONE,
     NOTHING,
@@ -133,13 +133,15 @@ class ClosedLoops:
 
     `equations` are by name and group `closure-23`, `velocity-23`, `acceleration-23`, their lines are set out likewise;
     `place-1`, … are those of the driver.  `compared` are plan quantities and the formulas that must give their sizes.
-    `fixed` are the coordinates of the fixed points, `guides` of a point of each fixed guide, by its slider.
+    `fixed` are the coordinates of the fixed points, `guides` of a point of each fixed guide, by its slider.  The driver
+    `accelerates` in the sense of its speed (> 0), against it (< 0) or not at all.
     """
 
     linkage: Linkage
     turn: int
     fixed: Mapping[str, Pair]
     guides: Mapping[int, Pair] = field(default_factory=dict)
+    accelerates: float = 0.0
     lines: list[LoopLine] = field(default_factory=list)
     equations: dict[str, tuple[Chain, ...]] = field(default_factory=dict)
     compared: list[tuple[str, str]] = field(default_factory=list)
@@ -265,14 +267,19 @@ class ClosedLoops:
         driver = self.linkage.driver
         if isinstance(driver, Crank):
             centre, ω1 = self.points[driver.centre], signed(self.turn, Ref("omega.1"))
-            body = LoopBody(driver.centre, centre, Ref(ids.formula_angle(DRIVER)), ω1)
+            ε1 = signed(self.turn * self.accelerates, Ref("eps.1")) if self.accelerates else NOTHING
+            body = LoopBody(driver.centre, centre, Ref(ids.formula_angle(DRIVER)), ω1, ε1)
             reach = scaled(Ref(ids.length(driver.centre, driver.pin)), along(body.angle))
             self.point(driver.pin, body.carried(self.coordinates(driver.pin, add(body.origin.p, reach))))
         else:
             direction = along(degrees(driver.guide.angle))
             at = self.coordinates(driver.pin, add(typed(driver.guide.at), scaled(Ref("s.1"), direction)))
             speed = scaled(signed(self.turn, Ref(ids.velocity(driver.pin))), direction)
-            self.points[driver.pin] = Moving(at, self.components("v", driver.pin, speed, plan=False))
+            moving = Moving(at, self.components("v", driver.pin, speed, plan=False))
+            if self.accelerates:
+                rate2 = signed(self.turn * self.accelerates, Ref(ids.acceleration(driver.pin)))
+                moving = replace(moving, a=self.components("a", driver.pin, scaled(rate2, direction), plan=False))
+            self.points[driver.pin] = moving
             body = LoopBody(driver.pin, self.points[driver.pin], degrees(driver.guide.angle))
         self.put(DRIVER, body)
 

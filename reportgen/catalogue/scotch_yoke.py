@@ -13,8 +13,10 @@ from reportgen.assignment.common import Assignment
 from reportgen.assignment.fields import Angle, Length
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles, natural_lines
-from reportgen.formula import Chain, Symbol, cos, sin
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import GivenSheet, accelerated, accelerating, cycle_angles, natural_lines
+from reportgen.catalogue.parameters import Driven
+from reportgen.formula import Chain, Symbol, cos, minus, plus, sin, times
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
 from reportgen.machine.analysis import Machine
@@ -52,13 +54,13 @@ def machine(assignment: Assignment) -> Machine:
 
     axis, radius = given.guide.si, q.si(r)
     along = cmath.rect(1.0, axis)
-    start = 0.0 if positions.start is None else turn * (positions.start.si - axis)
+    start = 0.0 if positions.first is None else turn * (positions.first.si - axis)
     linkage = Linkage(
         ground={"O": 0j},
         driver=Crank("O", "A", radius),
         dyads=(Dyad("RPP", (2, 3), "A", "B", Guide(0j, axis), slide_angle=math.pi / 2),),
         inertias=q.inertias({2: "A", 3: "B"}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
     phase = (start + BELOW_A_TURN) % FULL_TURN - BELOW_A_TURN
     course = Stroke(
@@ -76,11 +78,11 @@ def machine(assignment: Assignment) -> Machine:
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
-        φ = q.angle("phi.3", start + even_angles(positions), "φ")
+        φ = q.angle("phi.3", start + cycle_angles(positions), "φ")
         x_B = line("f.x.B", r * cos(φ))
         v_B, v_r = line("f.v.B", -ω1 * r * sin(φ)), line("f.v.r", ω1 * r * cos(φ))
-        a_B = line("f.a.B", -(ω1**2) * r * cos(φ))
-        a_r = line("f.a.r", -(ω1**2) * r * sin(φ), Symbol("a", "r"))
+        a_B = line("f.a.B", accelerated(q, turn, -(ω1**2) * r * cos(φ), v_B))
+        a_r = line("f.a.r", accelerated(q, turn, -(ω1**2) * r * sin(φ), v_r), Symbol("a", "r"))
         q.set_out("velocity", x_B, v_B, v_r)
         q.set_out("acceleration", a_B, a_r)
 
@@ -95,19 +97,19 @@ def machine(assignment: Assignment) -> Machine:
         else (Applied("P3", 3, "B", fixed(along), TableLaw(course, force.table, turns=TURNS)),),
         sliders=(course,),
         compared=(("v.B", "f.v.B"), ("v.A3A", "f.v.r"), ("a.B", "f.a.B"), ("a.A3A.r", "f.a.r")),
-        equations=equations(),
+        equations=equations(given.acceleration),
         facts={"stroke": given_loads.stroke_of(force)},
     )
 
 
-def equations() -> dict[str, tuple[Chain, ...]]:
-    """The place of the yoke and of the block in its slot, and their rates."""
-    r, φ, ω1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1")
+def equations(accelerates: float) -> dict[str, tuple[Chain, ...]]:
+    """The place of the yoke and of the block in its slot, and their rates, as the crank `accelerates` or not."""
+    r, φ, ω1, ε1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1"), accelerating(accelerates)
     return {
         "closure": (Chain((Symbol("x", "B"), r * cos(φ))), Chain((Symbol("y", "A"), r * sin(φ)))),
         "velocity": (Chain((Symbol("v", "B"), -ω1 * r * sin(φ))), Chain((Symbol("v", "r"), ω1 * r * cos(φ)))),
         "acceleration": (
-            Chain((Symbol("a", "B"), -(ω1**2) * r * cos(φ))),
-            Chain((Symbol("a", "r"), -(ω1**2) * r * sin(φ))),
+            Chain((Symbol("a", "B"), plus(-(ω1**2) * r * cos(φ), minus(times(ε1, r, sin(φ)))))),
+            Chain((Symbol("a", "r"), plus(-(ω1**2) * r * sin(φ), times(ε1, r, cos(φ))))),
         ),
     }

@@ -16,7 +16,9 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given, nice_up
 from reportgen.catalogue import assembly, slotted
 from reportgen.catalogue.assembly import Member
-from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import HIGHEST, Ram, SlottedCrank
 from reportgen.formula import Symbol, ids
 from reportgen.formula.sheet import Sheet
@@ -131,13 +133,13 @@ def machine(assignment: Assignment) -> Machine:
     positions, cutting = assignment.positions, given.cutting
     q = _sheet(given, assignment.drawing.crank)
     geometry = _geometry(given, q, positions.sign)
-    start = 0.0 if positions.start is None else geometry.crank.phi(positions.start.si)
+    start = 0.0 if positions.first is None else geometry.crank.phi(positions.first.si)
     course = geometry.course(start)
     q.fix("p.C", geometry.crank.ground["C"], q["a"])
     q.fix("guide.5.at", geometry.line, q["b"] - q["a"])
     points = q.centre_points({link: rod[0] for link, rod in RODS.items()})
 
-    linkage = geometry.linkage(points, q.inertias(CENTRES), given.g.si)
+    linkage = geometry.linkage(points, q.inertias(CENTRES), given.gravity)
     applied: tuple[Applied, ...] = ()
     if cutting is not None:
         law = CuttingLaw(course, cutting.F.si, cutting.free.si)
@@ -147,7 +149,7 @@ def machine(assignment: Assignment) -> Machine:
         q.define("drawn.AC", q["a"] / q["mu.l"], drawn_length("A", "C"))
         slotted.swing(q, q["H"] / (2 * q["l.CD"]))
         slotted.strokes(q, q["H"])
-        slotted.ram_formulas(q, positions.sign, start + even_angles(positions))
+        slotted.ram_formulas(q, positions.sign, start + cycle_angles(positions))
         if cutting is not None:
             slotted.cutting(q, q["P.given"], q.find("free"))
             _cutting_interval(q, law.breaks(crank_motion(linkage, positions, geometry.crank.crank_angle(start))), start)
@@ -165,7 +167,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=(course,),
         paths=("D",),
         compared=slotted.RAM_COMPARED,
-        equations=slotted.ram_equations(positions.sign),
+        equations=slotted.ram_equations(positions.sign, given.acceleration),
         essential=("diagrams", "functions"),
         facts={"form": "parted" if "free" in q else "whole"},
     )

@@ -14,7 +14,9 @@ from reportgen.assignment.fields import Angle, Coordinate, Length, Share
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
-from reportgen.catalogue.driven import MIDDLE, Driven, GivenSheet, driven, even_angles
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import MIDDLE, GivenSheet, cycle_angles
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import (
     CENTRE_PLANS,
     OFFSET_PLANS,
@@ -77,9 +79,9 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("loads", "s.3", "P3")
 
     geometry = OffsetSlider(q.si(r), q.si(l), turn * given.e.si, given.guide.si, turn)
-    start = geometry.stretched if positions.start is None else geometry.phi(positions.start.si)
+    start = geometry.stretched if positions.first is None else geometry.phi(positions.first.si)
     centre = q.si("l.BS2") if has_centre else None
-    linkage = geometry.linkage(q.inertias({2: "S2", 3: "C"}), given.g.si, centre)
+    linkage = geometry.linkage(q.inertias({2: "S2", 3: "C"}), given.gravity, centre)
     if e is not None:
         q.fix("guide.3.at", geometry.line, e)
     course = geometry.course(start, TURNS)
@@ -93,11 +95,11 @@ def machine(assignment: Assignment) -> Machine:
         q,
         linkage,
         geometry.crank_angle(start),
-        formulas=lambda q: offset_slider(q, turn, start + even_angles(positions), offset, has_centre),
+        formulas=lambda q: offset_slider(q, turn, start + cycle_angles(positions), offset, has_centre),
         applied=applied,
         sliders=(course,),
         paths=("S2",) if has_centre else (),
         compared=compared((*OFFSET_PLANS, *(CENTRE_PLANS if has_centre else ()))),
-        equations=loop_equations(turn, offset is not None),
+        equations=loop_equations(turn, offset is not None, given.acceleration),
         facts={"form": "inline" if e is None else "offset", "stroke": given_loads.stroke_of(given.force)},
     )

@@ -22,7 +22,24 @@ from functools import partial
 
 import numpy as np
 
-from reportgen.formula import Chain, Expression, Number, Ref, Symbol, asin, cos, ids, signed, sin, sqrt, tan
+from reportgen.catalogue.given_sheet import accelerated, accelerating, driver_acceleration
+from reportgen.formula import (
+    Chain,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    asin,
+    cos,
+    ids,
+    minus,
+    plus,
+    signed,
+    sin,
+    sqrt,
+    tan,
+    times,
+)
 from reportgen.formula.sheet import BELOW_A_TURN, Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.laws import FULL_TURN, Floats, Stroke, halved
@@ -63,8 +80,10 @@ def centred_slider(
     s_B = q.define(ids.slider_way(slider), distance, Symbol("s", joint), "length", scale=0.01)
     v = line(ids.formula_velocity(joint), ω1 * R * sin(φ + β) / cos(β))
     ω2 = line(ids.formula_angular_velocity(rod), signed(-turn, ω1 * λ * cos(φ) / cos(β)))
-    a = line(ids.formula_acceleration(joint), ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3))
-    ε2 = line(ids.formula_angular_acceleration(rod), signed(turn, ω1**2 * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3))
+    evenly = ω1**2 * R * (cos(φ + β) / cos(β) + λ * cos(φ) ** 2 / cos(β) ** 3)
+    a = line(ids.formula_acceleration(joint), accelerated(q, turn, evenly, v))
+    evenly = signed(turn, ω1**2 * λ * (1 - λ**2) * sin(φ) / cos(β) ** 3)
+    ε2 = line(ids.formula_angular_acceleration(rod), accelerated(q, turn, evenly, ω2))
     velocity, acceleration = f"velocity_{slider}", f"acceleration_{slider}"
     q.set_out(velocity, β, s_B, v, ω2)
     q.set_out(acceleration, a, ε2)
@@ -72,8 +91,13 @@ def centred_slider(
         s = q[along]
         v_y = -(ω1 * R * sin(φ) + signed(-turn, s * ω2 * sin(β)))
         q.set_out(velocity, *components(q, "v", centre, (1 - s / L) * ω1 * R * cos(φ), v_y, axes=axes))
-        a_y = -(ω1**2 * R * cos(φ) + s * (ω2**2 * cos(β) + signed(-turn, ε2 * sin(β))))
-        q.set_out(acceleration, *components(q, "a", centre, -((1 - s / L) * ω1**2 * R * sin(φ)), a_y, axes=axes))
+        # ε₂ has its own share of ε₁ already, the pin's is ε₁R square to the crank.
+        ε1 = driver_acceleration(q, turn)
+        a_y = plus(
+            -(ω1**2 * R * cos(φ) + s * (ω2**2 * cos(β) + signed(-turn, ε2 * sin(β)))), minus(times(ε1, R, sin(φ)))
+        )
+        a_x = plus(-((1 - s / L) * ω1**2 * R * sin(φ)), times(ε1, 1 - s / L, R, cos(φ)))
+        q.set_out(acceleration, *components(q, "a", centre, a_x, a_y, axes=axes))
 
 
 def components(
@@ -97,7 +121,7 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     """
     δ, l4 = q["delta"], q[ids.length(joint, "E")]
     line = partial(q.define, scale=1.0)
-    _joint_of_second_rod(q, joint)
+    _joint_of_second_rod(q, turn, joint)
     ξ, η = (ids.formula_coordinate(axis, joint) for axis in "xy")
     v_ξ, v_η = (ids.formula_component(axis, joint, "v") for axis in "xy")
     a_ξ, a_η = (ids.formula_component(axis, joint, "a") for axis in "xy")
@@ -127,7 +151,7 @@ def second_cylinder(q: Sheet, turn: int, joint: str) -> None:
     q.set_out("acceleration_second", a1, a2, a, ε4)
 
 
-def _joint_of_second_rod(q: Sheet, joint: str) -> None:
+def _joint_of_second_rod(q: Sheet, turn: int, joint: str) -> None:
     """Where the second rod hangs: ξ and η of the crank pin B, with its rates, or of D, whose rates are there."""
     R, ω1, φ = q["R"], q["omega.1"], q["phi.3"]
     line = partial(q.define, scale=1.0)
@@ -136,8 +160,9 @@ def _joint_of_second_rod(q: Sheet, joint: str) -> None:
     if joint == "B":
         line("f.x.B.v", ω1 * R * cos(φ), Symbol("v", "Bξ"))
         line("f.y.B.v", -(ω1 * R * sin(φ)), Symbol("v", "Bη"))
-        line("f.x.B.a", -(ω1**2 * R * sin(φ)), Symbol("a", "Bξ"))
-        line("f.y.B.a", -(ω1**2 * R * cos(φ)), Symbol("a", "Bη"))
+        ε1 = driver_acceleration(q, turn)
+        line("f.x.B.a", plus(-(ω1**2 * R * sin(φ)), times(ε1, R, cos(φ))), Symbol("a", "Bξ"))
+        line("f.y.B.a", plus(-(ω1**2 * R * cos(φ)), minus(times(ε1, R, sin(φ)))), Symbol("a", "Bη"))
     else:
         s = q[ids.length("B", joint)]
         ξ, η = R * (1 - s / q["L"]) * sin(φ), η + s * cos(q["beta.2"])
@@ -241,25 +266,31 @@ def offset_slider(q: Sheet, turn: int, angle: Floats, offset: Expression | None,
     s_C = line("x.C", r * cos(φ) + l * cos(β), Symbol("s", "C"), "length")
     ω2 = line("f.omega.2", signed(-turn, ω1 * r * cos(φ) / (l * cos(β))))
     v_C = line("f.v.C", -ω1 * r * sin(φ - β) / cos(β))
-    ε2 = line("f.eps.2", signed(turn, (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β))))
-    a_C = line("f.a.C", -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)))
+    evenly = signed(turn, (ω1**2 * (r * sin(φ)) + ω2**2 * l * sin(β)) / (l * cos(β)))
+    ε2 = line("f.eps.2", accelerated(q, turn, evenly, ω2))
+    a_C = line("f.a.C", accelerated(q, turn, -((ω1**2 * r * cos(φ - β) + ω2**2 * l) / cos(β)), v_C))
     q.set_out("velocity", β, s_C, ω2, v_C)
     q.set_out("acceleration", ε2, a_C)
     if centre:
         s, v, a = q["l.BS2"], signed(turn, ω2), signed(turn, ε2)
         v_x, v_y = -(ω1 * r * sin(φ) + v * s * sin(β)), ω1 * r * cos(φ) + v * s * cos(β)
         q.set_out("velocity", *components(q, "v", "S2", v_x, v_y))
-        a_x = -(ω1**2 * r * cos(φ) + s * (a * sin(β) + ω2**2 * cos(β)))
-        a_y = s * (a * cos(β) - ω2**2 * sin(β)) - ω1**2 * r * sin(φ)
+        ε1 = driver_acceleration(q, turn)
+        a_x = plus(-(ω1**2 * r * cos(φ) + s * (a * sin(β) + ω2**2 * cos(β))), minus(times(ε1, r, sin(φ))))
+        a_y = plus(s * (a * cos(β) - ω2**2 * sin(β)) - ω1**2 * r * sin(φ), times(ε1, r, cos(φ)))
         q.set_out("acceleration", *components(q, "a", "S2", a_x, a_y))
 
 
-def loop_equations(turn: int, offset: bool) -> dict[str, tuple[Chain, ...]]:
-    """The closed loop of the links by components, and its first and second derivatives."""
+def loop_equations(turn: int, offset: bool, accelerates: float = 0.0) -> dict[str, tuple[Chain, ...]]:
+    """The closed loop of the links by components, and its first and second derivatives.
+
+    The crank `accelerates` in the sense of ω₁ (> 0), against it (< 0) or not at all.
+    """
     r, l, e = Symbol("l", "AB"), Symbol("l", "BC"), Symbol("e")  # noqa: E741
     ω1, ω2, ε2 = Symbol("ω", "1"), Symbol("ω", "2"), Symbol("ε", "2")
     φ, β, s, v, a = Symbol("φ"), Symbol("β"), Symbol("s", "C"), Symbol("v", "C"), Symbol("a", "C")
     nothing = Number(0.0)
+    ε1 = accelerating(accelerates)
     return {
         "closure": (Chain((r * cos(φ) + l * cos(β), s)), Chain((r * sin(φ) + l * sin(β), e if offset else nothing))),
         "velocity": (
@@ -267,8 +298,23 @@ def loop_equations(turn: int, offset: bool) -> dict[str, tuple[Chain, ...]]:
             Chain((ω1 * r * cos(φ) + signed(turn, ω2 * l * cos(β)), nothing)),
         ),
         "acceleration": (
-            Chain((-(ω1**2) * r * cos(φ) + signed(-turn, ε2 * l * sin(β)) - ω2**2 * l * cos(β), a)),
-            Chain((-(ω1**2) * r * sin(φ) + signed(turn, ε2 * l * cos(β)) - ω2**2 * l * sin(β), nothing)),
+            Chain(
+                (
+                    plus(
+                        -(ω1**2) * r * cos(φ) + signed(-turn, ε2 * l * sin(β)) - ω2**2 * l * cos(β),
+                        minus(times(ε1, r, sin(φ))),
+                    ),
+                    a,
+                )
+            ),
+            Chain(
+                (
+                    plus(
+                        -(ω1**2) * r * sin(φ) + signed(turn, ε2 * l * cos(β)) - ω2**2 * l * sin(β), times(ε1, r, cos(φ))
+                    ),
+                    nothing,
+                )
+            ),
         ),
     }
 

@@ -13,8 +13,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from reportgen.catalogue.driven import natural_lines
+from reportgen.catalogue.given_sheet import accelerated, accelerating, driver_acceleration, natural_lines
 from reportgen.formula import (
+    NOTHING,
     PI,
     Chain,
     Expression,
@@ -167,9 +168,10 @@ def lever_formulas(q: Sheet, turn: int, angle: Floats, crank: str, centres: str)
     r, d, ω1 = q[crank], q[centres], q["omega.1"]
     square = d**2 + r**2 + 2 * d * r * sin(φ)
     S = line("f.S", sqrt(square), "S", "length")
-    line("f.omega.3", signed(turn, ω1 * r * (r + d * sin(φ)) / square))
+    ω3 = line("f.omega.3", signed(turn, ω1 * r * (r + d * sin(φ)) / square))
     line("f.v.r", ω1 * d * r * cos(φ) / S)
-    line("f.eps.3", signed(turn, ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2))
+    evenly = signed(turn, ω1**2 * d * r * (d**2 - r**2) * cos(φ) / square**2)
+    line("f.eps.3", accelerated(q, turn, evenly, ω3))
 
 
 def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
@@ -184,7 +186,8 @@ def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
     ω3, S = q["f.omega.3"], q["f.S"]
     v_D = line("f.v.D", ω3 * l)
     a_k = line("f.a.k", 2 * ω3 * q["f.v.r"], Symbol("a", "k"))
-    a_r = line("f.a.r", ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S, Symbol("a", "r"))
+    evenly = ω3**2 * S - ω1**2 * (r * (r + d * sin(φ))) / S
+    a_r = line("f.a.r", accelerated(q, turn, evenly, q["f.v.r"]), Symbol("a", "r"))
     normal = line("f.a.D.n", ω3**2 * l)
     tangential = line("f.a.D.t", q["f.eps.3"] * l)
     a_D = line("f.a.D", sqrt(normal**2 + tangential**2))
@@ -269,6 +272,13 @@ def ram_torque(q: Sheet, turn: int) -> None:
         )
         q.set_out("functions", v_x, v_y, a_x, a_y)
         powers += [-(G4 * v_y), -(m4 * (a_x * v_x + a_y * v_y))]
+    s1, ε1 = q.find("l.AS1"), signed(turn, driver_acceleration(q, turn))
+    if (G1 := q.find(ids.weight(1))) and s1:
+        powers.append(-(G1 * ω1 * s1 * cos(φ1)))
+    if (J1 := q.find(ids.inertia(1))) and ε1 is not NOTHING:
+        powers.append(minus(times(J1, signed(turn, ω1), ε1)))
+    if (m1 := q.find(ids.mass(1))) and s1 and ε1 is not NOTHING:
+        powers.append(minus(times(m1, s1**2, signed(turn, ω1), ε1)))
     if m5 := q.find(ids.mass(5)):
         powers.append(-(m5 * q["f.a.E"] * q["f.v.E"]))
     if powers:
@@ -309,24 +319,26 @@ RAM_COMPARED = (
 # --- the equations they are solved from -------------------------------------------------------------
 
 
-def lever_equations(turn: int, r: Symbol, d: Symbol) -> dict[str, tuple[Chain, ...]]:
+def lever_equations(turn: int, r: Symbol, d: Symbol, accelerates: float) -> dict[str, tuple[Chain, ...]]:
     """The triangle ABC on x and y, along and across the lever, and what its derivatives say of the lever."""
     S, φ1, φ3, ω1, ω3 = Symbol("S"), Symbol("φ", "1"), Symbol("φ", "3"), Symbol("ω", "1"), Symbol("ω", "3")
     v_r, ε3 = Symbol("v", "r"), Symbol("ε", "3")
+    ε1 = accelerating(accelerates)
+    across = NOTHING if ε1 is NOTHING else signed(turn, ε1 * r * cos(φ1 - φ3))
     return {
         "closure": (Chain((S * cos(φ3), r * cos(φ1))), Chain((S * sin(φ3), d + r * sin(φ1)))),
         "between": (Chain((S * cos(φ1 - φ3), r + d * sin(φ1))), Chain((S * sin(φ1 - φ3), -d * cos(φ1)))),
         "velocity": (Chain((S * ω3, signed(turn, ω1 * r * cos(φ1 - φ3)))), Chain((v_r, -ω1 * r * sin(φ1 - φ3)))),
-        "acceleration": (Chain((S * ε3 + 2 * v_r * ω3, signed(-turn, ω1**2 * r * sin(φ1 - φ3)))),),
+        "acceleration": (Chain((S * ε3 + 2 * v_r * ω3, plus(signed(-turn, ω1**2 * r * sin(φ1 - φ3)), across))),),
     }
 
 
-def ram_equations(turn: int) -> dict[str, tuple[Chain, ...]]:
+def ram_equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]:
     """Both closed loops by components, and their first and second derivatives."""
     l1, l3, l4 = (Symbol("l", link) for link in "134")
     φ3, φ4, ω3, ω4, ε3, ε4 = (Symbol(letter, link) for letter in "φωε" for link in "34")
     nothing = Number(0.0)
-    triangle = lever_equations(turn, l1, Symbol("a"))
+    triangle = lever_equations(turn, l1, Symbol("a"), accelerates)
     ε3_x, ε3_y = signed(turn, ε3 * l3 * sin(φ3)), signed(turn, ε3 * l3 * cos(φ3))
     ε4_x, ε4_y = signed(turn, ε4 * l4 * sin(φ4)), signed(turn, ε4 * l4 * cos(φ4))
     along = ε3_x + ω3**2 * l3 * cos(φ3) + ε4_x + ω4**2 * l4 * cos(φ4)

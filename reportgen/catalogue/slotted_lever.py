@@ -14,8 +14,10 @@ from reportgen.assignment.fields import Angle, Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import slotted
-from reportgen.catalogue.driven import Driven, GivenSheet, driven, even_angles
+from reportgen.catalogue.driven import driven
 from reportgen.catalogue.given_loads import LinkTorque, torque_on
+from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
+from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.slotted import SlottedCrank
 from reportgen.formula import Symbol
 from reportgen.formula.sheet import Sheet
@@ -83,21 +85,21 @@ def machine(assignment: Assignment) -> Machine:
 
     geometry = SlottedCrank(q.si(r), q.si(d), given.axis.si, positions.sign)
     q.fix("p.C", geometry.ground["C"], d)
-    start = math.pi / 2 if positions.start is None else geometry.phi(positions.start.si)
+    start = math.pi / 2 if positions.first is None else geometry.phi(positions.first.si)
     linkage = Linkage(
         ground=geometry.ground,
         driver=geometry.driver,
         dyads=(geometry.group,),
         points=(LinkPoint("D", 3, complex(q.si(l))), *q.centre_points({3: "C"})),
         inertias=q.inertias({2: "B", 3: "S3"}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
 
     def formulas(q: Sheet) -> None:
         q.define("drawn.AC", d / q["mu.l"], drawn_length("A", "C"))
         if geometry.swings:
             slotted.swing(q, r / d)
-        slotted.lever_end(q, positions.sign, start + even_angles(positions))
+        slotted.lever_end(q, positions.sign, start + cycle_angles(positions))
 
     return driven(
         assignment,
@@ -109,5 +111,5 @@ def machine(assignment: Assignment) -> Machine:
         paths=("D",),
         compared=slotted.LEVER_COMPARED,
         facts={"form": "swings" if geometry.swings else "turns", "axis": "given" if "axis.CA" in q else "vertical"},
-        equations=slotted.lever_equations(positions.sign, Symbol("l", "AB"), Symbol("l", "AC")),
+        equations=slotted.lever_equations(positions.sign, Symbol("l", "AB"), Symbol("l", "AC"), given.acceleration),
     )

@@ -17,7 +17,9 @@ from reportgen.assignment.fields import Length
 from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import assembly, given_loads
-from reportgen.catalogue.driven import Driven, FixedPoint, GivenSheet, driven, even_angles, natural_lines
+from reportgen.catalogue.driven import driven
+from reportgen.catalogue.given_sheet import GivenSheet, accelerated, cycle_angles, natural_lines
+from reportgen.catalogue.parameters import Driven, FixedPoint
 from reportgen.formula import Symbol, acos, atan2, cos, ids, signed, sin, sqrt
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Linkage
@@ -64,7 +66,7 @@ def _linkage(given: Parameters, q: GivenSheet) -> Linkage:
         ),
         points=q.centre_points({link: start for link, (start, _) in BARS.items()}),
         inertias=q.inertias({2: "S2", 3: "S3", 4: "S4", 5: "C"}),
-        gravity=-1j * given.g.si,
+        gravity=-1j * given.gravity,
     )
 
 
@@ -79,7 +81,7 @@ def _check_turning(given: Parameters) -> Iterator[Finding]:
     motion_at = crank_motion(linkage, Positions(), 0.0)
     if obstacles := list(assembly.findings(linkage, members)):
         yield from obstacles
-    elif motion_at(even_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
+    elif motion_at(cycle_angles(Positions())).points["B"].p.imag.max() > given.D.y.si:
         yield Finding("out-of-range", ("parameters", "D", "y"), {"text": given.D.y.text, "range": "y_D > y_B"})
     elif given.press is not None:
         yield from assembly.to_and_fro(linkage, 5, motion_at, ("parameters", "press"))
@@ -106,7 +108,7 @@ def machine(assignment: Assignment) -> Machine:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         r, b, l, x_D = q["l.OA"], q["l.AB"], q["l.DB"], q["D.x"]  # noqa: E741 - the length's own letter
         y_D = q["D.y"] if turn > 0 else -q["D.y"]
-        φ1 = q.angle("f.phi.1", turn * start + even_angles(positions))
+        φ1 = q.angle("f.phi.1", turn * start + cycle_angles(positions))
         x = line("f.x.DA", r * cos(φ1) - x_D)
         y = line("f.y.DA", r * sin(φ1) - y_D)
         s = line("f.s", sqrt(x**2 + y**2), "s", "length")
@@ -119,7 +121,7 @@ def machine(assignment: Assignment) -> Machine:
         v_C = line("f.v.C", 2 * l * ω3 * cos(φ3))
         top = ω1**2 * r * cos(φ1 - φ2) + ω2**2 * b - ω3**2 * l * cos(φ3 - φ2)
         numerator = line("f.q", top, "q", "acceleration")
-        ε3 = line("f.eps.3", signed(turn, numerator / (l * sin(φ3 - φ2))))
+        ε3 = line("f.eps.3", accelerated(q, turn, signed(turn, numerator / (l * sin(φ3 - φ2))), ω3))
         a_C = line("f.a.C", 2 * l * (ε3 * cos(φ3) + signed(-turn, ω3**2 * sin(φ3))))
         q.set_out("position", x, y, s, φ3, φ2)
         q.set_out("velocity", ω2, ω3, v_C)

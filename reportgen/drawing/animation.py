@@ -242,6 +242,8 @@ class Animation:
     """What can be switched on, of `LAYERS`, in their order."""
     name: str = ""
     title: str = ""
+    instants: tuple[float, ...] = ()
+    """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
 
 
 LAYERS = ("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions")

@@ -87,7 +87,8 @@ def position_plan(
     for bones in reached:
         items += _links(bones, style.THIN, shows.numbered)
     drawn: list[Complexes] = []
-    for name in shows.paths:
+    # Of a mechanism that does not go all the way round no path is whole.
+    for name in shows.paths if dense.reachable.all() else ():
         curve = dense.points[name].p[dense.reachable] * scale
         # Two points that describe one curve share its line, whose dashes would else fill each other's gaps.
         if not any(_covers(other, curve) for other in drawn):

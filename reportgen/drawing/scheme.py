@@ -307,7 +307,7 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
         return Canvas()
     centre, pin = bones.points[driver.centre], bones.points[driver.pin]
     radius = abs(pin - centre)
-    sense = math.copysign(1.0, motion.rate)
+    sense = math.copysign(1.0, motion.rate[0])
     angle = cmath.phase(pin - centre)
     reach = max(5.0, min(0.45 * radius, 12.0))
     # The arrow begins beside the crank, or a quarter turn on where it would lie on the pivot's legs.

@@ -11,7 +11,8 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
 from reportgen.base.units import Given
-from reportgen.catalogue.linkage_file import MOST_NAMES, Name
+from reportgen.catalogue.declared_loads import Name
+from reportgen.catalogue.linkage_file import MOST_NAMES
 from reportgen.exercise.symbols import MOST_SYMBOLS, Substitution, SymbolName, SymbolValue, Told, stated
 
 LAST_BODY = 40

@@ -67,6 +67,11 @@ def amid(value: Value, least: Value, most: Value) -> Value:
     return np.where((value >= least - EDGE) & (value < most - EDGE), 1.0, 0.0)
 
 
+def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
+    """The value where the place lies below `least` or above `most`, nan elsewhere."""
+    return np.where((place < least) | (place > most), value, np.nan)
+
+
 def mean(values: Value, weights: Value = 1.0) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
@@ -142,6 +147,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "quotient": quotient,
     "if_zero": if_zero,
     "within": within,
+    "beyond": beyond,
     "branch": branch,
     "around": around,
     "amid": amid,

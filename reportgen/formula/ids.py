@@ -34,7 +34,7 @@ PLACES: Mapping[str, str] = {
     "about": r"[A-Z][^.]*",
     "line": r"[A-Z][^.]*",
     "to": r"[A-Z][^.]*",
-    "relative": r"[A-Z][^.]*[A-Z][^.]*",
+    "relative": r"[A-Z][^.]*",
     "start": r"[a-z]\d*",
     "end": r"[a-z]\d*",
     # what of a quantity is meant
@@ -226,6 +226,12 @@ pressure = Name("p.{link}")
 applied_force = Name("P{link}[{letter}]")  # a letter where a link has several
 applied_torque = Name("M{link}[{letter}]")
 given_force = Name("P[{point}].given")
+spring_rate = Name("spring.c.{number}")
+spring_free = Name("spring.free.{number}")  # its length, or its angle, when slack
+spring_length = Name("spring.l.{number}")
+spring_on_paper = Name("spring.drawn.{number}")
+spring_turn = Name("spring.turn.{number}")  # of a torsion spring from slack
+spring_anchor = Name("spring.at.{number}")  # the end on the frame
 inertia_force = Name("Pqt{link}")
 inertia_couple = Name("M.Pqt{link}")
 inertia_offset = Name("e.Pqt{link}")
@@ -242,6 +248,10 @@ down = Name("down.{link}")  # the direction of its weight
 reaction = Name("R.{joint}[.{part}]")
 reaction_couple = Name("M.{joint}")
 application = Name("x.{joint}")
+face_from, face_to, face_below = Name("face.from.{link}"), Name("face.to.{link}"), Name("face.below.{link}")
+normal_reaction = Name("N.{joint}")  # across a guide, with its sign
+normal_place = Name("along.{joint}")  # where it acts, from the pin along the guide
+face_reaction = Name("face.{joint}.{number}")  # at an end of a slider that tilts
 arm = Name("h.{force}.{about}")
 force_scale = Name("mu.R{group}")
 force_segment = Name("seg.{group}.{force}")

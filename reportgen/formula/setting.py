@@ -199,6 +199,8 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
             case Call("cross" | "dot" as product, (left, right)):
                 sign = Sign("×" if product == "cross" else "·", "bound")
                 return MathRow((tight(left, QUOTIENT), sign, tight(right, QUOTIENT)))
+            case Call("beyond", (value, *_)):
+                return of(value)
             case Call(name, arguments):
                 return applied(name, arguments, None)
             case Matrix(rows):
@@ -257,6 +259,8 @@ def level(node: Expression, linear: bool = False) -> int:
             return SUM if node.shown < 0 else PRODUCT if large else MARKED if node.unit else ATOM
         case Product():
             return PRODUCT
+        case Call("beyond", (value, *_)):
+            return level(value, linear)
         case Fraction() | Power() | Call("cross" | "dot"):
             return QUOTIENT
         case Call() | Root():

@@ -84,6 +84,8 @@ KINDS = _Kinds(
         "pressure": QuantityKind("N/cm²", 1e4),
         "force": QuantityKind("N"),
         "torque": QuantityKind("N·m"),
+        "stiffness": QuantityKind("N/m"),
+        "torsional stiffness": QuantityKind("N·m/rad"),
         "work": QuantityKind("J"),
         "power": QuantityKind("W"),
     }
@@ -296,9 +298,15 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.inertia_force, "P", "force", _LOADS, below="qt{link}", name="inertia force"),
     VocabularyRow(ids.inertia_couple, "M", "torque", _LOADS, below="qt{link}", name="inertia couple"),
     VocabularyRow(ids.inertia_offset, "e", "length", _LOADS, below="qt{link}", name="inertia offset"),
-    VocabularyRow(ids.applied_force, "P", "force", _LOADS, name="applied force"),
-    VocabularyRow(ids.applied_torque, "M", "torque", name="applied torque"),
+    VocabularyRow(ids.applied_force, "P", "force", _LOADS, below="{link}{letter}", name="applied force"),
+    VocabularyRow(ids.applied_torque, "M", "torque", below="{link}{letter}", name="applied torque"),
     VocabularyRow(ids.given_force, name="given force"),
+    VocabularyRow(ids.spring_rate, "c", "stiffness", name="spring rate"),
+    VocabularyRow(ids.spring_free, "l", "length", below="0{number}", name="spring free"),
+    VocabularyRow(ids.spring_length, "l", "length", _LOADS, below="{number}", name="spring length"),
+    VocabularyRow(ids.spring_on_paper, "s", "segment", _LOADS, "mu.l", below="{number}", name="spring on paper"),
+    VocabularyRow(ids.spring_turn, "θ", "angle", _LOADS, below="{number}", name="spring turn"),
+    VocabularyRow(ids.spring_anchor, "", "length"),
     # the balance of the driver
     VocabularyRow(ids.lever_arm, "h", "segment", _TORQUE, "mu.v", name="lever arm"),
     VocabularyRow(ids.lever_moment, "M", "torque", _TORQUE, name="lever moment"),
@@ -308,6 +316,12 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.reaction, "R", "force", _FORCES, name="reaction"),
     VocabularyRow(ids.reaction_couple, "M", "torque", _FORCES, name="reaction couple"),
     VocabularyRow(ids.application, "x", "length", _FORCES, name="application"),
+    VocabularyRow(ids.face_from, "x", "length", below="{link},1", name="face end"),
+    VocabularyRow(ids.face_to, "x", "length", below="{link},2", name="face end"),
+    VocabularyRow(ids.face_below, "y", "length", name="face below"),
+    VocabularyRow(ids.normal_reaction, "N", "force", _FORCES, name="normal reaction"),
+    VocabularyRow(ids.normal_place, "x", "length", _FORCES, below="N{joint}", name="normal place"),
+    VocabularyRow(ids.face_reaction, "N", "force", _FORCES, below="{joint},{number}", name="face reaction"),
     VocabularyRow(ids.arm, "h", "segment", _FORCES, "mu.l", name="arm"),
     VocabularyRow(ids.force_scale, "μ", "force scale", _FORCES, name="force scale"),
     VocabularyRow(ids.force_direction, "α", "direction", _FORCES, around=True, name="direction"),
@@ -408,12 +422,17 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
         "line": lowered(index),
         "link": link,
         "other": acted_on,
+        "number": parts.get("number", ""),
+        "nth": f" ({parts['letter']})" if parts.get("letter") else "",
         "axis": parts.get("axis", ""),
         "about": lowered(parts.get("about", "")),
         "plan": shown.sub.removeprefix("R"),
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
     name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
+    if family.name == "acceleration" and parts.get("part") and len(points) == 1:
+        # A component of the point's own acceleration, as of the pin of a crank.
+        name = f"{name}.own"
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 

@@ -13,11 +13,21 @@ import numpy as np
 from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
-from reportgen.machine.forces import Forces, Load, inertia_loads, mean_over, solve_forces, virtual_work_torque, weights
+from reportgen.machine.faces import Faces
+from reportgen.machine.forces import (
+    Forces,
+    Load,
+    inertia_loads,
+    mean_over,
+    reaction_name,
+    solve_forces,
+    virtual_work_torque,
+    weights,
+)
 from reportgen.machine.gas import indicated_work, stroke_at
 from reportgen.machine.laws import FULL_TURN, Stroke
-from reportgen.machine.loads import Applied, Piston, Torque
-from reportgen.machine.motion import Motion, solve_motion
+from reportgen.machine.loads import Applied, Piston, Torque, carriers
+from reportgen.machine.motion import Motion, cross, solve_motion
 
 
 @dataclass(frozen=True)
@@ -51,6 +61,16 @@ class Analysis:
     @property
     def loads(self) -> tuple[Load, ...]:
         return (*self.inertia, *self.applied, *self.weights)
+
+    def at_ends(self, link: int) -> tuple[str, np.ndarray, np.ndarray, np.ndarray]:
+        """Of a slider with faces: the name of its reaction, whether it tilts [N], N₁ and N₂ (N) [N] where it does."""
+        faces, carrier = self.machine.faces[link], carriers(self.machine.linkage)[link]
+        name = reaction_name(carrier, link)
+        reaction = self.forces.reactions[name]
+        normal = cross(self.motion.slides[carrier, link].direction, reaction.force)
+        tilts = faces.tilts(normal, reaction.moment)
+        first, last = faces.ends(normal, reaction.moment)
+        return name, tilts, np.where(tilts, first, np.nan), np.where(tilts, last, np.nan)
 
     @cached_property
     def summary(self) -> Summary:
@@ -110,7 +130,8 @@ def analyse(machine: Machine, cycle_angle: np.ndarray | None = None) -> Analysis
 
 def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
     """The motion at cycle angles [N]."""
-    return solve_motion(machine.linkage, machine.angles(cycle_angle), machine.turn * machine.speed)
+    rate, acceleration = machine.turn * machine.speed, machine.turn * machine.acceleration
+    return solve_motion(machine.linkage, machine.angles(cycle_angle), rate, acceleration)
 
 
 def breaks(machine: Machine) -> np.ndarray:
@@ -260,6 +281,12 @@ class Machine:
     """What the positions of the cycle are called; empty: their numbers."""
     span: float = 0.0
     """The way (m) of a sliding driver over the cycle, which then stands for one turn; 0 for a crank."""
+    acceleration: float = 0.0
+    """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
+    faces: Mapping[int, Faces] = field(default_factory=dict)
+    """How wide sliders are, by their links."""
+    instants: bool = False
+    """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
     essential: tuple[str, ...] = ()
     """Sections that the task of the kind asks for, so that a short report has them, too."""
     facts: Mapping[str, Any] = field(default_factory=dict)
@@ -278,7 +305,12 @@ class Machine:
     @property
     def positions(self) -> int:
         """Number of positions of the whole cycle."""
-        return self.count * self.turns
+        return self.count if self.instants else self.count * self.turns
+
+    @property
+    def cyclic(self) -> bool:
+        """Whether the driver runs through the whole cycle at a constant speed, so that there are means and work."""
+        return not (self.instants or self.acceleration)
 
     @property
     def even(self) -> np.ndarray:
@@ -291,6 +323,8 @@ class Machine:
         step = 2 * np.pi / self.count
         if not self.places:
             return np.arange(self.positions) * step
+        if self.instants:
+            return np.asarray(self.places)
         turns = np.arange(self.turns)[:, None] * (2 * np.pi)
         return np.asarray((turns + np.asarray(self.places)).ravel())
 

@@ -120,7 +120,7 @@ def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
     turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
     force = sum(float(np.abs(load.force).max()) for load in loads)
     couple = sum(float(np.abs(load.couple).max()) for load in loads)
-    return (force * fastest + couple * turning) / abs(motion.rate)
+    return (force * fastest + couple * turning) / float(np.abs(motion.rate).max())
 
 
 def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:

@@ -48,7 +48,7 @@ class Load:
 
 
 def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
-    """Weights m·g at the mass centres, named "G" and the link's number; a massless link has none."""
+    """Weights m·g at the mass centres, named "G" and the link's number; none of a massless link or without gravity."""
     still = np.zeros_like(motion.driver)
     return tuple(
         Load(
@@ -59,7 +59,7 @@ def weights(linkage: Linkage, motion: Motion) -> tuple[Load, ...]:
             still,
         )
         for body in linkage.inertias
-        if body.mass
+        if body.mass and linkage.gravity
     )
 
 
@@ -113,7 +113,7 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
     Loads on links of `linkage` include inertia forces, so that this is D'Alembert's principle.
     Raises `ValueError` when the driver stands still.
     """
-    if motion.rate == 0:
+    if np.any(motion.rate == 0):
         raise ValueError("virtual work needs a moving driver")
     power = np.where(motion.reachable, 0.0, np.nan)
     for load in loads:

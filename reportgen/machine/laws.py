@@ -82,7 +82,7 @@ class Stroke:
     def fraction_rate(self, motion: Motion) -> Floats:
         """d(s/H)/dφ [N] over the driver's turn φ in the direction of rotation."""
         speed = np.real(np.conj(self.inward) * motion.points[self.pin].v)
-        return np.asarray(speed / (self.stroke * abs(motion.rate)))
+        return np.asarray(speed / (self.stroke * np.abs(motion.rate)))
 
     def share_at(self, motion_at: MotionAt) -> Callable[[Floats], Floats]:
         """s/H [N] at the slider's own cycle angles [N], in any order."""
@@ -105,8 +105,9 @@ class Law(ABC):
     Who tells of a load asks its law here, never which class it has.
     """
 
-    kind: Literal["constant", "opposing", "tabled", "cutting"]
-    """How the load behaves: the same always, always against the motion, as in its table, while a tool cuts."""
+    kind: Literal["constant", "opposing", "tabled", "cutting", "spring"]
+    """How the load behaves: the same always, always against the motion, as in its table, while a tool
+    cuts, as a spring is stretched."""
 
     @abstractmethod
     def value(self, angle: Floats, motion: Motion) -> Floats:

@@ -35,6 +35,16 @@ def rails(linkage: Linkage) -> dict[int, tuple[Dyad, Guide]]:
     return rails
 
 
+def carriers(linkage: Linkage) -> dict[int, int]:
+    """The links that slide along a guide, with the link that has the guide."""
+    return {
+        link: end.link
+        for dyad in linkage.dyads
+        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
+        if isinstance(end, Guide)
+    }
+
+
 def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[float, ...]:
     """The cycle angles (rad) of one turn, rising, at which a slider on the frame turns back."""
     dyad, guide = rails(linkage)[link]

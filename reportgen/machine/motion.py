@@ -262,13 +262,13 @@ Arrays = TypeVar("Arrays", LinkMotion, PointMotion, SlideMotion)
 class Motion:
     """The motion of every link, named point and slide over positions [N].
 
-    `driver` is the crank's angle (rad) or the slide's coordinate (m), `rate` its constant rate.
+    `driver` is the crank's angle (rad) or the slide's coordinate (m), `rate` its rate at each position [N].
     `slides` are keyed (guide link, slider link); `origins` are the origins of the links' frames.
     Positions where `reachable` is False have nan where nothing can be said.
     """
 
     driver: Floats
-    rate: float
+    rate: Floats
     links: Mapping[int, LinkMotion]
     points: Mapping[str, PointMotion]
     slides: Mapping[tuple[int, int], SlideMotion]
@@ -283,19 +283,28 @@ class Motion:
         return carried(self.origins[link], self.links[link], p)
 
 
-def solve_motion(linkage: Linkage, driver: ArrayLike, rate: float) -> Motion:
-    """The motion at driver coordinates `driver` [N], passed through in this order at the constant `rate`.
+def solve_motion(linkage: Linkage, driver: ArrayLike, rate: ArrayLike, acceleration: ArrayLike = 0.0) -> Motion:
+    """The motion at driver coordinates `driver` [N], passed through in this order, with q̇ = `rate`, q̈ = `acceleration`.
 
-    Between positions far apart the solver takes substeps, so that link angles are continuous.
+    Both are one number or one a position [N].  Between positions far apart the solver takes substeps, so that link
+    angles are continuous.
     Raises `ValueError` for a moving guide under a sliding driver and `KeyError` for a dyad that hangs
     on a point or link not yet placed.
     """
     given = np.atleast_1d(np.asarray(driver, dtype=np.float64))
     path, kept = _path(given, isinstance(linkage.driver, Crank))
-    state = _State(linkage, path, rate)
+    state = _State(linkage, path, _along(path, kept, rate), _along(path, kept, acceleration))
     for dyad in linkage.dyads:
         state.add(dyad)
     return state.motion(given, kept)
+
+
+def _along(path: Floats, kept: Places, given: ArrayLike) -> Floats:
+    """What is given for all positions, or one by one, at every place of the way; a substep has that before it."""
+    values = np.asarray(given, dtype=np.float64)
+    if values.ndim == 0 or isinstance(kept, slice):
+        return np.zeros_like(path) + values
+    return np.asarray(values[np.searchsorted(kept, np.arange(path.size), side="right") - 1])
 
 
 def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
@@ -316,8 +325,8 @@ def _path(driver: Floats, turning: bool) -> tuple[Floats, Places]:
 class _State:
     """What is placed so far while the groups are assembled one after another."""
 
-    def __init__(self, linkage: Linkage, path: Floats, rate: float) -> None:
-        self.linkage, self.path, self.rate = linkage, path, rate
+    def __init__(self, linkage: Linkage, path: Floats, rate: Floats, acceleration: Floats) -> None:
+        self.linkage, self.path, self.rate, self.acceleration = linkage, path, rate, acceleration
         zero = np.zeros_like(path)
         self.still: Complexes = zero.astype(np.complex128)
         self.links: dict[int, LinkMotion] = {GROUND: LinkMotion(zero, zero, zero)}
@@ -333,15 +342,15 @@ class _State:
     def _drive(self) -> None:
         q, zero, driver = self.path, np.zeros_like(self.path), self.linkage.driver
         if isinstance(driver, Crank):
-            link, origin = LinkMotion(q, zero + self.rate, zero), self.points[driver.centre]
+            link, origin = LinkMotion(q, self.rate, self.acceleration), self.points[driver.centre]
             pin = carried(origin, link, origin.p + driver.length * unit(q))
         else:
             if driver.guide.link != GROUND:
                 raise ValueError("the guide of a sliding driver must be fixed to the ground")
             d = unit(driver.guide.angle)
-            pin = PointMotion(driver.guide.at + q * d, np.full_like(self.still, self.rate * d), self.still)
+            pin = PointMotion(driver.guide.at + q * d, self.rate * d, self.still + self.acceleration * d)
             link, origin = LinkMotion(zero + driver.guide.angle, zero, zero), pin
-            self.slides[GROUND, DRIVER] = SlideMotion(q, zero + self.rate, zero, np.full_like(self.still, d))
+            self.slides[GROUND, DRIVER] = SlideMotion(q, self.rate, self.acceleration, np.full_like(self.still, d))
         self.points[driver.pin] = pin
         self._place(DRIVER, link, origin)
 
@@ -375,7 +384,7 @@ class _State:
         """The result at the positions asked for [N]; the substeps are dropped."""
         return Motion(
             driver=driver,
-            rate=self.rate,
+            rate=self.rate[kept],
             links={number: _take(link, kept) for number, link in self.links.items() if number != GROUND},
             points={name: _take(point, kept) for name, point in self.points.items()},
             slides={key: _take(slide, kept) for key, slide in self.slides.items()},

@@ -13,10 +13,11 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.formula import Call, Expression, Negative, Sum, rebuild, refs, walk
+from reportgen.formula import Call, Expression, Negative, Sum, ids, rebuild, refs, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import follow
 from reportgen.formula.sheet import Family
+from reportgen.machine import DRIVER
 from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.marks import Cells, Marked, Place, Verdict
 from reportgen.marking.scheme import MarkingScheme, Values
@@ -79,6 +80,28 @@ def general_mistakes(scheme: MarkingScheme) -> Iterator[Mistake]:
     for id, family in ledger.families.items():
         if family.kind == "acceleration" and family.symbol.sup == "k":
             yield Mistake(NO_CORIOLIS, id, {id: _times(0)})
+    yield from _of_an_accelerated_driver(scheme)
+    yield from _of_springs(scheme)
+
+
+def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
+    """aᵗ of the crank pin left out, J₁ε₁ forgotten."""
+    if ids.signed("eps", DRIVER) not in scheme.ledger:
+        return
+    for id in scheme.ledger.families:
+        if (names := ids.acceleration.read(id)) and names["part"] == "t" and len(ids.points(names["point"])) == 1:
+            yield Mistake("no-tangential", id, {id: _times(0)})
+    if (couple := ids.inertia_couple(DRIVER)) in scheme.ledger:
+        both = (couple, ids.couple(ids.inertia_force(DRIVER)))
+        yield Mistake("no-couple-of-driver", couple, {id: _times(0) for id in both})
+
+
+def _of_springs(scheme: MarkingScheme) -> Iterator[Mistake]:
+    """c·l for c(l − l₀)."""
+    for id, family in scheme.ledger.families.items():
+        used = refs(family.definition) if family.definition is not None and family.kind == "force" else ()
+        for slack in (ref for ref in used if ref in ids.spring_free):
+            yield Mistake("no-free-length", id, {id: _with(family.definition, {slack: lambda _: np.zeros(1)})})
 
 
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:

@@ -151,6 +151,7 @@ class PanelWriter:
             "knots": [float(f"{knot:.8g}") for knot in animation.knots],
             "turns": animation.turns,
             "span": animation.span,
+            **({"instants": self.instants()} if animation.instants else {}),
             "language": self.language,
             "positions": [[label, float(f"{angle:.9g}")] for label, angle in animation.positions],
             "shown": animation.shown,
@@ -178,9 +179,21 @@ class PanelWriter:
             "tracks": self.tracks.packed(),
         }
 
+    def instants(self) -> list[tuple[str, float]]:
+        """What is told of each single instant, and where the driver stands."""
+        unit = " mm" if self.animation.span else "°"
+        places = [float(f"{place:.9g}") for place in self.animation.instants]
+        labels = (label for label, _ in self.animation.positions)
+        return [
+            (f"{label}: {write(place, None, self.language)}{unit}", place)
+            for label, place in zip(labels, places, strict=True)
+        ]
+
     def accuracy(self) -> str:
         """What drawing straight lines between samples costs, in words."""
         errors = self.animation.errors
+        if self.animation.instants:
+            return str(self.words["instants"])
         shown = {
             "count": len(self.animation.knots) - 1,
             "place": rounded_up(errors.place, self.language),

@@ -117,6 +117,8 @@ class Samples:
 
     def _own_knots(self) -> np.ndarray:
         machine = self.machine
+        if machine.instants:
+            return np.linspace(0.0, FULL_TURN, machine.count + 1)
         own = np.mod(machine.cycle_angles[: machine.count], FULL_TURN * (1 + SAME_SAMPLE))
         wanted = np.concatenate((own, self._jumps()))
         grid = np.linspace(0.0, FULL_TURN, SAMPLES + 1)
@@ -141,6 +143,9 @@ class Samples:
     @cached_property
     def angles(self) -> np.ndarray:
         """The cycle angles (rad) of all samples: those of a turn, turn after turn, to the end of the last."""
+        if self.machine.instants:
+            # The last sample closes the round that the page makes from the last instant to the first.
+            return np.append(self.machine.cycle_angles, self.machine.cycle_angles[0])
         turns = np.arange(self.machine.turns)[:, None] * FULL_TURN
         return np.append((turns + self.knots[:-1]).ravel(), self.machine.turns * FULL_TURN)
 
@@ -170,18 +175,19 @@ class Samples:
         machine = self.machine
         panes = tuple(self.panes())
         layers = {item.layer for item in panes[0].items}
+        places = self.knots[:-1] if machine.instants else machine.cycle_angles
+        stands = machine.angles(machine.cycle_angles) if machine.instants else np.empty(0)
         return Animation(
             knots=np.degrees(self.knots),
-            turns=machine.turns,
+            turns=1 if machine.instants else machine.turns,
             span=machine.span * MM,
-            positions=tuple(
-                (str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(machine.cycle_angles))
-            ),
+            positions=tuple((str(machine.position(k + 1)), float(angle)) for k, angle in enumerate(np.degrees(places))),
+            instants=tuple(map(float, stands * MM if machine.span else np.degrees(stands))),
             shown=self.case.assignment.worked_positions[0] - 1,
             panes=panes,
-            charts=tuple(self.charts()),
+            charts=() if machine.instants else tuple(self.charts()),
             values=tuple(self.values()),
-            errors=self.errors(self.scale),
+            errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
             layers=tuple(layer for layer in LAYERS if layer in layers),
         )
 
@@ -212,7 +218,7 @@ class Samples:
         items = linkage_items(linkage, motion, shown, scale, look)
         low, high = self.chosen("box", lambda: extent(items))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
-        items = path_items(linkage, motion, names, scale) + items
+        items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]
         for kind, rate, layer in (("velocity", "v", "velocities"), ("acceleration", "a", "accelerations")):
             arrows, per = self._rates(rate, layer, scale)
@@ -246,7 +252,7 @@ class Samples:
     @cached_property
     def _one_turn(self) -> Motion:
         """The motion at the samples of one turn."""
-        return motion_at(self.machine, self.knots)
+        return motion_at(self.machine, self.angles if self.machine.instants else self.knots)
 
     def _rates(self, rate: str, layer: str, scale: float) -> tuple[list[MovingItem], float]:
         """The velocities or accelerations of the points as arrows at them, the longest as long as it may be, to scale.

@@ -76,7 +76,8 @@ def enter_plans(
     else:
         q.give("phi.1", machine.angles(analysis.cycle_angle))
     q.extend(machine.sheet)
-    enter_kinematics(q, machine.linkage, machine.turn, worked, scaled)
+    sense = -1 if machine.acceleration < 0 else 1
+    enter_kinematics(q, machine.linkage, machine.turn, worked, sense, scaled)
     with q.within(Chapter.formulas):
         formulas(q)
     if not analysis.loads:
@@ -94,7 +95,7 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
         weight, mass = ids.weight(body.link), ids.mass(body.link)
         if body.mass > 0 and weight in q and mass not in q:
             q.define(mass, q[weight] / q["g"])
-        elif mass in q and weight not in q:
+        elif mass in q and weight not in q and "g" in q:
             q.define(weight, q[mass] * q["g"])
 
 
@@ -168,7 +169,7 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
             q.give(ids.pressure(force.link), state.pressure, exact=False, written=_between_nodes(q, state))
         _size(q, force, analysis)
     for torque in machine.torques:
-        _size(q, torque, analysis, Symbol("M", str(torque.link)))
+        _size(q, torque, analysis)
 
 
 def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol | str = "") -> None:
@@ -183,19 +184,22 @@ def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol |
 
 def _cycle(q: Sheet, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
-    summary, machine = analysis.summary, analysis.machine
+    machine = analysis.machine
     size, possible = float(np.nanmax(np.abs(analysis.torque))), flywheel.possible(analysis, analysis.loads)
     if size < ZERO * possible:
         # All of it is rounding, as where a guide takes the whole load.
         size = possible
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
-    rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
-    angle = q["span"] if machine.span else 2.0 * machine.turns * PI
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)
     nothing = abs(float(np.nanmean(q.value("M.eq")))) < ZERO * size
     largest = call("highest", call("abs", q["M.eq"]))
     q.define("M.share", q["M.difference"] / largest, Symbol("δ", letter), "share", scale=1.0, residue=True)
+    if not machine.cyclic:
+        return
+    summary = analysis.summary
+    rate = q[ids.velocity(machine.linkage.driver.pin)] if machine.span else q["omega.1"]
+    angle = q["span"] if machine.span else 2.0 * machine.turns * PI
     even = q.give("even", machine.even, Symbol("even"), "ratio", hidden=True)
     q.define(
         "M.mean.positions", call("mean", q["M.eq"], even), Symbol(letter, "N"), kind, scale=size if nothing else 0.0

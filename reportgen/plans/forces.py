@@ -14,7 +14,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.formula import Expression, Ref, Sum, Symbol, dot, ids, meet, quotient, sign, total, turned, unit
+from reportgen.formula import (
+    Expression,
+    Number,
+    Ref,
+    Sum,
+    Symbol,
+    call,
+    dot,
+    ids,
+    meet,
+    quotient,
+    sign,
+    total,
+    turned,
+    unit,
+)
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
@@ -142,7 +157,7 @@ def _rrp(g: Group) -> Polygon:
     middle = g.dyad.middle
     _tangential(g, g.i, g.outer, g.start, middle, g.on_i)
     polygon = _close(g, g.q[ids.rod(g.i)], turned(g.q[ids.guide(g.j)]), tangents=(True, False))
-    _slide(g, g.end, middle, g.on_j)
+    _slide(g, g.end, middle, g.on_j, g.j)
     return polygon
 
 
@@ -166,8 +181,8 @@ def _rpr(g: Group) -> Polygon:
 def _prp(g: Group) -> Polygon:
     middle = g.dyad.middle
     polygon = _close(g, turned(g.q[ids.guide(g.i)]), turned(g.q[ids.guide(g.j)]))
-    _slide(g, g.outer, middle, g.on_i)
-    _slide(g, g.end, middle, g.on_j)
+    _slide(g, g.outer, middle, g.on_i, g.i)
+    _slide(g, g.end, middle, g.on_j, g.j)
     return polygon
 
 
@@ -179,7 +194,7 @@ def _rpp(g: Group) -> Polygon:
     reaction = opposite(q, back, g.inner, g.j, g.start, g.name)
     if ids.reaction_couple(g.inner) in q:
         q.construct(ids.couple(ids.reaction_force(back)), q[ids.reaction_couple(g.inner)])
-    _slide(g, g.end, g.dyad.middle, (reaction, *g.on_j))
+    _slide(g, g.end, g.dyad.middle, (reaction, *g.on_j), g.j)
     return polygon
 
 
@@ -272,10 +287,11 @@ def _close(
     return Polygon(name, (*path.edges, outer, end), tuple(reads))
 
 
-def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> None:
+def _slide(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...], link: int = 0) -> None:
     """Where a slide's reaction acts: moments of all else on the link about the pin."""
     _moment(g, digits, pin, loads)
     _offset(g, digits)
+    _faces(g, digits, link)
 
 
 def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expression | None:
@@ -296,6 +312,29 @@ def _offset(g: Group, digits: str) -> None:
     else:
         formula = quotient(q[id], above(size, FAINT * statics.force))
     q.define(ids.application(digits), formula, scale=statics.span)
+
+
+def _faces(g: Group, digits: str, link: int) -> None:
+    """N and x along the guide of a slider whose face is given, and at positions where it tilts both its ends.
+
+    x N is what M, the moment of all else about the pin, leaves to the reaction: x = −M/N.
+    """
+    q, first, last = g.q, g.q.find(ids.face_from(link)), g.q.find(ids.face_to(link))
+    if first is None or last is None:
+        return
+    statics, R, M = g.statics, q[ids.reaction(digits)], q.find(ids.reaction_couple(digits))
+    side = sign(dot(q[ids.force_vector(ids.reaction_force(digits))], turned(q[ids.guide(link)])))
+    N = q.define(ids.normal_reaction(digits), R * side, scale=statics.force)
+    place = -(q[ids.application(digits)] * side)
+    x = q.define(ids.normal_place(digits), place, scale=statics.span, written=None if M is None else -M / N)
+    beyond = (q.value(x) < q.si(first)) | (q.value(x) > q.si(last))
+    if not np.any(beyond):
+        return
+    moment: Expression = Number(0.0) if M is None else M
+    ends = (N * last + moment) / (last - first), -((N * first + moment) / (last - first))
+    for number, line in enumerate(ends, 1):
+        # There is no such reaction where the slider lies on one side.
+        q.define(ids.face_reaction(digits, number), call("beyond", line, x, first, last), scale=statics.force)
 
 
 DYADS: Mapping[DyadKind, Callable[[Group], Polygon]] = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}

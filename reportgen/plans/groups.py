@@ -49,29 +49,35 @@ from reportgen.plans.motion import (
 from reportgen.plans.sides import Side, image, scheme, sides
 
 
-def enter_kinematics(q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = (), scaled: bool = True) -> None:
+def enter_kinematics(
+    q: Sheet, linkage: Linkage, turn: int, worked: Sequence[int] = (), sense: int = 1, scaled: bool = True
+) -> None:
     """Enter every kinematic quantity of a linkage, link by link in order of assembly.
+
+    An accelerated driver runs faster with the `sense` +1, slower with −1; `eps.1` or `a.A` is there then.
 
     The plans are solved once on trial, to find the scales with which those of the `worked` positions (all of
     them if none is named) fill their paper; without, where they are not `scaled`.
     """
     if not scaled:
-        _enter(q, linkage, turn)
+        _enter(q, linkage, turn, sense)
         return
-    trial = _enter(q.copy(), linkage, turn)
-    _enter(q, linkage, turn, {what: chosen_scale(trial, what, worked) for what in ("v", "a")})
+    trial = _enter(q.copy(), linkage, turn, sense)
+    _enter(q, linkage, turn, sense, {what: chosen_scale(trial, what, worked) for what in ("v", "a")})
 
 
-def _enter(q: Sheet, linkage: Linkage, turn: int, scales: Mapping[str, float | None] | None = None) -> Kinematics:
+def _enter(
+    q: Sheet, linkage: Linkage, turn: int, sense: int, scales: Mapping[str, float | None] | None = None
+) -> Kinematics:
     for name, at in linkage.ground.items():
         # The machine has placed what follows from given lengths.
         if ids.place(name) not in q:
             q.give(ids.place(name), complex(at), vocabulary.point(name), "length")
     plan = scheme(linkage)
     if isinstance(linkage.driver, Crank):
-        k = crank(q, plan, linkage.driver, turn, scales or {})
+        k = crank(q, plan, linkage.driver, turn, sense, scales or {})
     else:
-        k = slide(q, plan, linkage.driver, turn, scales or {})
+        k = slide(q, plan, linkage.driver, turn, sense, scales or {})
         places(k, DRIVER, None)
         for what in ("v", "a"):
             images(k, what, DRIVER, None)

@@ -116,13 +116,14 @@ def enter_loads(statics: Statics, applied: Applied, torques: Mapping[str, int]) 
     q, linkage, loads = statics.q, statics.scheme.linkage, []
     for body in linkage.inertias:
         link, centre, name = body.link, body.centre, ids.weight(body.link)
-        if body.mass > 0:
-            down = linkage.gravity / abs(linkage.gravity) if linkage.gravity else -1j
+        if body.mass > 0 and linkage.gravity:
+            down = linkage.gravity / abs(linkage.gravity)
             downwards = q.give(ids.down(link), complex(down), "g", "ratio")
             q.construct(ids.force_vector(name), q[name] * downwards, of=name)
             loads.append(LoadOn(name, link, centre, q[name], Origin.weight, name))
-        still_driver = link == DRIVER and isinstance(linkage.driver, Crank) and centre == linkage.driver.centre
-        if (body.mass > 0 or body.moment > 0) and not still_driver:
+        # A crank on its own axis that turns evenly.
+        idle = link == DRIVER and statics.scheme.still(centre) and ids.signed("eps", DRIVER) not in q
+        if (body.mass > 0 or body.moment > 0) and not idle:
             loads.append(_inertia(statics, body))
     for name, (link, place, sense) in applied.items():
         # The machine has entered the sense of a force along a guide that is given by its angle.
@@ -164,7 +165,9 @@ def _inertia(statics: Statics, body: Inertia) -> LoadOn:
 def _centre_of_percussion(statics: Statics, link: int, centre: str) -> None:
     """Its distance from the mass centre, l_SK = J/(m l_AS), on a link that turns about a pin A."""
     q = statics.q
-    ends = {
+    driver = statics.scheme.linkage.driver
+    ends: dict[int, str | Guide] = {DRIVER: driver.centre} if isinstance(driver, Crank) else {}
+    ends |= {
         moved: end
         for dyad in statics.scheme.linkage.dyads
         for moved, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)

@@ -1,11 +1,12 @@
 """A linkage while its kinematics is entered: the sheet, every link placed so far, and the driver placed first.
 
-The driver is a crank at constant ω₁ or a slide at constant speed; it fixes the scales of the plans.
+The driver is a crank with ω₁, ε₁ or a slide with v, a; it fixes the scales of the plans.
 """
 
 from __future__ import annotations
 
 import cmath
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal
@@ -13,7 +14,24 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.formula import Expression, Number, Ref, Symbol, arg, call, cis, cos, heading, ids, meet, quotient, turned
+from reportgen.formula import (
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    arg,
+    call,
+    cis,
+    cos,
+    heading,
+    ids,
+    meet,
+    quotient,
+    sign,
+    sqrt,
+    turned,
+    unit,
+)
 from reportgen.formula.sheet import Sheet, is_short
 from reportgen.formula.vocabulary import drawn_length, on_plan, point, segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
@@ -63,6 +81,8 @@ class Kinematics:
     scheme: Scheme
     turn: int
     sizes: Sizes
+    sense: int = 1
+    """+1 where the driver's acceleration has the sense of its speed, −1 where it is opposite."""
     links: dict[int, PlacedLink] = field(default_factory=dict)
     vertices: dict[What, list[Ref]] = field(default_factory=lambda: {"v": [], "a": []})
     """All points of the plans."""
@@ -100,6 +120,11 @@ class Kinematics:
         """The image of the point of a link that lies at `arm` from the origin of its frame."""
         q, placed = self.q, self.links[link]
         base = self.image(what, placed.origin)
+        if link == DRIVER and what == "a" and placed.eps is not None:
+            # The similarity theorem on the crank itself.
+            driver = self.scheme.linkage.driver
+            assert isinstance(driver, Crank)
+            return arm / (self.place(driver.pin) - self.place(driver.centre)) * self.image("a", driver.pin)
         if link == DRIVER and placed.omega is not None:
             drawn = arm * (q[ids.segment(what, "p", image(self.scheme.linkage.driver.pin))] / self.arm_length)
             return self.turn * turned(drawn) if what == "v" else -drawn
@@ -201,7 +226,8 @@ class Kinematics:
         """Place a link; how its points move follows from what it turns with."""
         source = self.scheme.spins[link]
         omega = self.omega(link) if source else None
-        eps = Ref(ids.signed("eps", link)) if source not in (0, DRIVER) else None
+        of_source = ids.signed("eps", source)
+        eps = Ref(ids.signed("eps", link)) if source not in (0, DRIVER) or of_source in self.q else None
         self.links[link] = PlacedLink(origin, axis, tip, omega, eps)
 
 
@@ -217,10 +243,12 @@ def natural_sizes(q: Sheet, linkage: Linkage) -> Sizes:
     """Velocity, acceleration and rotation that are natural to a linkage: those of its driver's pin."""
     driver = linkage.driver
     if isinstance(driver, Crank):
-        omega = q.si("omega.1")
-        return Sizes(omega * driver.length, omega**2 * driver.length, omega)
+        omega, ε1 = q.si("omega.1"), ids.angular_acceleration(DRIVER)
+        acceleration = max(omega**2, q.si(ε1) if ε1 in q else 0.0)
+        return Sizes(omega * driver.length, acceleration * driver.length, math.sqrt(acceleration))
     speed, size = float(np.abs(q.value(ids.velocity(driver.pin))).max()), longest(linkage)
-    return Sizes(speed, speed**2 / size, speed / size)
+    a = ids.acceleration(driver.pin)
+    return Sizes(speed, max(speed**2 / size, q.si(a) if a in q else 0.0), speed / size)
 
 
 DRAWN = 0.05
@@ -229,10 +257,15 @@ LONGEST_DRAWN = 0.08
 """A sliding driver's mechanism is drawn with its longest length no longer than this (m on paper)."""
 
 
-def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
-    """v_A = ω₁ l, a_A = ω₁² l; without chosen `scales` (SI per mm) μ_v = ω₁ μ_l, μ_a = ω₁² μ_l; pa, πa′ are O₁A."""
+def crank(
+    q: Sheet, scheme: Scheme, driver: Crank, turn: int, sense: int, scales: Mapping[str, float | None]
+) -> Kinematics:
+    """v_A = ω₁ l, aⁿ_A = ω₁² l, aᵗ_A = ε₁ l; without chosen `scales` (SI per mm) μ_v = ω₁ μ_l, μ_a = ω₁² μ_l.
+
+    Then pa and πn are the drawn crank; without `eps.1` πn is πa′.
+    """
     centre, pin = driver.centre, driver.pin
-    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
+    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)
     φ1, ω1, length = q["phi.1"], q["omega.1"], k.length(centre, pin, driver.length)
     if ids.drawn(centre, pin) not in q:
         q.give(ids.drawn(centre, pin), DRAWN, drawn_length(centre, pin))
@@ -250,30 +283,34 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
         reach = k.drawn(centre, place.name)
         q.construct(ids.place(place.name), k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
 
+    ε1 = q.find(ids.angular_acceleration(DRIVER))
     q.define(ids.velocity(pin), ω1 * length)
-    q.define(ids.acceleration(pin), ω1**2 * length)
-    plans: tuple[tuple[What, Expression], ...] = ("v", ω1 * μ_l), ("a", ω1**2 * μ_l)
-    for what, by_crank in plans:
-        letters, chosen = segment(POLES[what], on_plan(pin, what == "a")), scales.get(what)
+    inward = q.define(ids.acceleration(pin, "n") if ε1 else ids.acceleration(pin), ω1**2 * length)
+    along_v = ids.segment("v", "p", image(pin)), segment("p", on_plan(pin)), q[ids.velocity(pin)]
+    along_a = ids.segment("a", "p", image(pin)), segment("π", on_plan(pin, True)), inward
+    if ε1:
+        along_a = ids.relative_segment("n", pin), segment("π", "n"), inward
+    for what, (id, letters, rate), by_crank in (("v", along_v, ω1 * μ_l), ("a", along_a, ω1**2 * μ_l)):
+        chosen = scales.get(what)
         if chosen is None:
-            q.define(ids.segment(what, "p", image(pin)), drawn, letters, exact=exact)
+            q.define(id, drawn, letters, exact=exact)
             q.define(ids.scale(what), by_crank)
         else:
-            q.define(
-                ids.segment(what, "p", image(pin)),
-                q[ids.POINT_RATE[what](pin)] / q.give(ids.scale(what), chosen),
-                letters,
-            )
+            q.define(id, rate / q.give(ids.scale(what), chosen), letters)
     μ_v, μ_a = q["mu.v"], q["mu.a"]
+    if ε1:
+        _accelerated_pin(k, driver, ε1)
 
     k.put(DRIVER, centre, None)
     for name in (pin, *(place.name for place in further)):
         arm = k.place(name) - k.place(centre)
         k.vertex("v", image(name), k.image_at("v", DRIVER, arm))
-        k.vertex("a", image(name), k.image_at("a", DRIVER, arm))
+        if name != pin or not ε1:
+            k.vertex("a", image(name), k.image_at("a", DRIVER, arm))
         if name != pin:
             own = q[ids.length(centre, name)]
-            v, a = q.define(ids.velocity(name), ω1 * own), q.define(ids.acceleration(name), ω1**2 * own)
+            per_length = sqrt(ω1**4 + ε1**2) if ε1 else ω1**2
+            v, a = q.define(ids.velocity(name), ω1 * own), q.define(ids.acceleration(name), per_length * own)
             q.define(ids.segment("v", "p", image(name)), v / μ_v, segment("p", on_plan(name)))
             q.define(ids.segment("a", "p", image(name)), a / μ_a, segment("π", on_plan(name, True)))
     ends = (end for dyad in scheme.linkage.dyads for end in (dyad.start, dyad.end))
@@ -282,13 +319,31 @@ def crank(q: Sheet, scheme: Scheme, driver: Crank, turn: int, scales: Mapping[st
     return k
 
 
-def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Mapping[str, float | None]) -> Kinematics:
-    """The pin moves along its guide at constant v_A, a_A = 0; `scales` (SI per mm) are μ_v and μ_a, none for a trial.
+def _accelerated_pin(k: Kinematics, driver: Crank, ε1: Ref) -> None:
+    """aᵗ_A = ε₁ l square to the crank, laid on to aⁿ_A from n: a_A = √(aⁿ² + aᵗ²); the sense of ε₁."""
+    q, pin, arm = k.q, driver.pin, k.place(driver.pin) - k.place(driver.centre)
+    sense = k.turn * k.sense
+    q.define(ids.signed("eps", DRIVER), ε1 if sense > 0 else -ε1, of=ε1.id)
+    inward, across = q[ids.acceleration(pin, "n")], q.define(ids.acceleration(pin, "t"), ε1 * k.arm_length)
+    q.define(ids.acceleration(pin), sqrt(inward**2 + across**2))
+    drawn = q.define(ids.relative_segment("t", pin), across / q["mu.a"], segment("n", on_plan(pin, True)))
+    along = unit(arm)
+    corner = k.vertex("a", ids.relative_corner("n", pin), -(q[ids.relative_segment("n", pin)] * along))
+    way = sign(q[ids.signed("eps", DRIVER)])
+    k.vertex("a", image(pin), corner + way * (drawn * turned(along)))
+    k.segment(ids.segment("a", "p", image(pin)), POLES["a"], on_plan(pin, True), k.image("a", pin), "a")
+    k.direction("a", pin)
+
+
+def slide(
+    q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, sense: int, scales: Mapping[str, float | None]
+) -> Kinematics:
+    """The pin moves along its guide with v_A, and a_A if given; `scales` (SI per mm) are μ_v, μ_a, none for a trial.
 
     Expects the driver's coordinate `s.1` and the size of its speed, `v.` and the pin's name.
     """
     pin, size = driver.pin, longest(scheme.linkage)
-    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage))
+    k = Kinematics(q, scheme, turn, natural_sizes(q, scheme.linkage), sense)
     if "mu.l" not in q:
         q.give("mu.l", nice_up(size / LONGEST_DRAWN / 1e3) * 1e3)
     q.construct("drawing", q["mu.l"])
@@ -299,9 +354,13 @@ def slide(q: Sheet, scheme: Scheme, driver: SlidingDriver, turn: int, scales: Ma
     q.give("mu.a", scales.get("a") or PER_MM)
     drawn = q.define(ids.segment("v", "p", image(pin)), q[ids.velocity(pin)] / μ_v, segment("p", on_plan(pin)))
     k.vertex("v", image(pin), turn * drawn * along)
-    q.give(ids.acceleration(pin), 0.0)
-    q.define(ids.segment("a", "p", image(pin)), 0.0, segment("π", on_plan(pin, True)))
-    k.vertex("a", image(pin), Number(0.0) * along)
+    a = q.find(ids.acceleration(pin))
+    if a is None:
+        q.give(ids.acceleration(pin), 0.0)
+    drawn = q.define(
+        ids.segment("a", "p", image(pin)), 0.0 if a is None else a / q["mu.a"], segment("π", on_plan(pin, True))
+    )
+    k.vertex("a", image(pin), Number(0.0) * along if a is None else turn * sense * drawn * along)
     k.put(DRIVER, pin, along)
     return k
 

@@ -77,7 +77,9 @@ def has_chosen_scale(report: Report) -> bool:
 
 def tabled_forces(report: Report) -> tuple[Applied, ...]:
     """The working forces that are given by a table."""
-    return () if "P.given" in report.ledger else report.machine.applied
+    springs = (name for row in report.own["springs"] for name in row.loads)
+    further = {*(row.id for row in report.own["declared"]), *springs}
+    return () if "P.given" in report.ledger else tuple(one for one in report.machine.applied if one.name not in further)
 
 
 def diagram_words(report: Report) -> str:
@@ -94,6 +96,21 @@ def without_mass(report: Report) -> list[str]:
     """The links whose mass is not given."""
     links = sorted({1, *(link for group in report.groups for link in (group.i, group.j))})
     return [str(link) for link in links if ids.mass(link) not in report.mass_lines]
+
+
+def spring_lines(report: Report) -> list[str]:
+    """The lengths of springs, or the angles that they are turned by, with their loads."""
+    return report.known(id for row in report.own["springs"] for id in (*row.lines, *row.loads))
+
+
+def spring_loads(report: Report) -> list[str]:
+    """The loads of springs."""
+    return report.known(id for row in report.own["springs"] for id in row.loads)
+
+
+def further_loads(report: Report) -> list[str]:
+    """The loads that are declared beside those of the kind."""
+    return report.known(row.id for row in report.own["declared"])
 
 
 def uniform_rods(report: Report) -> list[str]:

@@ -209,7 +209,8 @@ def inertia_forces(report: Report) -> list[str]:
 def reaction_ids(report: Report) -> list[str]:
     """The reactions in all joints, each pair once."""
     names = [name for group in reversed(report.groups) for name in (group.outer, group.inner, group.guide)]
-    return report.known(ids.reaction(name) for name in (*names, "01"))
+    ends = (ids.face_reaction(name, number) for name in names for number in (1, 2))
+    return report.known((*(ids.reaction(name) for name in (*names, "01")), *ends))
 
 
 def greatest(report: Report, quantities: Iterable[str]) -> list[Peak]:
@@ -252,7 +253,7 @@ def balance_course(report: Report) -> TorqueSigns:
     """The senses of the balancing torque, or force, at all positions."""
     with_motion = report.machine.turn if not report.machine.span else np.sign(report.machine.speed)
     values = shown(report, "M.eq", report.all_positions) * with_motion
-    mean = float(report.ledger.number("M.mean").value) * with_motion
+    mean = float(report.ledger.number("M.mean").value) * with_motion if report.cyclic else 0.0
     every = np.array(report.all_positions)
     along, against, none = (tuple(map(int, every[chosen])) for chosen in (values > 0, values < 0, values == 0))
     return TorqueSigns(along, against, none, "taken" if mean > 0 else "given" if mean < 0 else "even")
@@ -277,6 +278,8 @@ def balance_gaps(report: Report) -> list[Peak]:
 
 def balance_mean(report: Report) -> Inlines:
     """What the mean of the balancing torque says of the energy that the machine takes in or gives out."""
+    if not report.cyclic:
+        return ()
     words = report.words["remarks"]["mean"]
     driven = report.words["driven"][report.driver.kind]
     return say(report, words[balance_course(report).mean], driven, motion=driven["motion_of"])

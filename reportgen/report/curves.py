@@ -142,6 +142,20 @@ def over_the_cycle(report: Report, curves: Sequence[Shown], title: Chain, half: 
     return charts.plotted(diagram, half=half, area=report.area)
 
 
+def springs(report: Report) -> FigureScenes:
+    """The forces of springs over the cycle, those of torsion springs in a diagram of their own."""
+    by_kind: dict[str, list[Shown]] = {}
+    analysed = {load.name: load.law for load in report.loads}
+    cycle = report.dense_cycle
+    for row in report.own["springs"]:
+        # Both ends of a spring have one force.
+        name = row.loads[0]
+        values = analysed[name].value(cycle.cycle_angle, cycle.motion)
+        by_kind.setdefault(report.ledger[name].kind, []).append((report.ledger.symbol(name), values))
+    drawn = (over_the_cycle(report, shown, axis(shown[0][0], kind)).scene for kind, shown in by_kind.items())
+    return FigureScenes(tuple(drawn))
+
+
 # --- torque and forces over the cycle
 
 
@@ -154,7 +168,7 @@ def torque_chart(report: Report, half: bool = False) -> charts.Plotted:
     """The curve of what balances the driver, with its mean."""
     ledger, slides = report.ledger, bool(report.machine.span)
     curve = PlottedCurve(report.balance_symbol(), _across(report), report.dense_cycle.torque, _marks(report))
-    levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),)
+    levels = ((ledger.number("M.mean").value, ledger.symbol("M.mean")),) if report.cyclic else ()
     driver = report.machine.linkage.driver
     sense = report.sense(1) if isinstance(driver, Crank) else headings(report, [cmath.exp(1j * driver.guide.angle)])[0]
     title = _positive(report, _axis_of(report, "M.eq"), sense)

@@ -390,6 +390,10 @@ def _base(report: Report, side: Side, what: str) -> Term:
     if not report.driver.centre or ids.length(arm) not in ledger or not _on_crank(report, side.base):
         given = words["given"]
         return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
+    if what == "a" and report.accelerated:
+        # Both its components are laid off already.
+        given = words["given"]
+        return _term(report, what, side.shown, "", direction=given, sense=given, size=given)
     length, omega = ledger.symbol(ids.length(arm)), ledger.symbol("omega.1")
     if what == "v":
         direction, sense = f"⊥ {subscripted(arm)}", words["with_crank"]

@@ -180,7 +180,7 @@ def scheme_scene(report: Report, factor: float) -> Scene:
     """The kinematic scheme, by a factor of enlargement."""
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
-    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look)
+    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, _shown_at(report), scale, look)
 
 
 def groups(report: Report) -> FigureScenes:
@@ -195,12 +195,17 @@ def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
     scale, words = drawing_scale(report) * factor, report.words["figure"]
     titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
-    return scheme_figure.groups(report.machine.linkage, report.analysis.motion, SHOWN_AT, scale, look, titles)
+    return scheme_figure.groups(report.machine.linkage, report.analysis.motion, _shown_at(report), scale, look, titles)
+
+
+def _shown_at(report: Report) -> int:
+    """The index of the position that schemes show: the only one where there is but one."""
+    return min(SHOWN_AT, report.count - 1)
 
 
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
-    points = np.array([report.place(name, SHOWN_AT + 1) for name in report.analysis.motion.points])
+    points = np.array([report.place(name, _shown_at(report) + 1) for name in report.analysis.motion.points])
     size = points[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)

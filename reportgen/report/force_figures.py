@@ -25,6 +25,7 @@ from reportgen.report.figures import HALF, FigureScenes, beside_one_another, dra
 from reportgen.report.groups import BodyView, GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
+from reportgen.report.wide_sliders import at_ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,6 +106,8 @@ class _Bodies:
         pin = group.P if first else group.T or group.Q
         whole, parts = ids.reaction_force(digits), [ids.reaction_force(digits, part) for part in "tn"]
         by_parts = ids.reaction(digits, "t") in self.report.ledger
+        if ends := at_ends(self.report, digits, link, self.k):
+            return [Force(shown, at * self.scale, way, "reaction", id) for shown, at, way, id in ends]
         return [self.reaction(name, self.at(pin)) for name in (parts if by_parts else [whole])]
 
     def inner(self, group: GroupView, link: int) -> Force:

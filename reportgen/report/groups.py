@@ -52,6 +52,8 @@ def points_on(linkage: Linkage, link: int) -> tuple[PointView, ...]:
     *("centre", "pin", "others", "names", "arm", "kind", "rate", "drawn", "velocity"),
     *("velocity_segment", "acceleration_segment", "round_velocity", "round_acceleration"),
     *("velocity_lines", "acceleration_lines", "scale_lines"),
+    *("rate2", "accelerated", "normal_segment", "component_lines", "component_segments"),
+    *("component_scale_lines", "acceleration_scale_lines"),
 )
 class DriverView:
     """The driver as templates name it: its centre O1 and pin A, its `arm` O1A, further points on it.
@@ -61,7 +63,8 @@ class DriverView:
     points, `scale_lines` what the velocity plan of a sliding driver begins with; `drawn`, `velocity`,
     `velocity_segment` and `acceleration_segment` the ids of the arm's drawn length, of the pin's velocity and of
     the segments that stand for the pin's velocity and acceleration; `round_velocity` and `round_acceleration` say
-    that the scale of a plan was chosen from the series.
+    that the scale of a plan was chosen from the series.  Of a driver that is `accelerated`, `rate2` is the symbol of
+    its acceleration; `component_lines` are the two components of the crank pin's, with their segments.
     """
 
     def __init__(self, linkage: Linkage, ledger: Ledger) -> None:
@@ -80,6 +83,14 @@ class DriverView:
             [id for name in self.names if (id := rate(name)) in ledger] for rate in ids.POINT_RATE.values()
         )
         self.scale_lines = [self.velocity, "mu.v", self.velocity_segment]
+        faster = ids.angular_acceleration(DRIVER) if self.centre else ids.acceleration(self.pin)
+        self.accelerated = faster in ledger and bool(ledger[faster].values[0])
+        self.rate2 = ledger.symbol(faster if self.accelerated else ids.velocity(self.pin))
+        self.component_segments = [ids.relative_segment(part, self.pin) for part in "nt"]
+        self.normal_segment, tangential = self.component_segments
+        self.component_lines = ledger.known(ids.acceleration(self.pin, part) for part in "nt")
+        self.component_scale_lines = ["mu.a", tangential]
+        self.acceleration_scale_lines = ["mu.a", self.acceleration_segment]
 
 
 @view("base", "omega", "epsilon")
@@ -478,6 +489,8 @@ def displaced_inertia(linkage: Linkage, groups: Iterable[GroupView], ledger: Led
     # A block turns about no base of a plan: the pin it sits on is its first joint.
     starts = {group.i: group.P for group in groups}
     starts |= {side.link: NamedPoint(side.base) for group in groups for side in group.sides if side.turns}
+    if isinstance(linkage.driver, Crank):
+        starts[DRIVER] = NamedPoint(linkage.driver.centre)
     bodies = []
     for body in linkage.inertias:
         shown = ledger.known((ids.inertia_offset(body.link), ids.percussion(body.centre, body.link)))

@@ -127,8 +127,31 @@ def _set(report: Report, name: str, key: str, *about: Any, **gaps: Any) -> Mappi
 
 
 def driven(report: Report) -> Mapping[str, Inlines]:
-    """Words for the driver, a crank or a slide, and for what balances it."""
-    return _set(report, "driven", report.driver.kind, report.driver, report)
+    """Words for the driver, a crank or a slide, which may run faster or slower, and for what balances it."""
+    words = _set(report, "driven", report.driver.kind, report.driver, report)
+    if not report.accelerated:
+        return words
+    way = "faster" if report.machine.acceleration > 0 else "slower"
+    return {**words, **_set(report, "accelerated", f"{report.driver.kind}-{way}", report.driver, report)}
+
+
+def at_positions(report: Report) -> Inlines:
+    """At which positions a task asks for the motion: at so many of a turn, or at the instants given."""
+    words = report.words["at_positions"]
+    return say(report, words["instants"][report.count > 1] if report.instants else words["turn"], report)
+
+
+def no_cycle(report: Report) -> Inlines:
+    """Why nothing is said of the cycle as a whole; nothing where it is."""
+    if report.cyclic:
+        return ()
+    key = "accelerated" if report.accelerated else "instants"
+    return say(report, report.words["no_cycle"][key], report.words["driven"][report.driver.kind])
+
+
+def acting(report: Report) -> str:
+    """What loads a machine on which nothing else acts."""
+    return str(report.words["acting"]["weights" if report.weighed else "inertia"])
 
 
 def scope(report: Report) -> Mapping[str, Inlines]:
@@ -212,7 +235,7 @@ def slide_reactions(report: Report) -> Inlines:
 
 def energy_key(report: Report) -> str:
     """Which words on the balance of energy fit: of the gas, of a stroke, of a turn that is idle or not, or none."""
-    if not report.has_forces:
+    if not (report.has_forces and report.cyclic):
         return "none"
     if report.has_gas or not report.driver.centre:
         return "gas" if report.has_gas else "stroke"
@@ -221,7 +244,7 @@ def energy_key(report: Report) -> str:
 
 def no_mean(report: Report) -> Inlines:
     """Why the mean of what balances the driver is nothing; nothing where it is something."""
-    if not report.has_forces or not report.is_zero("M.mean"):
+    if not (report.has_forces and report.cyclic) or not report.is_zero("M.mean"):
         return ()
     laws = [load.law for load in report.loads]
     key = "free" if not laws else "constant" if all(law.constant for law in laws) else "other"
@@ -240,6 +263,15 @@ def first_position(report: Report) -> Inlines:
     """Where the driver is in the first position: at its natural place, at an angle, or at a way along its guide."""
     words, machine = report.words["first_position"], report.machine
     start, first = report.assignment.positions.start, machine.position(1)
+    if report.instants:
+        at, unit = report.assignment.positions.at or (), "mm" if machine.span else "°"
+        sizes = [one.si * MM if machine.span else degrees(one.si) for one in at]
+        shown = [Value(Number(_plain(one), unit=unit)) for one in sizes]
+        places = [part for one in shown for part in (Text(", "), one)][1:]
+        labels = ", ".join(map(str, report.positions))
+        pin = NamedPoint(report.driver.pin)
+        told = words["ways" if machine.span else "instants"][len(at) > 1]
+        return say(report, told, labels=labels, places=tuple(places), pin=pin)
     if machine.span:
         place_on_guide = Number(_plain(machine.start * MM), unit="mm")
         place: dict[str, Any] = {"label": first.label, "pin": NamedPoint(report.driver.pin), "place": place_on_guide}
@@ -270,7 +302,7 @@ def label_pairs(report: Report) -> str:
     """Which labels the first numbers of positions stand for, up to behind the first letter; "" where they are alike."""
     machine = report.machine
     turn = machine.numbered(range(1, machine.count + 1))
-    if all(k.label == f"{int(k)}" for k in turn):
+    if report.instants or all(k.label == f"{int(k)}" for k in turn):
         return ""
     first = next((k for k in turn if k.label.isalpha()), turn[0])
     pairs = [report.words["label_pair"].format(number=int(k), label=k.label) for k in turn[: first + 1]]

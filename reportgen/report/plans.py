@@ -133,6 +133,8 @@ def motion_construction(report: Report, what: What) -> Construction[str]:
     for group in report.groups:
         for side in group.moving:
             if side.base in report.driver.names and side.base not in drawn:
+                if what == "a" and side.base == report.driver.pin and report.driver.component_lines:
+                    sketch.components(side.base, stage)
                 sketch.absolute(side.base, "known", stage)
                 drawn.add(side.base)
         sketch.group(group, stage)
@@ -240,6 +242,14 @@ class _Sketch:
         end = self.at(image(name))
         self.vectors.append(PlanVector(name, POLE, end, style, Symbol(self.what, name, over="vector"), stage))
         self.points.append(PlanPoint(vocabulary.on_plan(name, self.what == "a"), end, stage))
+
+    def components(self, pin: str, stage: int) -> None:
+        """Enter the normal and the tangential acceleration of the pin of a crank, head to tail from the pole."""
+        corner, end = self.at(ids.relative_corner("n", pin)), self.at(image(pin))
+        for part, ends in (("n", (POLE, corner)), ("τ", (corner, end))):
+            label = self.named(Symbol(self.what, pin, part, "vector"))
+            self.vectors.append(PlanVector(part + pin, *ends, "relative", label, stage))
+        self.points.append(PlanPoint(Symbol("n", pin), corner, stage))
 
     def relative(self, side: Side, part: str, start: str, end: str, stage: int) -> None:
         """Enter what a side adds to the velocity or acceleration of its base, or a part of it."""

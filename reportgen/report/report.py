@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from reportgen.assignment import Assignment
-from reportgen.assignment.common import Extent
 from reportgen.base.units import MM
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
@@ -27,6 +26,7 @@ from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import links_in_plane_motion
 from reportgen.plans.sides import scheme
 from reportgen.report.case import MachineAnalysis
+from reportgen.report.extents import LEFT_OUT, OF_A_TURN, OPENING
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia
 from reportgen.report.prose import Prose, subscripted
 
@@ -34,41 +34,6 @@ PLATES_UP_TO = 24
 """Above this many positions of a turn, plates are drawn for worked ones only, and not all are shown."""
 DENSE = 361
 """Samples of a turn from which curves are drawn."""
-
-OPENING: Mapping[Extent, tuple[str, ...]] = {"full": (), "short": ("contents", "foreword")}
-"""The sections that stand before all others, whatever the order of the outline."""
-LEFT_OUT: Mapping[Extent, frozenset[str]] = {
-    "full": frozenset(),
-    "short": frozenset(
-        (
-            # sections of the outline
-            *("overview", "foreword", "symbols", "centres", "diagrams", "course", "functions", "checks"),
-            # extreme positions that nothing else stands on
-            *("rocker-extremes", "slider-extremes"),
-            # what the plans stand on
-            *("theory-two-equations", "theory-inclination", "theory-similarity"),
-            # constructions step by step, plans of the other positions, further curves
-            *("velocity-stages", "acceleration-stages", "force-stages"),
-            *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
-            *("polar", "flywheel-work", "flywheel-speed"),
-            # a second method, and the book that it is taken from
-            *("formulas-velocity", "formulas-acceleration", "further-references"),
-            # tables that the work goes on without, and what is said of them
-            *("joints", "coordinates", "velocity-senses", "acceleration-senses", "inertia-positions"),
-            *("reactions", "mean-positions", "flywheel-table", "conclusion-reactions"),
-            # remarks
-            *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
-            *("comments/reactions", "comments/torque", "comments/flywheel"),
-            # in tables relative velocities and accelerations, and loads at other than worked positions
-            *("relative", "loads-everywhere"),
-            # positions as large as they are measured by, links and directions that another figure shows as well
-            *("true-size", "links-together", "mechanism-beside-forces", "high-curves"),
-            # the usual size of type, pages of their own for the contents
-            *("usual-type", "contents-page"),
-        )
-    ),
-}
-"""The sections, parts of sections and further parts that a report of an extent goes without."""
 
 
 @dataclass(frozen=True)
@@ -148,6 +113,7 @@ class Report:
     def parts(self, *names: str) -> list[str]:
         """Those of the sections or parts of sections that a report of this extent has, in order."""
         left_out = LEFT_OUT[self.assignment.report.extent].difference(self.machine.essential)
+        left_out |= OF_A_TURN if self.instants else frozenset()
         return [name for name in names if name not in left_out]
 
     @property
@@ -199,6 +165,26 @@ class Report:
     # --- positions
 
     @property
+    def instants(self) -> bool:
+        """Whether the positions are single instants."""
+        return self.machine.instants
+
+    @property
+    def accelerated(self) -> bool:
+        """Whether the driver runs faster or slower at the positions."""
+        return self.machine.acceleration != 0
+
+    @property
+    def cyclic(self) -> bool:
+        """Whether the driver runs through the whole cycle at constant speed, so that its means are known."""
+        return self.machine.cyclic
+
+    @property
+    def weighed(self) -> bool:
+        """Whether weights act, rather than in a horizontal plane."""
+        return self.machine.linkage.gravity != 0
+
+    @property
     def count(self) -> int:
         """Positions of one turn."""
         return self.machine.count
@@ -210,7 +196,7 @@ class Report:
     @property
     def even_count(self) -> int:
         """Evenly spaced positions of one turn."""
-        return self.assignment.positions.count
+        return self.assignment.positions.number
 
     @property
     def even_cycle_count(self) -> int:
@@ -253,7 +239,7 @@ class Report:
     @property
     def plates(self) -> tuple[int, ...]:
         """Positions whose plans are drawn: all of the cycle, or the worked ones in a short report or of very many."""
-        if self.assignment.positions.count <= PLATES_UP_TO and self.parts("velocity-plates"):
+        if self.assignment.positions.number <= PLATES_UP_TO and self.parts("velocity-plates"):
             return tuple(range(1, self.assignment.cycle_positions + 1))
         return self.assignment.worked_positions
 
@@ -277,8 +263,12 @@ class Report:
     def given_names(self) -> Mapping[str, str]:
         """What is given, in words, by id; a declared linkage names its own quantities."""
         if "quantities" not in self.own:
-            names: Mapping[str, str] = self.words.get("given", {})
-            return names
+            names = dict(self.words.get("given", {}))
+            further = {id: name for id, name in self.words["given_of_crank"].items() if id not in names}
+            # The acceleration of the crank is told behind its speed.
+            places = [*names].index("omega.1") + 1 if "omega.1" in names else len(names)
+            told = list(names.items())
+            return dict((*told[:places], *further.items(), *told[places:]))
         words = self.words["linkage"]["given"]
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]

@@ -68,6 +68,8 @@ def _position(analysis: Analysis, k: int) -> Entries | None:
         for name, reaction in reactions
         if _slides(analysis, name)
     }
+    for name, tilts, first, last in map(analysis.at_ends, analysis.machine.faces):
+        entry["reactions_in_guides"][name] |= {"tilts": bool(tilts[k]), "ends": [first[k], last[k]] if tilts[k] else []}
     entry["balancing_torque" if crank else "balancing_force"] = {
         "equilibrium": analysis.torque[k],
         "virtual_work": analysis.torque_by_work[k],

@@ -284,7 +284,8 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
         largest["ledger"] = (max(forces), "N")
         difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
         largest["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
-        largest["energy"] = (analysis.summary.energy_error, "")
+        if analysis.machine.cyclic:
+            largest["energy"] = (analysis.summary.energy_error, "")
     return largest
 
 

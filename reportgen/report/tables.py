@@ -216,7 +216,7 @@ def _is_given(report: Report, id: str) -> bool:
     return definition is None or not refs(definition)
 
 
-PRINTED = ("mm", "cm", "m", "°", "N", "kN", "kg", "kg·m²", "N·m", "MPa", "bar", "m/s", "mm/s", "m/s²", "rad/s")
+PRINTED = ("mm", "cm", "m", "°", "N", "kN", "kg", "kg·m²", "N·m", "MPa", "bar", "m/s", "mm/s", "m/s²", "rad/s", "N/mm")
 """Units that are printed as they were typed; any other is turned into the one of the report."""
 
 

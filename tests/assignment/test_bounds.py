@@ -13,7 +13,7 @@ from reportgen.assignment.fields import Interval
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.catalogue import driven, given_loads
+from reportgen.catalogue import given_loads, parameters
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "assignment.md"
 TYPES = {
@@ -31,11 +31,13 @@ TYPES = {
     "weight": fields.Weight,
     "mass": fields.Mass,
     "moment of inertia": fields.MomentOfInertia,
-    "acceleration `g`": fields.Acceleration,
+    "acceleration `g`": fields.Gravity,
+    "angular acceleration `epsilon1`": fields.AngularAcceleration,
+    "acceleration of a sliding driver": fields.Acceleration,
     "pressure": fields.Pressure,
     "ratio R/L": fields.RodRatio,
     "share": fields.Share,
-    "unevenness": driven.Unevenness,
+    "unevenness": parameters.Unevenness,
 }
 
 

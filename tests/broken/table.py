@@ -237,6 +237,70 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("change point", {"BC: 340 mm": "BC: 240 mm"}, "5:7 dead-point", "180°"),
         ("no rocker", {"AB: 120 mm": "AB: 300 mm", "AD: 400 mm": "AD: 100 mm\n  link3: rocker"}, "8:10 not-a-rocker"),
         ("no crank", {"AD: 400 mm": "…\n  link3: crank"}, "8:10 not-a-crank"),
+        # single instants, a crank that accelerates, a horizontal plane, loads on any link
+        ("instants and a number", {"kind: four-bar": "…\npositions: {at: [50 deg], count: 8}"}, "2:27 both-given"),
+        ("an instant twice", {"kind: four-bar": "…\npositions: {at: [50 deg, 50 deg]}"}, "2:26 repeated"),
+        ("an instant in millimetres", {"kind: four-bar": "…\npositions: {at: [50 mm]}"}, "2:18 wrong-unit"),
+        (
+            "an instant out of reach",
+            {"kind: four-bar": "…\npositions: {at: [50 deg, 180 deg]}", "AB: 120 mm": "AB: 300 mm"},
+            "2:26 no-assembly-at",
+            "180°",
+        ),
+        (
+            "an instant at a dead point",
+            {"kind: four-bar": "…\npositions: {at: [180 deg]}", "BC: 340 mm": "BC: 240 mm"},
+            "2:18 dead-point-at",
+        ),
+        (
+            "a flywheel at instants",
+            {"kind: four-bar": "…\npositions: {at: [50 deg]}", "AB: 120 mm": "…\n  G2: 3 N\n  flywheel: {delta: 0.02}"},
+            "7:3 flywheel-without-turn",
+        ),
+        (
+            "a flywheel and an acceleration",
+            {"AB: 120 mm": "…\n  G2: 3 N\n  epsilon1: 2 rad/s2\n  flywheel: {delta: 0.02}"},
+            "7:3 flywheel-without-turn",
+        ),
+        ("gravity in a plane", {"AB: 120 mm": "…\n  plane: horizontal\n  g: 9.8 m/s2"}, "6:6 plane-with-gravity"),
+        ("a weight without gravity", {"AB: 120 mm": "…\n  g: 0 m/s2\n  G2: 3 N"}, "6:3 weight-without-gravity", "m2"),
+        ("a load on no link", {"AB: 120 mm": "…\n  loads: [{by: constant, link: 4, M: 2 N m}]"}, "5:32 no-such-link"),
+        (
+            "a spring without an end",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, c: 4 N/mm, free: 9 mm}]"},
+            "5:13 missing-key",
+        ),
+        (
+            "a spring to nowhere",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: X, c: 4 N/mm, free: 9 mm}]"},
+            "5:34 no-such-point",
+        ),
+        (
+            "a spring between points of one link",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: {link: 3, at: D}, c: 4 N/mm, free: 9 mm}]"},
+            "5:34 spring-on-one-link",
+        ),
+        (
+            "a spring about no pin",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, about: A, c: 4 N m/rad, free: 9 deg}]"},
+            "5:30 no-such-pin",
+        ),
+        (
+            "a torsion spring in newtons a millimetre",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, about: D, c: 4 N/mm, free: 9 deg}]"},
+            "5:36 wrong-unit",
+        ),
+        (
+            "an end that is none",
+            {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: [3 mm], c: 4 N/mm, free: 9 mm}]"},
+            "5:34 spring-end",
+        ),
+        ("a face of no slider", {"AB: 120 mm": "…\n  faces: {3: {from: -1 mm, to: 2 mm}}"}, "5:11 no-slider"),
+        (
+            "a load at no point of its link",
+            {"AB: 120 mm": "…\n  loads: [{by: constant, link: 3, at: B, F: 2 N}]"},
+            "5:39 not-on-link",
+        ),
     ],
     "lever-six-bar": [
         ("no fixed point", {"  D: {x: -10 mm, y: -106 mm}\n": ""}, "3:1 missing-key"),

@@ -34,6 +34,9 @@ QUANTITY = re.compile(r"([0-9.]+) ([A-Za-z][\w/^ ]*)")
 KEPT = ("deg", "m/s2")
 """Angles decide the strokes of an engine, and g is the same for all."""
 
+OF_FURTHER_KEYS = {"no-tangential", "no-couple-of-driver", "no-free-length"}
+"""The mistakes with what few files give: an acceleration of the driving link, springs."""
+
 NAMES = {
     "stroke-for-radius",
     "ratio-inverted",

@@ -141,10 +141,14 @@ def test_named_mistakes_are_found() -> None:
         ("engine-twin-05", "a.B", "scale-twice"),
         ("engine-twin-05", "v.B", "thousands-mark"),
         ("slotted-lever-01", "a.B3B.k", "no-coriolis"),
+        ("four-bar-03", "a.B.t", "no-tangential"),
+        ("four-bar-03", "turn.eps.1", "direction-reversed"),
+        ("four-bar-03", "M.Pqt1", "no-couple-of-driver"),
+        ("lever-six-bar-02", "P5a", "no-free-length"),
     ],
 )
 def test_each_mistake_on_a_sheet_of_one_position(machine: str, id: str, name: str) -> None:
-    scheme = students.scheme(machine, (4,))
+    scheme = students.scheme(machine, (1 if machine in ("four-bar-03", "lever-six-bar-02") else 4,))
     mistake = next(one for one in possible_mistakes(scheme) if (one.where, one.name) == (id, name))
     marking = mark(scheme, students.written(scheme, students.worked_out(scheme, mistake)))
     firsts = {(cell.id, cell.mistake, cell.where) for cell in marking.first_errors}

@@ -66,7 +66,7 @@ def prove(
     motion = analysis.motion
     pairs: Pairs = {}
     for k, (pose, acting) in enumerate(zip(poses, loads, strict=True)):
-        answer = ne.solve(bodies, list(joints), turning, motion.rate, dict(pose), list(acting), CONDITION)
+        answer = ne.solve(bodies, list(joints), turning, float(motion.rate[k]), dict(pose), list(acting), CONDITION)
         assert answer is not None
         assert answer.residual < ASSEMBLED
         collect(pairs, motion, analysis.forces, keys, answer, k)

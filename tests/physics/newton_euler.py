@@ -67,11 +67,12 @@ def solve(
     pose: dict[int, tuple[complex, float]],
     loads: list[tuple[int, complex, complex, float]],
     worst: float,
+    acceleration: float = 0.0,
 ) -> Answer | None:
     """One position; None where the Jacobian's condition number is beyond `worst`.
 
     `loads` are (body, force, point, couple), without inertia.  The driver is body 1: its angle if
-    `turning`, else the way of the first joint (a `Slot` on ground).
+    `turning`, else the way of the first joint (a `Slot` on ground); `rate` and `acceleration` are its derivatives.
     """
     pose = {0: (0j, 0.0), **pose}
     column = {body: 3 * k for k, body in enumerate(sorted(bodies))}
@@ -114,6 +115,7 @@ def solve(
     velocity = {0: (0j, 0.0)} | {b: (complex(qd[k], qd[k + 1]), float(qd[k + 2])) for b, k in column.items()}
 
     gamma = np.zeros(size)
+    gamma[-1] = acceleration
     for k, joint in enumerate(joints):
         ra, rb = arm(joint.a, joint.local_a), arm(joint.b, joint.local_b)
         (va, wa), (vb, wb) = velocity[joint.a], velocity[joint.b]

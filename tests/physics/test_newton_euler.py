@@ -14,7 +14,7 @@ from agreement import AGREEMENT, Acting, Pairs, collect, off, weights
 from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
-from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
+from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
 from reportgen.machine.forces import weights as forces_of_weight
 from reportgen.machine.motion import Motion, solve_motion
@@ -40,6 +40,7 @@ def disagreement(
     given_loads: Given,
     change: Change = plainly,
     change_forces: Callable[[Forces], Forces] = lambda forces: forces,
+    acceleration: float = 0.0,
 ) -> dict[str, float] | None:
     """Largest difference of each sort of quantity from the witness, over its own maximum.
 
@@ -54,7 +55,7 @@ def disagreement(
     for k in np.flatnonzero(motion.reachable):
         loads = [*given_loads, *weights(bodies, poses[k], linkage.gravity)]
         turning = isinstance(linkage.driver, Crank)
-        answer = ne.solve(bodies, joints, turning, motion.rate, poses[k], loads, CONDITION)
+        answer = ne.solve(bodies, joints, turning, float(motion.rate[k]), poses[k], loads, CONDITION, acceleration)
         if answer is not None:
             collect(pairs, motion, forces, keys, answer, int(k))
             pairs.setdefault("residual", []).append((answer.residual + 1.0, 1.0))
@@ -62,16 +63,16 @@ def disagreement(
         return None
     # What is nothing by the linkage's nature (ε of a sliding link, say) is read against the size that
     # such a quantity has in a linkage of about 1 m; a couple against the largest force at 1 m as well.
-    rate = abs(motion.rate)
+    rate = float(np.abs(motion.rate).max())
     floor = {"residual": 1.0, "v": rate, "ω": rate, "a": rate**2, "ε": rate**2, "R": 1.0, "effort": 1.0}
     floor["moment"] = max(abs(theirs) for _, theirs in pairs["R"])
     return off(pairs, floor)
 
 
-def prove(linkage: Linkage, rate: float, given_loads: Given) -> None:
+def prove(linkage: Linkage, rate: float, given_loads: Given, acceleration: float = 0.0) -> None:
     driver = made.REFERENCE + np.array([-0.11, -0.04, 0.0, 0.03, 0.09])
-    motion = solve_motion(linkage, driver, rate)
-    found = disagreement(linkage, motion, given_loads)
+    motion = solve_motion(linkage, driver, rate, acceleration)
+    found = disagreement(linkage, motion, given_loads, acceleration=acceleration)
     if found is None:
         reject()
     assert max(found.values()) < AGREEMENT, found
@@ -93,6 +94,52 @@ def test_chains_of_three_groups(data: st.DataObject) -> None:
     kinds = tuple(data.draw(st.lists(st.sampled_from(made.KINDS), min_size=3, max_size=3)))
     linkage = data.draw(made.linkages(kinds, data.draw(st.booleans())))
     prove(linkage, data.draw(made.RATE), data.draw(made.applied(linkage)))
+
+
+ACCELERATION = st.sampled_from((60.0, -35.0))
+"""ε₁ or a beside a rate of 7: of the size of its square."""
+
+
+def prove_accelerated(data: st.DataObject, kinds: tuple[made.DyadKind, ...], sliding: bool) -> None:
+    """A driver that accelerates, no gravity, a moment and a force on every link."""
+    linkage = replace(data.draw(made.linkages(kinds, sliding)), gravity=0j)
+    prove(linkage, data.draw(made.RATE), data.draw(made.applied(linkage)), data.draw(ACCELERATION))
+
+
+@settings(quick, max_examples=8)
+@given(data=st.data())
+def test_an_accelerated_driver(data: st.DataObject) -> None:
+    prove_accelerated(data, (data.draw(st.sampled_from(made.KINDS)),), data.draw(st.booleans()))
+
+
+@proof
+@settings(quick, max_examples=300)
+@given(data=st.data())
+def test_accelerated_chains(data: st.DataObject) -> None:
+    kinds = tuple(data.draw(st.lists(st.sampled_from(made.KINDS), min_size=1, max_size=3)))
+    prove_accelerated(data, kinds, data.draw(st.booleans()))
+
+
+STEP = 1e-4
+"""Seconds: the second difference leaves out STEP²/12 of the fourth derivative and rounds at 1e-16/STEP²."""
+
+
+def test_accelerations_by_differences_in_time() -> None:
+    """ε of every link and a of every point of a four-bar at φ₁ = 50° + ω₁t + ε₁t²/2, and of a slide likewise."""
+    four_bar = Linkage(
+        ground={"A": 0j, "D": 0.4 + 0j},
+        driver=Crank("A", "B", 0.12),
+        dyads=(Dyad("RRR", (2, 3), "B", "C", "D", (0.35, 0.3)),),
+    )
+    slide = replace(four_bar, driver=SlidingDriver("B", Guide(0.05j, 0.3)))
+    for linkage, first, rate, acceleration in ((four_bar, math.radians(50), 12.0, 60.0), (slide, 0.05, 0.3, -2.0)):
+        t = np.array([-STEP, 0.0, STEP])
+        at = first + rate * t + acceleration * t**2 / 2
+        moved = solve_motion(linkage, at, rate + acceleration * t, acceleration)
+        for link in moved.links.values():
+            assert np.diff(link.angle, 2)[0] / STEP**2 == pytest.approx(link.epsilon[1], rel=1e-5, abs=1e-5)
+        for point in moved.points.values():
+            assert abs(np.diff(point.p, 2)[0] / STEP**2 - point.a[1]) < 1e-5 * max(1.0, abs(point.a[1]))
 
 
 # --- the proof notices faults ------------------------------------------------------------------------

@@ -34,7 +34,7 @@ FORMULAS = 1e2
 def looped(book: Book) -> ClosedLoops:
     """The loops of a linkage, entered on the sheet of its plans."""
     fixed = {name: typed(place) for name, place in book.linkage.ground.items()}
-    loops = ClosedLoops(book.linkage, int(np.sign(book.motion.rate)), fixed)
+    loops = ClosedLoops(book.linkage, int(np.sign(book.motion.rate[0])), fixed)
     loops.write(book.b)
     return loops
 

@@ -97,7 +97,7 @@ def file_of(kind: str, text: str) -> File:
             parameters[letter + link] = value
     if "δ_ω" in data:
         parameters["flywheel"] = {"delta": data["δ_ω"]}
-    parameters |= OWN.get(kind, lambda task, data: {})(task, data)
+    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data)
     file["parameters"] = parameters
     if rows := task.table("Indicator diagram"):
         file["indicator"] = _diagram(rows)
@@ -110,14 +110,46 @@ def file_of(kind: str, text: str) -> File:
 
 def _positions(task: Task) -> File:
     """How many positions, which way the crank turns, and where it is first."""
-    count = task.find(r"at (\d+) (?:equidistant )?positions")
-    assert count is not None
-    found: File = {"count": count}
+    if at := re.findall(r"[Ii]n position [IVX]+ the crank stands at (\S+)° to the x-axis", task.text):
+        found: File = {"at": [typed(f"{angle}°") for angle in at]}
+    else:
+        count = task.find(r"at (\d+) (?:equidistant )?positions")
+        assert count is not None
+        found = {"count": count}
     if turned := task.find(r"turns (anticlockwise|clockwise)"):
         found["direction"] = turned
-    if start := task.find(r"the crank stands at (\S+)° to the x-axis"):
+    if "count" in found and (start := task.find(r"the crank stands at (\S+)° to the x-axis")):
         found["start"] = typed(f"{start}°")
     return found
+
+
+# --- what every kind may have -------------------------------------------------------------------------
+
+SPRING = r"from (\w+) on link (\d+) to the fixed point \((.*?), (.*?)\), stiffness (.*?), free length (.*?)[;.]?$"
+FACE = (
+    r"The face of slider (\d+) reaches from \S+ = (.*?) to \S+ = (.*?), counted from \w+ in the direction of its guide"
+    r"(?:, at (.*?) below \w+)?\. "
+)
+
+
+def _further(task: Task, data: Mapping[str, str]) -> File:
+    """The acceleration of the crank, the plane, further loads, springs to fixed points, faces of sliders."""
+    found: File = {}
+    if "ε_1" in data:
+        found["epsilon1"] = ("-" if "with decreasing speed" in task.text else "") + data["ε_1"]
+    if "in a horizontal plane" in task.text:
+        found["plane"] = "horizontal"
+    if "oads act on the links" in task.text:
+        found["loads"] = _loads(task)
+    springs = [
+        {"link": link, "at": _name(at), "to": [typed(x), typed(y)], "c": typed(c), "free": typed(free)}
+        for at, link, x, y, c, free in re.findall(SPRING, task.text, re.MULTILINE)
+    ]
+    faces = {
+        link: {"from": typed(first), "to": typed(last)} | ({"below": typed(below)} if below else {})
+        for link, first, last, below in re.findall(FACE, task.text)
+    }
+    return found | ({"springs": springs} if springs else {}) | ({"faces": faces} if faces else {})
 
 
 # --- tables -----------------------------------------------------------------------------------------

@@ -41,8 +41,8 @@ def test_extremes_are_those_of_the_arrays(path: Path) -> None:
         for one in comments.each_peak(report, ids, positions):
             values = sizes(report, one.ids[0], len(positions))
             unit = HALF * 10.0 ** -(one.value.number.decimals or 0) if one.value.number.decimals is not None else 1e-9
-            assert one.value.number.value == pytest.approx(values.max(), abs=unit, rel=1e-9)
-            assert all(values[k - 1] == pytest.approx(values.max(), abs=2 * unit, rel=1e-9) for k in one.places)
+            assert one.value.number.value == pytest.approx(np.nanmax(values), abs=unit, rel=1e-9)
+            assert all(values[k - 1] == pytest.approx(np.nanmax(values), abs=2 * unit, rel=1e-9) for k in one.places)
             assert one.zeros <= np.sum(values <= unit)
         nothing = set(report.known(ids)) - {
             id for one in comments.peaks(report, ids, positions is not report.positions) for id in one.ids
@@ -106,7 +106,7 @@ def test_every_report_remarks_on_its_main_tables(written: built.Written) -> None
     found = remarks(written.document.blocks)
     wanted = 2 + bool(report.has_forces) * 2 + bool(comments.inertia_forces(report)) + report.has_flywheel
     wanted += bool(report.has_forces and comments.peaks(report, comments.load_ids(report), True))
-    assert len(found) == wanted
+    assert len(found) == (0 if report.instants else wanted), "at single instants nothing is a course to remark on"
     assert all(len(text) > len("Nhận xét. ") + 20 for text in found)
 
 

@@ -17,9 +17,10 @@ from reportgen.cli import app
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.report import Contents, Document, Figure, Plate, Section, Table, Text, plain
+from reportgen.report.extents import LEFT_OUT
 from reportgen.report.layout import contents
 from reportgen.report.numbering import unreferenced
-from reportgen.report.report import LEFT_OUT, Report
+from reportgen.report.report import Report
 from reportgen.sheets import drawing_sheets, plates_by_set
 from tests.lanes import matrix
 from tests.report.built import FILES, MARKS, ROOT, SAMPLE, assignment

@@ -19,6 +19,11 @@ const panelOf = (root, panels) => {
     return new Float32Array(bytes.buffer);
   };
 
+  // Single instants, with what is told of each and where the driver stands; at all other times nothing is known.
+  const steps = animation.instants, STEP = 1500;
+  const nearest = (angle) => animation.positions.reduce((best, [, at], index) =>
+    Math.abs(at - angle) < Math.abs(animation.positions[best][1] - angle) ? index : best, 0);
+
   // The sample before an angle (degrees), of the turn and of the cycle, and how far on to the next it is.
   const place = (angle) => {
     const knots = animation.knots, last = knots.length - 1;
@@ -250,7 +255,7 @@ const panelOf = (root, panels) => {
       state.told = time;
       tell();
     }
-    const told = animation.span ? `${written(state.angle / 360 * animation.span, 1)} mm` : `${written(state.angle, 1)}°`;
+    const told = steps ? steps[nearest(state.angle)][0] : animation.span ? `${written(state.angle / 360 * animation.span, 1)} mm` : `${written(state.angle, 1)}°`;
     if (!state.playing || drawing.count % 3 === 0) drawing.slider.value = state.angle;
     if (readable) {
       say(drawing.told, told);
@@ -267,12 +272,21 @@ const panelOf = (root, panels) => {
 
   const seek = (angle) => {
     const whole = 360 * animation.turns;
+    if (steps) angle = animation.positions[nearest(angle)][1];
     state.angle = animation.span ? Math.min(Math.max(angle, 0), whole) : ((angle % whole) + whole) % whole;
     draw();
   };
 
   const frame = (time) => {
     if (!state.playing) return;
+    if (steps) {
+      if (time - state.last >= STEP / state.rate) {
+        state.last = time;
+        seek(animation.positions[(nearest(state.angle) + 1) % steps.length][1]);
+      }
+      requestAnimationFrame(frame);
+      return;
+    }
     const passed = Math.min(time - state.last, 100) / 1000;
     state.pace += (time - state.last - state.pace) / 8;
     state.last = time;
@@ -303,9 +317,9 @@ const panelOf = (root, panels) => {
     seek(on === undefined ? at[sense > 0 ? 0 : at.length - 1] : on);
   };
 
+  const move = (sense) => steps ? step(sense) : seek(Math.round(state.angle) + sense);
   const keys = {
-    ArrowRight: () => seek(Math.round(state.angle) + 1), ArrowUp: () => seek(Math.round(state.angle) + 1),
-    ArrowLeft: () => seek(Math.round(state.angle) - 1), ArrowDown: () => seek(Math.round(state.angle) - 1),
+    ArrowRight: () => move(1), ArrowUp: () => move(1), ArrowLeft: () => move(-1), ArrowDown: () => move(-1),
     PageUp: () => step(1), PageDown: () => step(-1), Home: () => seek(0), End: () => seek(360 * animation.turns - 1e-6),
   };
   const key = (event) => {
@@ -333,8 +347,9 @@ const panelOf = (root, panels) => {
   const table = (spot, between) => {
     const rows = [animation.heads.join(between)];
     animation.knots.forEach((knot, index) => {
+      if (steps && index >= steps.length) return;
       const [x, y, vx, vy, ax, ay] = ["p", "v", "a"].flatMap((what) => [sample(spot[what], index), sample(spot[what] + 1, index)]);
-      const driver = animation.span ? knot / 360 * animation.span : knot;
+      const driver = steps ? steps[index][1] : animation.span ? knot / 360 * animation.span : knot;
       const row = [driver, x, y, vx, vy, Math.hypot(vx, vy), ax, ay, Math.hypot(ax, ay)];
       rows.push(row.map((number) => isFinite(number) ? String(Number(number.toPrecision(7))) : "").join(between));
     });

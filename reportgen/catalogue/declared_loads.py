@@ -1,0 +1,295 @@
+"""Loads on any link of any machine as a file declares them: forces at named points, torques on links.
+
+They stand beside what a kind has for itself, and are named P (forces) and M (torques) with their link's number.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import (
+    Angle,
+    CycleAngles,
+    Force,
+    ForceUnit,
+    Reader,
+    UnitOf,
+    Values,
+    Whole,
+    fault,
+    quantity,
+)
+from reportgen.base.errors import Finding, Where
+from reportgen.base.shown import view
+from reportgen.base.units import Given
+from reportgen.catalogue.typed import as_typed, size_of
+from reportgen.formula import Number, ids
+from reportgen.formula.ids import Name as Family
+from reportgen.machine import DRIVER, Crank, Guide, Linkage
+from reportgen.machine.laws import AngleLaw, ConstantLaw, Floats, Law, MotionAt, Resistance, opposing
+from reportgen.machine.loads import Applied, Torque, fixed
+from reportgen.machine.motion import Motion
+
+MOST_LOADS = LAST_LINK = 40
+LEVEL = Given(0.0, 0.0, "deg", "0 deg")
+_NAME = re.compile(r"[A-OR-Z][0-9]{0,2}|[PQ][0-9]{1,2}")
+
+
+@dataclass(frozen=True, slots=True)
+class PointName(Reader):
+    """A capital letter and at most two digits; P and Q alone are letters of the plans."""
+
+    def read(self, value: object) -> str:
+        if not isinstance(value, str) or not _NAME.fullmatch(value):
+            raise fault("point-name", text=str(value))
+        return value
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "pattern": f"^({_NAME.pattern})$"}
+
+
+Name = Annotated[str, PointName()]
+Link = Annotated[int, Whole(1, LAST_LINK)]
+TorqueOf = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
+
+
+class Constant(Part):
+    """A force F at a point in a fixed direction, or a torque M; `against` the motion only its size counts."""
+
+    by: Literal["constant"]
+    link: Link
+    at: Name | None = None
+    F: Force | None = None
+    direction: Angle = LEVEL
+    M: TorqueOf | None = None
+    against: Literal["motion"] | None = None
+
+
+class OverAngle(Part):
+    """A force or a torque over the driver's turn from the first position."""
+
+    by: Literal["angle"]
+    link: Link
+    at: Name | None = None
+    direction: Angle = LEVEL
+    unit: ForceUnit | None = None
+    torque_unit: Annotated[Given, UnitOf("N m")] | None = None
+    angle: CycleAngles
+    values: Values
+
+
+CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
+"""What loads a machine with a crank besides what its kind has for itself."""
+
+
+# --- checks ---------------------------------------------------------------------------------------
+
+
+def pins(linkage: Linkage) -> dict[int, set[str]]:
+    """The points of every moving link: its joints and what is fixed to it."""
+    driver = linkage.driver
+    found = {DRIVER: {driver.pin}}
+    if isinstance(driver, Crank):
+        found[DRIVER].add(driver.centre)
+    for dyad in linkage.dyads:
+        pinned = {"RPR": (), "RPP": dyad.links[1:]}.get(dyad.kind, dyad.links)
+        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True):
+            found[link] = set() if isinstance(end, Guide) else {end}
+            found[link] |= {dyad.middle} if link in pinned else set()
+    for point in linkage.points:
+        found.setdefault(point.link, set()).add(point.name)
+    return found
+
+
+def listed(numbers: Collection[int]) -> str:
+    """Numbers of links in a message."""
+    return ", ".join(map(str, sorted(numbers)))
+
+
+def on_link(points: Mapping[int, set[str]], link: int, name: str | None, at: Where) -> Iterator[Finding]:
+    """A link that is not there, or a point that it does not have; `points` are those of the links."""
+    if link not in points:
+        yield Finding("no-such-link", (*at, "link"), {"text": str(link), "known": listed(points)})
+    elif name is not None and name not in points[link]:
+        words = {"text": name, "link": str(link), "known": ", ".join(sorted(points[link]))}
+        yield Finding("not-on-link", (*at, "at"), words)
+
+
+def sized(load: Constant | OverAngle | Any, at: Where) -> Iterator[Finding]:
+    """A force has a point and a size in newtons, a torque neither, but its own."""
+    if isinstance(load, Constant):
+        wanted, forbidden = ("F", "M") if load.at else ("M", "F")
+        if getattr(load, wanted) is None:
+            yield Finding("missing-key", at, {"key": wanted if load.at or load.F is None else "at"})
+        if getattr(load, forbidden) is not None and getattr(load, wanted) is not None:
+            yield Finding("force-or-torque", (*at, forbidden), at="key")
+        return
+    key, forbidden = ("unit", "torque_unit") if load.at else ("torque_unit", "unit")
+    if getattr(load, key) is None:
+        yield Finding("missing-key", at, {"key": key})
+    if getattr(load, forbidden) is not None:
+        yield Finding("force-or-torque", (*at, forbidden), at="key")
+
+
+def over_cycle(load: OverAngle, turns: int, at: Where) -> Iterator[Finding]:
+    """A table over the driver's turn has a value for each angle, from 0 to the end of the cycle."""
+    angles = tuple(math.degrees(angle.si) for angle in load.angle)
+    yield from table(at, "angle", angles, 360.0 * turns, " deg", values=load.values)
+
+
+def table(
+    at: Where, key: str, nodes: tuple[float, ...], last: float, unit: str = "", **rows: tuple[float, ...]
+) -> Iterator[Finding]:
+    """Nodes grow from 0 to `last` and every row has a value for each."""
+    for name, row in rows.items():
+        if len(row) != len(nodes):
+            counts = {"key": name, "given": str(len(row)), "other": key, "wanted": str(len(nodes))}
+            yield Finding("row-length", (*at, name), counts)
+    fall = next((index for index, (one, other) in enumerate(pairwise(nodes), 1) if other <= one), None)
+    if fall is not None:
+        yield Finding("not-increasing", (*at, key, fall), {"key": key})
+        return
+    for index, wanted in ((0, 0.0), (len(nodes) - 1, last)):
+        if abs(nodes[index] - wanted) > 1e-9 * last:
+            yield Finding("table-end", (*at, key, index), {"key": key, "end": f"{wanted:g}{unit}"})
+
+
+# --- loads ----------------------------------------------------------------------------------------
+
+
+def named(family: Family, link: int, others: Iterable[Applied | Torque]) -> str:
+    """P3; a second one on the same link P3a, then P3b."""
+    count = sum(one.link == link and one.name in family for one in others)
+    return family(link, chr(ord("a") + count - 1)) if count else family(link)
+
+
+def loads(
+    declared: Sequence[Constant | OverAngle],
+    linkage: Linkage,
+    motion_at: MotionAt,
+    others: Iterable[Applied | Torque] = (),
+    *,
+    through: bool = True,
+) -> tuple[Applied | Torque, ...]:
+    """The loads in the order of the file, beside `others`; a faulty one, which the file's checks tell, is left out.
+
+    The driver goes `through` the whole cycle, or stands at single instants.
+    """
+    points, before, made = pins(linkage), tuple(others), list[Applied | Torque]()
+    for load in declared:
+        if not [*on_link(points, load.link, load.at, ()), *sized(load, ())]:
+            law = law_of(load, motion_at, through=through)
+            made.append(applied(load, law, (*before, *made)))
+    return tuple(made)
+
+
+def rows(
+    declared: Sequence[Constant | OverAngle], made: Sequence[Applied | Torque], idle: Collection[str]
+) -> tuple[LoadRow, ...]:
+    """The loads that act, as words tell of them; of faulty ones nothing is told."""
+    if len(declared) != len(made):
+        return ()
+    pairs = zip(declared, made, strict=True)
+    return tuple(row_of(load, one.name) for load, one in pairs if one.name not in idle)
+
+
+def applied(load: Any, law: Law, others: Iterable[Applied | Torque]) -> Applied | Torque:
+    """A force at the load's point, or a torque where it has none."""
+    if load.at is None:
+        return Torque(named(ids.applied_torque, load.link, others), load.link, law)
+    along = fixed(cmath.exp(1j * load.direction.si))
+    return Applied(named(ids.applied_force, load.link, others), load.link, load.at, along, law)
+
+
+def law_of(load: Constant | OverAngle, motion_at: MotionAt, *, through: bool = True) -> Law:
+    """How a force along its direction varies, or a torque where the load has no point."""
+    if isinstance(load, OverAngle):
+        unit = load.torque_unit if load.at is None else load.unit
+        assert unit is not None, "a table without its unit is refused by the kind's checks"
+        return AngleLaw(tuple(angle.si for angle in load.angle), tuple(value * unit.si for value in load.values))
+    size = load.M if load.at is None else load.F
+    assert size is not None, "a load without its size is refused by the kind's checks"
+    if not load.against:
+        return ConstantLaw(size.si)
+    direction = cmath.exp(1j * load.direction.si)
+
+    def rate(motion: Motion) -> Floats:
+        if load.at is None:
+            return motion.links[load.link].omega
+        return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
+
+    return against(abs(size.si), rate, motion_at, through=through)
+
+
+def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, *, through: bool) -> Law:
+    """What resists a `rate` of the motion with a constant size."""
+    if not through:
+        return Resistance(size, rate, ())
+    resistance = opposing(size, lambda angle: rate(motion_at(angle)))
+    # A crank has an angular velocity of its own, a slide has none.
+    turns = bool(np.any(motion_at(np.zeros(1)).links[DRIVER].omega))
+    return resistance if turns else Resistance(size, rate, resistance.reversals)
+
+
+# --- what words name ------------------------------------------------------------------------------
+
+
+@view("phrase", "table")
+@dataclass(frozen=True, slots=True)
+class LoadRow:
+    """A load: its link, how it is given, where and in which direction it acts, its size or its table."""
+
+    id: str
+    link: int
+    by: str
+    torque: bool
+    point: str = ""
+    direction: Number | None = None
+    size: Number | None = None
+    against: bool = False
+    nodes: tuple[float, ...] = ()
+    rows: tuple[tuple[float, ...], ...] = ()
+    bore: Number | None = None
+    intake: str = ""
+
+    @property
+    def phrase(self) -> str:
+        """Which words tell of it: by what it is and what it follows, or whether it is against the motion."""
+        acting = "torque" if self.torque else "force"
+        match self.by:
+            case "constant":
+                return f"{acting}-against" if self.against else acting
+            case "gas":
+                return f"gas-{self.intake}".replace(" ", "-")
+            case "stroke":
+                return "stroke"
+        return f"{acting}-{self.by}"
+
+    @property
+    def table(self) -> str:
+        """The key of the table of its values."""
+        return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
+
+
+def row_of(load: Constant | OverAngle, name: str) -> LoadRow:
+    """A load as words tell of it."""
+    torque, direction = load.at is None, as_typed(load.direction)
+    if isinstance(load, OverAngle):
+        nodes = tuple(angle.value for angle in load.angle)
+        return LoadRow(name, load.link, load.by, torque, load.at or "", direction, nodes=nodes, rows=(load.values,))
+    size = load.F or load.M
+    assert size is not None, "a load without its size is refused by the kind's checks"
+    told = as_typed(size_of(size) if load.against else size)
+    return LoadRow(
+        name, load.link, load.by, torque, load.at or "", direction, size=told, against=load.against is not None
+    )

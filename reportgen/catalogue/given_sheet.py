@@ -1,0 +1,219 @@
+"""The sheet that a machine opens: its given data as typed, what the file gives for its links, terms of a crank.
+
+ω₁ is the size of the crank's angular velocity, ε₁ that of its acceleration, which is 0 unless it is given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from reportgen.assignment.common import Positions
+from reportgen.base.units import Given
+from reportgen.catalogue.parameters import Driven, FixedPoint, Flywheel
+from reportgen.catalogue.typed import as_typed, size_of
+from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import drawn_length
+from reportgen.machine import DRIVER, Inertia, LinkPoint
+from reportgen.machine.laws import FULL_TURN
+
+CRANK_DRAWN = 0.04
+"""Drawn length of the crank (m on paper) when none is asked for."""
+MIDDLE = 0.5
+"""Where the mass centre of a uniform bar lies."""
+
+
+class GivenSheet(Sheet):
+    """The sheet that a machine opens: its given data as typed, and what the file gives for its links."""
+
+    def __init__(self, given: Driven | None = None) -> None:
+        super().__init__()
+        self.given = given
+
+    def datum(self, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
+        """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page."""
+        top, slash, bottom = given.text.partition("/")
+        if slash and not given.unit:
+            return self.define(id, Number(float(top)) / float(bottom), symbol, kind)
+        self.typed[id] = as_typed(given)
+        return self.give(id, given.si, symbol, kind)
+
+    def speed(
+        self,
+        n: Given | None = None,
+        omega1: Given | None = None,
+        epsilon1: Given | None = None,
+        flywheel: Flywheel | None = None,
+    ) -> None:
+        """ω₁ (its size) as given, or ω₁ = 2πn/60 from the speed in rpm; ε₁ (its size); δ if a flywheel is asked for.
+
+        A file with neither is refused by the kind's checks.
+        """
+        if self.given is not None:
+            n, omega1, epsilon1 = self.given.n, self.given.omega1, self.given.epsilon1
+            flywheel = self.given.flywheel
+        if n is not None:
+            rpm = n.value if n.unit == "rpm" else n.si * 30 / np.pi
+            self.define("omega.1", 2 * PI * self.give("n", rpm) / 60)
+        elif omega1 is not None:
+            self.give("omega.1", omega1.si)
+        if epsilon1 is not None and epsilon1.si:
+            self.datum(ids.angular_acceleration(DRIVER), size_of(epsilon1))
+        if flywheel is not None:
+            self.datum("unevenness", flywheel.delta, Symbol("δ", "ω"), "ratio")
+
+    def drawn(self, start: str, end: str, asked: Given | None, default: float = CRANK_DRAWN) -> None:
+        """The crank's drawn length: as asked for, else `default` (m on paper)."""
+        self.give(ids.drawn(start, end), asked.si if asked else default, drawn_length(start, end))
+
+    def drawn_by(self, scale: float, start: str, end: str, crank: Ref) -> None:
+        """The crank's drawn length (mm) by a round scale (m per mm) of the drawing."""
+        μ = self.give("scale", scale, Symbol("μ", "l"), "length scale")
+        self.define(ids.drawn(start, end), crank / μ, drawn_length(start, end))
+
+    # --- links
+
+    def of_link(self, letter: str, link: int) -> Given | None:
+        """What the file gives for a link: its `G`, `m`, `J` or `s`."""
+        given: Given | None = getattr(self.given, f"{letter}{link}", None)
+        return given
+
+    def gravity(self, letters: str = "Gm") -> None:
+        """g, if one of these letters is given for any link; none in a horizontal plane."""
+        assert self.given is not None, "a sheet without parameters has no links"
+        told = (self.of_link(letter, link) for letter in letters for link in self.given.links[letter])
+        if self.given.gravity and any(told):
+            self.datum("g", self.given.g)
+
+    def mass(self, link: int, weight: Given | None = None, mass: Given | None = None, like: int = 0) -> None:
+        """Weight and mass of a link: one as typed, or as that of the link `like`, the other from it; else none.
+
+        Without gravity there is no weight.
+        """
+        weight, mass = weight or self.of_link("G", link), mass or self.of_link("m", link)
+        G, m = ids.weight(link), ids.mass(link)
+        if m in self:
+            return
+        if "g" not in self:
+            if mass is not None:
+                self.datum(m, mass)
+            elif like:
+                self.define(m, self[ids.mass(like)])
+        elif weight is not None:
+            self.define(m, self.datum(G, weight) / self["g"])
+        elif mass is not None:
+            self.define(G, self.datum(m, mass) * self["g"])
+        elif like and self.families[ids.weight(like)].definition is None:
+            self.define(m, self.define(G, self[ids.weight(like)]) / self["g"])
+        elif like:
+            self.define(G, self.define(m, self[ids.mass(like)]) * self["g"])
+
+    def moment(self, link: int, default: Operand | None) -> None:
+        """J about the mass centre: as given, else its `default`, such as m l²/12; none where there is no default."""
+        given = self.of_link("J", link)
+        if given is not None:
+            self.datum(ids.inertia(link), given)
+        elif default is not None:
+            self.define(ids.inertia(link), default)
+
+    def bar(self, link: int, start: str, end: str, always: bool = False) -> None:
+        """A straight link from pin `start` to pin `end`: the place of its mass centre, l_AS = s·l, its mass, its J.
+
+        The centre of a link without mass is entered only if its place is given, or `always`.
+        """
+        self.set_out("places")
+        if not (always or any(self.of_link(letter, link) for letter in "sGmJ")):
+            return
+        length, share = self[ids.length(start, end)], self.of_link("s", link)
+        s = self.give(ids.mass_centre(link), MIDDLE if share is None else share.si, kind="ratio")
+        self.set_out("places", self.define(ids.length(start, f"S{link}"), s * length))
+        self.mass(link)
+        m = self.find(ids.mass(link))
+        self.moment(link, None if m is None else m * length**2 / 12)
+
+    def point(self, name: str, place: FixedPoint) -> None:
+        """The coordinates of a fixed point as typed."""
+        x = self.datum(ids.coordinate(name, "x"), place.x, Symbol("x", name), "length")
+        y = self.datum(ids.coordinate(name, "y"), place.y, Symbol("y", name), "length")
+        self.construct(ids.place(name), x + turned(y))
+
+    def coordinates(self, name: str) -> tuple[Expression, Expression]:
+        """The coordinates of a fixed point as far as they stand here and are not 0."""
+        x, y = (self.find(ids.coordinate(name, axis)) or self.find(ids.frame_coordinate(axis, name)) for axis in "xy")
+        return x if x and self.si(x) else NOTHING, y if y and self.si(y) else NOTHING
+
+    def fix(self, id: str, at: complex, length: Operand) -> None:
+        """A fixed point or a guide's point `at` (m) that lies at a `length` from the origin, and so goes with it."""
+        far = self.construct(ids.far(id), length)
+        if self.si(far):
+            self.construct(id, far * self.give(ids.unit(id), complex(at / self.si(far)), Symbol(id), "ratio"))
+
+    def bodies(self, bars: Mapping[int, tuple[str, str]], slider: int, always: bool = False) -> None:
+        """Gravity if anything has mass; the bars by the pins at their ends, as `bar` does; the slider's mass."""
+        self.gravity("GmJ")
+        for link, (start, end) in bars.items():
+            self.bar(link, start, end, always)
+        self.mass(slider)
+
+    def centre_points(self, pins: Mapping[int, str]) -> tuple[LinkPoint, ...]:
+        """The mass centres S2, … that stand here, by their links and the pins they are measured from."""
+        arms = {link: self.find(ids.length(pin, f"S{link}")) for link, pin in pins.items()}
+        return tuple(LinkPoint(f"S{link}", link, complex(self.si(arm))) for link, arm in arms.items() if arm)
+
+    def inertias(self, centres: Mapping[int, str]) -> tuple[Inertia, ...]:
+        """The links with a mass or a moment of inertia, by their mass centres."""
+
+        def size(id: str) -> float:
+            return self.si(id) if id in self else 0.0
+
+        every = (
+            Inertia(link, centre, size(ids.mass(link)), size(ids.inertia(link))) for link, centre in centres.items()
+        )
+        return tuple(one for one in every if one.mass or one.moment)
+
+
+def cycle_angles(positions: Positions, turns: int = 1) -> np.ndarray:
+    """Cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N]."""
+    if positions.at:
+        return np.array(positions.instants(turns))
+    return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
+
+
+def natural_sizes(r: float, ω: float) -> dict[str, float]:
+    """What counts as one of each kind beside a crank of the length r (m) at ω (rad/s)."""
+    return {
+        "length": r,
+        "velocity": ω * r,
+        "acceleration": ω**2 * r,
+        "angular velocity": ω,
+        "angular acceleration": ω**2,
+    }
+
+
+def natural_lines(q: Sheet, crank: str) -> Callable[..., Ref]:
+    """`q.define` with a scale by the kind of the quantity: what is natural to the crank of this id counts as one."""
+    sizes = natural_sizes(q.si(crank), q.si("omega.1"))
+
+    def define(id: str, definition: Operand, symbol: Symbol | str = "", kind: str = "") -> Ref:
+        return q.define(id, definition, symbol, kind, scale=sizes.get(kind or vocabulary.row(id).kind, 0.0))
+
+    return define
+
+
+def driver_acceleration(q: Sheet, turn: int) -> Expression:
+    """ε₁ as a term of formulas, positive in the sense of ω₁ (`turn`); nothing of a crank that turns evenly."""
+    ε1 = q.find(ids.angular_acceleration(DRIVER))
+    return NOTHING if ε1 is None else signed(turn * q.si(ids.signed("eps", DRIVER)), ε1)
+
+
+def accelerating(accelerates: float) -> Expression:
+    """ε₁ in an equation, positive in the sense of ω₁; nothing of a crank that turns evenly."""
+    return signed(accelerates, Symbol("ε", str(DRIVER))) if accelerates else NOTHING
+
+
+def accelerated(q: Sheet, turn: int, at_constant_speed: Expression, rate: Expression) -> Expression:
+    """A second derivative of what the crank's angle φ gives: q̈ = q″ω₁² + q′ε₁, with q′ = q̇/ω₁."""
+    ε1 = driver_acceleration(q, turn)
+    return at_constant_speed if ε1 is NOTHING else at_constant_speed + ε1 * rate / q["omega.1"]

@@ -1,0 +1,221 @@
+"""Springs as a file gives them: between a link and the frame, between two links, about a pin of the frame."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Either, Quantity, Reader, Whole, fault, quantity
+from reportgen.base.errors import Finding, Where
+from reportgen.base.shown import view
+from reportgen.base.units import Given, measures
+from reportgen.catalogue.declared_loads import LAST_LINK, Link, Name, PointName, named, on_link, pins
+from reportgen.catalogue.typed import as_typed
+from reportgen.catalogue.wide_sliders import Datum
+from reportgen.formula import Number, Symbol, ids
+from reportgen.machine import GROUND, Linkage
+from reportgen.machine.loads import Applied, Torque
+from reportgen.machine.springs import Anchor, SpringLaw, TorsionLaw
+
+COORDINATE = quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
+STIFFNESS = quantity("N/mm", least=0, most=1e9, tiny=1e-9)
+TORSION = quantity("N m/rad", least=0, most=1e9, tiny=1e-9)
+LENGTH = quantity("mm", least=0, below=1e5, tiny=1e-4)
+ANGLE = quantity("deg", least=-360, most=360, tiny=1e-6)
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """The far end of a spring: a fixed point by name, a place of the frame, or a point of another link."""
+
+    name: str = ""
+    link: int = GROUND
+    place: tuple[Given, Given] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SpringEnd(Reader):
+    """`D`, `[300 mm, 420 mm]` or `{link: 2, at: E}`."""
+
+    def read(self, value: object) -> End:
+        match value:
+            case str():
+                return End(PointName().read(value))
+            case [x, y]:
+                return End(place=(COORDINATE.read(x), COORDINATE.read(y)))
+            case {"link": link, "at": at, **others} if not others:
+                return End(PointName().read(at), Whole(1, LAST_LINK).read(link))
+        raise fault("spring-end")
+
+    def schema(self) -> dict[str, Any]:
+        pair = {"type": "array", "items": Quantity("mm").schema(), "minItems": 2, "maxItems": 2}
+        keys = {"link": Whole(1, LAST_LINK).schema(), "at": PointName().schema()}
+        table = {"type": "object", "properties": keys, "required": [*keys], "additionalProperties": False}
+        return {"anyOf": [PointName().schema(), pair, table]}
+
+
+class Spring(Part):
+    """A spring from a point `at` of a link `to` another place, or a torsion spring on a link `about` a fixed pin.
+
+    Its stiffness is `c`; with the `free` length, or at the `free` angle of the link from +x, it is slack.
+    """
+
+    link: Link
+    at: Name | None = None
+    to: Annotated[End, SpringEnd()] | None = None
+    about: Name | None = None
+    c: Annotated[Given, Either(STIFFNESS, TORSION)]
+    free: Annotated[Given, Either(LENGTH, ANGLE)] = Given(0.0, 0.0, "mm", "0 mm")
+
+    @property
+    def twists(self) -> bool:
+        """Whether it is a torsion spring."""
+        return self.about is not None
+
+
+@view("phrase")
+@dataclass(frozen=True, slots=True)
+class SpringRow:
+    """A spring as words tell of it: its number, its ends, its stiffness and free size, the ids of its loads."""
+
+    number: int
+    link: int
+    point: str
+    other: int
+    to: str
+    x: Number | None
+    y: Number | None
+    rate: Number
+    slack: Number
+    loads: tuple[str, ...]
+    lines: tuple[str, ...]
+
+    @property
+    def phrase(self) -> str:
+        """Which words tell of it."""
+        return "torsion" if len(self.lines) == 1 else "links" if self.other else "point" if self.to else "place"
+
+
+# --- checks ---------------------------------------------------------------------------------------
+
+
+def faults(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Finding]:
+    """Each spring has its ends on links and at points that are there, and sizes of its sort."""
+    points = pins(linkage)
+    for index, spring in enumerate(springs):
+        yield from _faults(spring, linkage, points, ("parameters", "springs", index))
+
+
+def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at: Where) -> Iterator[Finding]:
+    yield from on_link(dict(points), spring.link, spring.at, at)
+    rate, slack = ("N m/rad", "deg") if spring.twists else ("N/mm", "mm")
+    for key, given, unit in (("c", spring.c, rate), ("free", spring.free, slack)):
+        # Nothing said of a torsion spring's angle is 0°.
+        if not measures(given.unit, unit) and key in spring.model_fields_set:
+            yield Finding("wrong-unit", (*at, key), {"given": given.text, "unit": unit})
+    if spring.twists:
+        for key in ("at", "to"):
+            if getattr(spring, key) is not None:
+                yield Finding("both-given", (*at, key), {"first": "about", "second": key}, at="key")
+        if _other_point(linkage, spring) is None:
+            known = sorted(end for end in _swinging(linkage) if _swinging(linkage)[end][0] == spring.link)
+            words = {"text": str(spring.about), "link": str(spring.link), "known": ", ".join(known) or "–"}
+            yield Finding("no-such-pin", (*at, "about"), words)
+        return
+    for key in ("at", "to"):
+        if getattr(spring, key) is None:
+            yield Finding("missing-key", at, {"key": key})
+    end = spring.to
+    if end is None or end.place is not None:
+        return
+    if end.link == spring.link:
+        yield Finding("spring-on-one-link", (*at, "to"), {"link": str(spring.link)})
+    elif end.link:
+        yield from on_link(dict(points), end.link, end.name, (*at, "to"))
+    elif end.name not in linkage.ground:
+        fixed = ", ".join(sorted(linkage.ground)) or "–"
+        yield Finding("no-such-point", (*at, "to"), {"text": end.name, "known": fixed})
+
+
+def _swinging(linkage: Linkage) -> dict[str, tuple[int, str]]:
+    """The fixed pins about which links of groups turn: the link, and the point that tells its angle."""
+    return {
+        end: (link, str(dyad.start) if dyad.kind == "RPR" and end == dyad.end else dyad.middle)
+        for dyad in linkage.dyads
+        for link, end in zip(dyad.links, (dyad.start, dyad.end), strict=True)
+        if isinstance(end, str) and end in linkage.ground
+    }
+
+
+def _other_point(linkage: Linkage, spring: Spring) -> str | None:
+    """The point of a link that turns about the spring's pin by which its angle is told."""
+    link, point = _swinging(linkage).get(spring.about or "", (0, ""))
+    return point if link == spring.link else None
+
+
+# --- loads ----------------------------------------------------------------------------------------
+
+
+def loads(
+    springs: Sequence[Spring], linkage: Linkage, datum: Datum, others: Sequence[Applied | Torque]
+) -> tuple[tuple[Applied | Torque, ...], tuple[SpringRow, ...]]:
+    """The loads of the springs beside `others`, and what words tell of them; their data are entered.
+
+    Faulty springs, which the file's checks tell, are left out.
+    """
+    made: list[Applied | Torque] = []
+    rows: list[SpringRow] = []
+    for number, spring in enumerate(springs, 1):
+        if list(faults([spring], linkage)) or not spring.c.si:
+            continue
+        kinds = ("torsional stiffness", "angle") if spring.twists else ("stiffness", "length")
+        datum(ids.spring_rate(number), spring.c, Symbol("c", str(number)), kinds[0])
+        slack = Symbol("φ" if spring.twists else "l", f"0{number}")
+        datum(ids.spring_free(number), spring.free, slack, kinds[1])
+        own = _loads(number, spring, linkage, (*others, *made))
+        made += own
+        rows.append(_row(number, spring, tuple(load.name for load in own)))
+    return tuple(made), tuple(rows)
+
+
+def _loads(number: int, spring: Spring, linkage: Linkage, others: Sequence[Applied | Torque]) -> list[Applied | Torque]:
+    if spring.about is not None:
+        point = _other_point(linkage, spring)
+        assert point is not None, "a spring without its pin is refused by the file's checks"
+        law = TorsionLaw(number, spring.about, point, spring.c.si, spring.free.si)
+        return [Torque(named(ids.applied_torque, spring.link, others), spring.link, law)]
+    at, to = spring.at, spring.to
+    assert at is not None
+    assert to is not None, "a spring without its ends is refused by the file's checks"
+    far = Anchor(to.name) if to.place is None else Anchor(place=complex(to.place[0].si, to.place[1].si))
+    pulling = SpringLaw(number, (Anchor(at), far), spring.c.si, spring.free.si)
+    made: list[Applied | Torque] = [
+        Applied(named(ids.applied_force, spring.link, others), spring.link, at, pulling.towards(0), pulling)
+    ]
+    if to.link:
+        name = named(ids.applied_force, to.link, (*others, *made))
+        made.append(Applied(name, to.link, to.name, pulling.towards(1), pulling))
+    return made
+
+
+def _row(number: int, spring: Spring, made: tuple[str, ...]) -> SpringRow:
+    to = spring.to or End()
+    x, y = (None, None) if to.place is None else map(as_typed, to.place)
+    lengths = ids.spring_on_paper(number), ids.spring_length(number)
+    lines = (ids.spring_turn(number),) if spring.twists else lengths
+    point = spring.about or spring.at or ""
+    return SpringRow(
+        number,
+        link=spring.link,
+        point=point,
+        other=to.link,
+        to=to.name,
+        x=x,
+        y=y,
+        rate=as_typed(spring.c),
+        slack=as_typed(spring.free),
+        loads=made,
+        lines=lines,
+    )

@@ -1,0 +1,35 @@
+"""A slider as wide as it is: where in its guide the reaction acts, and whether it tilts.
+
+The guide holds it along a face from x₁ to x₂, counted from its pin in the direction of the guide.  The reaction N
+across the guide acts at the place x where its moment about the pin is that of the joint.  Within the face one side of
+the guide carries it; beyond, the slider tilts until both ends bear, on opposite sides:
+
+    N₁ = N (x₂ − x)/(x₂ − x₁),   N₂ = N (x − x₁)/(x₂ − x₁).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.machine.motion import Floats
+
+
+@dataclass(frozen=True, slots=True)
+class Faces:
+    """The ends x₁ < x₂ (m) of a slider's face from its pin along the guide, and how far (m) it lies below the pin."""
+
+    first: float
+    last: float
+    below: float = 0.0
+
+    def ends(self, normal: Floats, moment: Floats) -> tuple[Floats, Floats]:
+        """N₁, N₂ (N) [N] of the reaction N (N), positive to the left of the guide, with the moment N x (N·m)."""
+        width = self.last - self.first
+        return (normal * self.last - moment) / width, (moment - normal * self.first) / width
+
+    def tilts(self, normal: Floats, moment: Floats) -> np.ndarray:
+        """Whether the reaction acts beyond the face [N]: the two ends bear on opposite sides."""
+        first, last = self.ends(normal, moment)
+        return np.asarray(first * last < 0)

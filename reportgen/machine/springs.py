@@ -1,0 +1,122 @@
+"""Springs as laws of loads: a spring between two points, and one that turns a link back about a pin."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from reportgen.formula import PI, Expression, Number, Ref, arg, cis, ids, quotient
+from reportgen.formula.sheet import Sheet
+from reportgen.machine.laws import Floats, Law, MotionAt
+from reportgen.machine.loads import Direction
+from reportgen.machine.motion import Complexes, Motion
+
+Size = TypeVar("Size", Floats, Expression)
+"""An array over positions, or a quantity on a sheet."""
+
+
+def pull(c: Size, length: Size, free: Size) -> Size:
+    """F = c(l − l₀), positive where the spring is stretched and pulls."""
+    return c * (length - free)
+
+
+@dataclass(frozen=True, slots=True)
+class Anchor:
+    """An end of a spring: a named point, or a place (m) of the frame that has no name."""
+
+    name: str = ""
+    place: complex = 0j
+
+    def at(self, motion: Motion) -> Complexes | complex:
+        return motion.points[self.name].p if self.name else self.place
+
+    def on(self, q: Sheet, number: int) -> Ref:
+        """The end as it is drawn (m)."""
+        if self.name:
+            return q[ids.place(self.name)]
+        id = ids.spring_anchor(number)
+        return q.find(id) or q.give(id, self.place, id, "length", hidden=True)
+
+
+@dataclass(frozen=True)
+class SpringLaw(Law):
+    """A spring of stiffness c (N/m) and free length l₀ (m) between two ends; the force on either of them."""
+
+    number: int
+    ends: tuple[Anchor, Anchor]
+    c: float
+    free: float
+    kind = "spring"
+
+    def along(self, motion: Motion) -> Complexes:
+        """The vector (m) from the first end to the second [N]."""
+        return np.asarray(self.ends[1].at(motion) - self.ends[0].at(motion), dtype=np.complex128)
+
+    def towards(self, end: int) -> Direction:
+        """The direction in which the spring pulls at one of its ends, 0 or 1: towards the other."""
+        sense = -1.0 if end else 1.0
+
+        def direction(motion: Motion) -> Complexes:
+            along = self.along(motion)
+            # A spring whose ends meet pulls in no direction.
+            length = np.abs(along)
+            return np.asarray(sense * along / np.where(length > 0, length, 1.0))
+
+        return direction
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        length = np.abs(self.along(motion))
+        return pull(np.full_like(length, self.c), length, np.full_like(length, self.free))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return ()
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return (self.c,)
+
+    def formula(self, q: Sheet, link: int) -> Expression:
+        """F = c(l − l₀) with l measured on the drawing."""
+        number, first = self.number, self.ends[0].on(q, self.number)
+        if ids.spring_length(number) not in q:
+            apart = abs(self.ends[1].on(q, number) - first)
+            drawn = q.define(ids.spring_on_paper(number), apart / q["drawing"])
+            q.define(ids.spring_length(number), q["mu.l"] * drawn)
+        c, length, free = (q[name(number)] for name in (ids.spring_rate, ids.spring_length, ids.spring_free))
+        return pull(c, length, free)
+
+
+@dataclass(frozen=True)
+class TorsionLaw(Law):
+    """A torsion spring of c (N·m/rad) about a pin: M = −c(φ − φ₀), φ the angle of the line to another point.
+
+    The deflection φ − φ₀ lies within half a turn either way.
+    """
+
+    number: int
+    pin: str
+    point: str
+    c: float
+    free: float
+    kind = "spring"
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        line = motion.points[self.point].p - motion.points[self.pin].p
+        return np.asarray(-self.c * np.angle(line * np.exp(-1j * self.free)))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return ()
+
+    @property
+    def sizes(self) -> tuple[float, ...]:
+        return (self.c,)
+
+    def formula(self, q: Sheet, link: int) -> Expression:
+        """M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""
+        line = q[ids.place(self.point)] - q[ids.place(self.pin)]
+        turned = arg(quotient(line, cis(q[ids.spring_free(self.number)])))
+        θ = q.define(ids.spring_turn(self.number), turned, scale=1.0)
+        return -(q[ids.spring_rate(self.number)] * θ * PI / Number(180.0, unit="°"))
