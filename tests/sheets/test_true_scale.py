@@ -47,7 +47,7 @@ BY_RATIO = {
     ("engine-single-V", "drawn.BC"): 0.03,
     ("engine-single-VI", "drawn.BC"): 0.1,
 }
-"""What rounding makes of a rod (mm) that follows from R/λ, whose four digits are half a thousandth of 159 mm at most, or
+"""What rounding makes of a rod (mm) that follows from R/λ of four digits, half a thousandth of 159 mm at most, or
 from an angle: θ = 6.923° of variant V prints as 6.92°, which makes 136.49 mm of 136.465."""
 DRAWN = 1.0
 """A shorter arm (mm) is hidden by the point that it is taken about."""
