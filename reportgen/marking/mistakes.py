@@ -99,8 +99,9 @@ def _of_an_accelerated_driver(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _of_springs(scheme: MarkingScheme) -> Iterator[Mistake]:
     """c·l for c(l − l₀)."""
     for id, family in scheme.ledger.families.items():
-        used = refs(family.definition) if family.definition is not None and family.kind == "force" else ()
-        for slack in (ref for ref in used if ref in ids.spring_free):
+        if family.definition is None or family.kind != "force":
+            continue
+        for slack in (ref for ref in refs(family.definition) if ref in ids.spring_free):
             yield Mistake("no-free-length", id, {id: _with(family.definition, {slack: lambda _: np.zeros(1)})})
 
 
