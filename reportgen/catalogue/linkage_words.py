@@ -117,7 +117,8 @@ def _quantities(given: file.Parameters, rows: tuple[GroupRow, ...]) -> Iterator[
         yield "eps.1", "epsilon1", ""
     else:
         yield ids.velocity(driver.pin), "speed", ""
-        yield ids.acceleration(driver.pin), "acceleration", ""
+        if driver.rate2:
+            yield ids.acceleration(driver.pin), "acceleration", ""
         yield "span", "span", ""
     for row in rows:
         yield from ((ids.length(rod), "length", rod) for rod, _ in row.lengths)
