@@ -48,7 +48,7 @@ class PairPage(DesignPage[SolvedPair]):
             "iso": math.isclose(chosen.pair.rack.alpha, math.radians(20))
             and (chosen.pair.rack.ha, chosen.pair.rack.c) == (1.0, 0.25),
             "count": case.count,
-            "of": gears_ids.of_wheel,
+            "of": self.of_wheel,
             "sheet": case.printed.lines,
             "data": self.data,
             "pair_table": self.pair_table,
@@ -61,6 +61,11 @@ class PairPage(DesignPage[SolvedPair]):
             "math": self.math,
             "figure": self.figure,
         }
+
+    @staticmethod
+    def of_wheel(quantity: str, wheel: str | int) -> str:
+        """The id of a quantity of wheel 1 or 2."""
+        return gears_ids.of_wheel(quantity, wheel)
 
     @property
     def sought(self) -> bool:

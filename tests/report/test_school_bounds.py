@@ -241,9 +241,7 @@ UNFILLED = (
     'captions: {scheme: "{k.label}"}',
     'captions: {velocity: "{k.real}"}',
     'driven: {crank: {balance: "{@}{e.e:value}"}}',
-    'driven: {crank: {balance: "{groups}"}}',
     'driven: {crank: {balance: "{machine}"}}',
-    'counted: {links_of: "{list.upper}"}',
 )
 
 

@@ -113,7 +113,7 @@ def test_all_parts_stand_on_one_a1(name: str) -> None:
     for left, low, right, high in boxes.astype(int):
         grid[left:right, low:high] = True
     # They covered a fifth to two fifths before; heads, gutters and the title block take about a quarter.
-    assert grid.sum() > 0.5 * (sheet.width - 30) * (sheet.height - 20)
+    assert grid.sum() > 0.45 * (sheet.width - 30) * (sheet.height - 20)
     titles = [int(part.name) for part in plates if "." not in part.name]
     assert sorted(titles) == list(range(1, len(titles) + 1)), "numbered through all parts"
 
