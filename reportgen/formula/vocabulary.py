@@ -430,7 +430,7 @@ def wording(id: str, shown: Symbol) -> tuple[str, dict[str, str]]:
         **dict(zip(("point", "base"), map(lowered, points), strict=False)),
     }
     name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
-    if family.name == "acceleration" and parts.get("part") and len(points) == 1:
+    if family.name == "acceleration" and parts.get("part") in ("n", "t") and len(points) == 1:
         # A component of the point's own acceleration, as of the pin of a crank.
         name = f"{name}.own"
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words

@@ -31,7 +31,7 @@ MOST_BARS = 24
 """Quantities with a bar of their own; there are fewer mistakes with names."""
 WIDTHS = (32.0, 50.0, 24.0, 14.0, 14.0, 12.0, 14.0)
 """Widths (mm) of the columns of marks."""
-SYMBOL, PART, SHARE = 22.0, 40.0, 18.0
+SYMBOL, PART, SHARE, DISCRIMINATION = 22.0, 40.0, 18.0, 25.0
 """Widths (mm) of the columns of questions; what they are has the rest."""
 VALUE = 34.0
 """Width (mm) of the column of a datum's values."""
@@ -163,7 +163,7 @@ def _questions(markings: Sequence[Marking], words: Words, language: Language) ->
     yield heading(page["questions_title"], 2)
     yield paragraph(page["questions_lead"])
     statistics = (page["facility"], page["discrimination"])
-    columns = (Column(SHARE), Column(SHARE))
+    columns = (Column(SHARE), Column(DISCRIMINATION))
     sections = sorted(by_section(markings, language), key=lambda item: item.facility)
     rows = [(section_name(item.key, item.row, language), *_statistics(item, language)) for item in sections]
     yield Table(
@@ -175,7 +175,7 @@ def _questions(markings: Sequence[Marking], words: Words, language: Language) ->
     questions = sorted(by_question(markings), key=lambda item: item.facility)
     hard = [item for item in questions if item.facility < 1 - 1e-9]
     if hard:
-        what = TEXT_WIDTH - SYMBOL - PART - 2 * SHARE
+        what = TEXT_WIDTH - SYMBOL - PART - SHARE - DISCRIMINATION
         heads = (words["table"]["symbol"], names["what"], words["feedback"]["part"], *statistics)
         lines = (
             cells(

@@ -22,14 +22,14 @@ QUANTITY = re.compile(r"(?<![\w.])(-?[0-9.]+) (mm|cm|m|rad/s2|rad/s|m/s2|m/s|rpm
 
 
 def redrawn(name: str, rng: np.random.Generator, equations: bool) -> str:
-    """An exercise on another scale and with other speeds."""
+    """An exercise on another scale and with other speeds; lengths are exact, so that what touches goes on to."""
     text = re.sub(r"\n  methods:.*", "", (FOLDER / f"{name}.yaml").read_text(encoding="utf-8"))
-    scale = float(rng.uniform(0.4, 2.2))
+    scale = round(float(rng.uniform(0.4, 2.2)), 2)
 
     def other(found: re.Match[str]) -> str:
         length = found[2] in ("mm", "cm", "m")
         value = float(found[1]) * (scale if length else float(rng.uniform(0.5, 1.9)))
-        return f"{value:.{4 if length else 3}g} {found[2]}"
+        return f"{value:.{15 if length else 3}g} {found[2]}"
 
     return QUANTITY.sub(other, text) + ("\n  methods: [equations]\n" if equations else "")
 
