@@ -10,7 +10,7 @@ const panelOf = (root, panels) => {
   // What a panel has by an id begins with its own name, as the panel itself; that of the machine has none.
   const own = root.id.slice(0, -"moving".length), byId = (name) => root.querySelector(`#${own}${name}`);
   const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
-  let animation, values, starts, drawing, now;
+  let animation, steps, values, starts, drawing, now;
 
   // --- samples
 
@@ -19,8 +19,8 @@ const panelOf = (root, panels) => {
     return new Float32Array(bytes.buffer);
   };
 
-  // Single instants, with what is told of each and where the driver stands; at all other times nothing is known.
-  const steps = animation.instants, STEP = 1500;
+  // Of single instants `steps` has what is told of each and where the driver stands; at all other times nothing is known.
+  const STEP = 1500;
   const nearest = (angle) => animation.positions.reduce((best, [, at], index) =>
     Math.abs(at - angle) < Math.abs(animation.positions[best][1] - angle) ? index : best, 0);
 
@@ -388,6 +388,7 @@ const panelOf = (root, panels) => {
 
   const mount = (data) => {
     animation = data;
+    steps = animation.instants;
     values = unpack(animation.tracks);
     starts = [];
     animation.lengths.reduce((start, length) => { starts.push(start); return start + length; }, 0);
