@@ -35,6 +35,7 @@ PLACES: Mapping[str, str] = {
     "line": r"[A-Z][^.]*",
     "to": r"[A-Z][^.]*",
     "relative": r"[A-Z][^.]*",
+    "pair": r"[A-Z][^.]*[A-Z][^.]*",
     "start": r"[a-z]\d*",
     "end": r"[a-z]\d*",
     # what of a quantity is meant
@@ -279,7 +280,7 @@ rest = Name("rest.{id}")  # of that integral
 # --- names that are no ids: of the forces of a plan and of the corners of a plan of accelerations
 
 reaction_force = Name("R{joint}[.{part}]")
-relative_corner = Name("{part}.{relative}")
+relative_corner = Name("{part}.{pair}")
 
 
 def joint(acting: int, acted_on: int) -> str:
