@@ -274,12 +274,14 @@ def test_ctrl_c_ends_all_processes_and_keeps_what_is_done(tmp_path: Path) -> Non
 
 @proof
 @pytest.mark.parametrize(("end", "code"), [("SIGKILL", -9), ("SIGTERM", 143), ("SIGHUP", 129)])
-def test_a_batch_that_is_ended_leaves_no_process_and_no_folder(tmp_path: Path, end: str, code: int) -> None:
+def test_a_batch_that_is_ended_leaves_no_process_and_no_folder(
+    tmp_path: Path, tmp_path_factory: pytest.TempPathFactory, end: str, code: int
+) -> None:
     """Itself alone is hit, as by a lack of memory: its workers and the process that they come from tidy up."""
     text = (ROOT / "assignments" / "slotted-lever-01.yaml").read_text(encoding="utf-8")
     roster, given = write_class(tmp_path, {f"K{k}": text for k in range(9)})
-    out, temporary = tmp_path / "out", tmp_path / "tmp"
-    temporary.mkdir()
+    # The name of a socket has a hundred letters at most, its folder's among them.
+    out, temporary = tmp_path / "out", tmp_path_factory.mktemp("t")
     command = (sys.executable, "-m", "reportgen.cli", "batch", roster, "--assignments", given, "--out", out)
     with subprocess.Popen(
         [*map(str, command), "--jobs", "2", "--make", "report"],
