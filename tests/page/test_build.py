@@ -77,7 +77,7 @@ def test_formats_of_a_report(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     names = ["report.html", "report.pdf"]
     assert done.stdout.splitlines() == [str(tmp_path / SLIDE.stem / name) for name in names]
-    assert sorted(path.name for path in (tmp_path / SLIDE.stem).iterdir()) == names
+    assert sorted(path.name for path in (tmp_path / SLIDE.stem).glob("[!.]*")) == names
     assert (tmp_path / SLIDE.stem / "report.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     assert command("build", SLIDE, "--format", "html", "--out", tmp_path / "one").returncode == 0
     assert [path.name for path in (tmp_path / "one" / SLIDE.stem).iterdir()] == ["report.html"]
