@@ -80,7 +80,7 @@ def test_formats_of_a_report(tmp_path: Path) -> None:
     assert sorted(path.name for path in (tmp_path / SLIDE.stem).glob("[!.]*")) == names
     assert (tmp_path / SLIDE.stem / "report.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     assert command("build", SLIDE, "--format", "html", "--out", tmp_path / "one").returncode == 0
-    assert [path.name for path in (tmp_path / "one" / SLIDE.stem).iterdir()] == ["report.html"]
+    assert [path.name for path in (tmp_path / "one" / SLIDE.stem).glob("[!.]*")] == ["report.html"]
 
 
 def test_an_unknown_format_is_wrong_usage(tmp_path: Path) -> None:
