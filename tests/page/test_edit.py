@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -61,7 +62,9 @@ def until(condition: Callable[[], object]) -> None:
 def editing(*arguments: object) -> Iterator[str]:
     """The command: the address that it prints, until Ctrl-C."""
     command = [sys.executable, "-m", "reportgen.cli", "edit", *map(str, arguments), "--no-open"]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    # It hears of Ctrl-C also where the tests run in the background.
+    heard = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, preexec_fn=heard)
     assert process.stdout is not None
     try:
         yield process.stdout.readline().strip()
