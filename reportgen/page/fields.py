@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from reportgen.assignment.checks import OneOf
 from reportgen.assignment.common import PARTS, Kind
 from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY, UNIT_NAME_KEY
 from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema
@@ -211,8 +212,8 @@ class Form:
 
     def _must(self, where: Where, entry: FieldLine) -> bool:
         """Whether one of several keys that say the same has to stand there."""
-        checks = (check for check in self.kind.checks if getattr(check, "where", None) == where)
-        return any(entry.key in check.names and check.required for check in checks)  # type: ignore[attr-defined]
+        checks = (check for check in self.kind.checks if isinstance(check, OneOf) and check.where == where)
+        return any(entry.key in check.names and check.required for check in checks)
 
     def _grouped(self, where: Where, entries: Sequence[FieldLine | FieldGroup]) -> Iterator[FieldLine | FieldGroup]:
         """The entries of a table below the titles of their groups, where words give them any."""
