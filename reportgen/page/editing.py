@@ -80,7 +80,7 @@ class EditSession(LiveSession):
     products: Mapping[str, Sequence[str]] = field(default_factory=dict)
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
-    """Begins the session of a part's file; None where none is opened."""
+    """Begins the form of a part's file; None where none is opened."""
     whole: str = ""
     """Of a part, the name of the coursework's file."""
     lock: threading.RLock = field(default_factory=threading.RLock)

@@ -70,7 +70,7 @@ class LiveSession:
     changed: threading.Condition = field(default_factory=threading.Condition)
     closed: bool = False
     touched: threading.Event = field(default_factory=threading.Event)
-    """Set where the file was changed by the session itself."""
+    """Set where the file was changed by the form itself."""
 
     def __post_init__(self) -> None:
         first = self.language or spoken()

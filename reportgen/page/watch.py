@@ -196,7 +196,7 @@ def _follow(path: Path, session: LiveSession, stop: threading.Event, shown: obje
     and hears nothing of changes that another computer makes.
     """
     while not stop.is_set():
-        # What the session itself has written need not be waited for.
+        # What the form itself has written need not be waited for.
         own = session.touched.wait(LOOKING)
         session.touched.clear()
         if _states(path) != shown:
