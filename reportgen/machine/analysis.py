@@ -18,7 +18,6 @@ from reportgen.machine.forces import (
     Forces,
     Load,
     inertia_loads,
-    mean_over,
     reaction_name,
     solve_forces,
     virtual_work_torque,
@@ -28,6 +27,7 @@ from reportgen.machine.gas import indicated_work, stroke_at
 from reportgen.machine.laws import FULL_TURN, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque, carriers
 from reportgen.machine.motion import Motion, cross, solve_motion
+from reportgen.machine.quadrature import mean_over
 
 
 @dataclass(frozen=True)
