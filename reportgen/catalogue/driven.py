@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, given_springs, wide_sliders
+from reportgen.catalogue import declared_loads, given_motion, given_springs, wide_sliders
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -25,6 +25,7 @@ def outline(
     loads: bool,
     flywheel: Flywheel | None,
     *,
+    motion: bool = False,
     curves: bool = True,
     further: bool = False,
     springs: bool = False,
@@ -39,14 +40,14 @@ def outline(
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, and sliders may have `faces`.
+    be `springs`, and sliders may have `faces`.  The true `motion` follows the flywheel.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()
-    wheel = () if flywheel is None else ("flywheel",)
+    wheel = (*(() if flywheel is None else ("flywheel",)), *(("true-motion",) if motion else ()))
     beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
     wide = ("faces",) if faces else ()
     return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *wheel, *CLOSING)
@@ -100,6 +101,7 @@ def driven(
     of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    given_motion.entered(given.motion, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in of_springs)}
     # What a kind sets out by its name is its own load.
@@ -113,6 +115,7 @@ def driven(
         "springs": bool(springs),
         "faces": bool(faces),
         "curves": not positions.at,
+        "motion": given.motion is not None,
         "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
     }
     fields: dict[str, Any] = {
@@ -133,6 +136,7 @@ def driven(
         faces=faces,
         sheet=q,
         unevenness=given.unevenness,
+        true_motion=None if given.motion is None else given.motion.asked,
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

@@ -162,3 +162,21 @@ class Backwards(Drive):
 
     def slope(self, speed: Floats) -> Floats:
         return self.forwards.slope(-np.asarray(speed))
+
+
+@dataclass(frozen=True, slots=True)
+class MotionAsked:
+    """What is asked of the true motion of a machine.
+
+    `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia` (kg·m²)
+    of motor and gear there.  Cycle angles (rad) `start_from` where the machine starts from rest, `stop_from` where the
+    motor is switched off and the `brake` (N·m) acts; None where neither is asked for.  Start and stop have the flywheel
+    if `wheeled`.
+    """
+
+    drive: Drive | None
+    inertia: float = 0.0
+    start_from: float | None = None
+    stop_from: float | None = None
+    brake: float = 0.0
+    wheeled: bool = False

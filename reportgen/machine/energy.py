@@ -135,7 +135,7 @@ class ReducedMachine:
         inside = values[:, : angle.size].reshape(3, *angle.shape)
         J, slope, torque = inside
         at_edges = values[0, angle.size :], values[1, angle.size :], values[2, angle.size :]
-        return ReducedWay(edges, angle, measure, J, slope, torque, at_edges)
+        return ReducedWay(edges, angle, measure, inertia=J, slope=slope, torque=torque, at_edges=at_edges)
 
     @cached_property
     def corners(self) -> Floats:
@@ -178,11 +178,11 @@ class EnergyAlong:
     inside: Floats
 
 
-def linear(way: ReducedWay, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+def linear(path: ReducedWay, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """The equation made linear about T [n, s]: T = p T₀ + r inside each part, α T₀ + β at its end."""
-    speed = np.sqrt(2 * energy / way.inertia)
-    gain = way.measure * drive.slope(speed) / (way.inertia * speed)
-    rest = way.measure * (way.torque + drive.torque(speed)) - gain * energy
+    speed = np.sqrt(2 * energy / path.inertia)
+    gain = path.measure * drive.slope(speed) / (path.inertia * speed)
+    rest = path.measure * (path.torque + drive.torque(speed)) - gain * energy
     matrix = np.eye(STAGES) - A * gain[:, None, :]
     right = np.stack((np.ones_like(rest), rest @ A.T), axis=-1)
     p, r = np.moveaxis(np.linalg.solve(matrix, right), -1, 0)
@@ -203,35 +203,35 @@ def _first_empty(edges: Floats, inside: Floats) -> int:
     return int(empty.argmax()) if empty.any() else len(empty)
 
 
-def follow(way: ReducedWay, drive: Drive, first: float, guess: Floats | None = None) -> tuple[EnergyAlong, int]:
+def follow(path: ReducedWay, drive: Drive, first: float, guess: Floats | None = None) -> tuple[EnergyAlong, int]:
     """T along a way from T = `first`, and how many of its parts the machine comes through before T is used up.
 
     Since no part asks what follows, those before it stand where Newton's way fails; the rest is tried in fewer parts.
     """
     edges, inside = [np.array([first])], []
-    done, size = 0, way.size
-    while done < way.size:
-        part = way.parts(done, done + size)
+    done, size = 0, path.size
+    while done < path.size:
+        part = path.parts(done, done + size)
         begun = np.full(part.angle.shape, float(edges[-1][-1])) if guess is None else guess[done : done + size]
-        found, reached = _newton(part, drive, float(edges[-1][-1]), begun)
-        edges.append(found.edges[1 : reached + 1])
-        inside.append(found.inside[:reached])
+        result, reached = _newton(part, drive, float(edges[-1][-1]), begun)
+        edges.append(result.edges[1 : reached + 1])
+        inside.append(result.inside[:reached])
         done += reached
         if reached < size:
             if size == 1:
                 break
             size = 1 if reached else size // 2
         else:
-            size = min(2 * size, way.size - done)
+            size = min(2 * size, path.size - done)
     return EnergyAlong(np.concatenate(edges), np.concatenate((*inside, np.empty((0, STAGES))))), done
 
 
-def _newton(way: ReducedWay, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
+def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
     """T along a way by Newton's method from a guess [n, s], and how many of its parts are sure."""
-    scale = first + float(np.abs(way.measure * way.torque).sum())
+    scale = first + float(np.abs(path.measure * path.torque).sum())
     for _ in range(MOST_STEPS):
         energy = np.maximum(energy, LEAST_ENERGY * scale)
-        p, r, alpha, beta = linear(way, drive, energy)
+        p, r, alpha, beta = linear(path, drive, energy)
         edges = energy_at_edges(first, alpha, beta)
         inside = p * edges[:-1, None] + r
         reached = _first_empty(edges, inside)
@@ -251,10 +251,10 @@ def march(
     Parts in which T changes too much are halved, as where the machine all but stalls: √T is no polynomial.
     """
     for _ in range(MOST_HALVINGS):
-        way = body.from_rest(edges) if rest else body.along(edges)
-        torque = float(way.at_edges[2][0] + drive.torque(np.zeros(1))[0])
-        guess = torque * (way.angle - edges[0]) if rest else None
-        energy, reached = follow(way, drive, first, guess)
+        path = body.from_rest(edges) if rest else body.along(edges)
+        torque = float(path.at_edges[2][0] + drive.torque(np.zeros(1))[0])
+        guess = torque * (path.angle - edges[0]) if rest else None
+        energy, reached = follow(path, drive, first, guess)
         every = np.column_stack((energy.edges[:-1], energy.inside, energy.edges[1:]))
         with np.errstate(divide="ignore"):
             uneven = every.max(axis=1, initial=0.0) > MOST_CHANGE * every.min(axis=1, initial=np.inf)
@@ -264,17 +264,17 @@ def march(
             break
         at = np.flatnonzero(uneven)
         edges = np.sort(np.concatenate((edges, (edges[at] + edges[at + 1]) / 2)))
-    return way, energy, reached
+    return path, energy, reached
 
 
-def closed(way: ReducedWay, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:
+def closed(path: ReducedWay, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:
     """T along a cycle that returns to what it was, from a guess [n, s], and the factor α of a deviation in a cycle.
 
     None where Newton's way does not lead to any, or only to one without energy.
     """
     energy, before = guess, np.inf
     for _ in range(MOST_STEPS):
-        p, r, alpha, beta = linear(way, drive, energy)
+        p, r, alpha, beta = linear(path, drive, energy)
         whole = energy_at_edges(1.0, alpha, beta)[-1] - (free := energy_at_edges(0.0, alpha, beta)[-1])
         if not np.isfinite(free) or whole == 1:
             return None

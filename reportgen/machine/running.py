@@ -109,24 +109,24 @@ class MotionRun:
         return replace(self, angle=about - self.angle, **turned)
 
 
-def run_along(way: ReducedWay, drive: Drive, energy: EnergyAlong, backwards: bool = False) -> MotionRun:
+def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong, backwards: bool = False) -> MotionRun:
     """The run along a way with the energy found; one that was followed `backwards` is turned round."""
-    n = way.size
+    n = path.size
 
     def woven(edges: Floats, inside: Floats) -> Floats:
         return np.append(np.column_stack((edges[:-1], inside)).ravel(), edges[-1])
 
     inertia, slope, torque = (
-        woven(at, inside) for at, inside in zip(way.at_edges, (way.inertia, way.slope, way.torque), strict=True)
+        woven(at, inside) for at, inside in zip(path.at_edges, (path.inertia, path.slope, path.torque), strict=True)
     )
     T = np.maximum(woven(energy.edges, energy.inside), 0.0)
     speed = np.sqrt(2 * T / inertia)
     driven = drive.torque(speed)
     inside = speed[:-1].reshape(n, STAGES + 1)[:, 1:]
-    step = way.measure / inside
+    step = path.measure / inside
     time = np.concatenate(([0.0], np.cumsum(step @ B)))
     every = MotionRun(
-        angle=woven(way.edges, way.angle),
+        angle=woven(path.edges, path.angle),
         inertia=inertia,
         slope=slope,
         torque=torque,
@@ -206,18 +206,18 @@ def _extreme(run: MotionRun, sense: int) -> ExtremeSpeed:
     return max(candidates, key=lambda extreme: sense * extreme.speed)
 
 
-def _described(way: ReducedWay, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
-    run = run_along(way, drive, energy)
-    speed = np.sqrt(2 * energy.inside / way.inertia)
-    work = float((way.measure * drive.torque(speed) * B).sum())
+def _described(path: ReducedWay, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
+    run = run_along(path, drive, energy)
+    speed = np.sqrt(2 * energy.inside / path.inertia)
+    work = float((path.measure * drive.torque(speed) * B).sum())
     return SteadyMotion(run, _extreme(run, 1), _extreme(run, -1), work, settles)
 
 
-def mean_torque(body: ReducedMachine, way: ReducedWay) -> tuple[float, float]:
+def mean_torque(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
     """The mean of M_r over a cycle and that of its size (N·m)."""
     return (
-        float((way.measure * way.torque * B).sum()) / body.whole,
-        float((way.measure * np.abs(way.torque) * B).sum()) / body.whole,
+        float((path.measure * path.torque * B).sum()) / body.whole,
+        float((path.measure * np.abs(path.torque) * B).sum()) / body.whole,
     )
 
 
@@ -231,8 +231,8 @@ def levels(drive: Drive, mean: float, speed: float) -> list[float]:
     at = np.linspace(0.0, most, LOOKED_AT + 1)
     left = mean + drive.torque(at)
     falls = np.flatnonzero((left[:-1] > 0) & (left[1:] <= 0))
-    found = at[falls] + (at[1] - at[0]) * left[falls] / (left[falls] - left[falls + 1])
-    return [float(one) for one in found[::-1]]
+    result = at[falls] + (at[1] - at[0]) * left[falls] / (left[falls] - left[falls + 1])
+    return [float(each) for each in result[::-1]]
 
 
 def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float] = ()) -> SteadyMotion:
@@ -241,63 +241,67 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
     Where no torque depends on the speed there is one only if the mean torque is 0, and its level is set by
     (ω_max + ω_min)/2 = `speed`.  Raises `NoMotionError`.
     """
-    way = body.along(body.parted(0.0, own))
-    mean, size = mean_torque(body, way)
+    path = body.along(body.parted(0.0, own))
+    mean, size = mean_torque(body, path)
     if not drive.governs:
-        return _level(body, way, drive, speed, mean, size)
+        return _level(body, path, drive, speed, mean, size)
     guesses = levels(drive, mean, speed)
     for guess in guesses:
-        found = closed(way, drive, guess**2 / 2 * np.full(way.angle.shape, float(way.inertia.mean())))
-        if found is not None and abs(found[1]) < 1:
-            return _described(way, drive, *found)
+        result = closed(path, drive, guess**2 / 2 * np.full(path.angle.shape, float(path.inertia.mean())))
+        if result is not None and abs(result[1]) < 1:
+            return _described(path, drive, *result)
     if not guesses:
         at_rest = mean + float(drive.torque(np.zeros(1))[0])
         raise NoMotionError("runs-away" if at_rest > 0 else "runs-down", missing=-at_rest)
-    _simulated(body, way, drive, guesses[0])
+    _simulated(body, path, drive, guesses[0])
     raise NoMotionError("no-steady-motion", speed=guesses[0])
 
 
-def _simulated(body: ReducedMachine, way: ReducedWay, drive: Drive, speed: float) -> None:
+def _simulated(body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float) -> None:
     """Raises `NoMotionError` where the machine stalls in the cycles after it had this speed (rad/s)."""
-    energy = speed**2 / 2 * float(way.at_edges[0][0])
+    energy = speed**2 / 2 * float(path.at_edges[0][0])
     for _ in range(MOST_CYCLES // 4):
-        found, reached = follow(way, drive, energy)
-        if reached < way.size:
-            stalled(body, way, drive, found, reached)
-        energy = float(found.edges[-1])
+        result, reached = follow(path, drive, energy)
+        if reached < path.size:
+            stalled(body, path, drive, result, reached)
+        energy = float(result.edges[-1])
 
 
-def stalled(body: ReducedMachine, way: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int) -> None:
+def stalled(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int) -> None:
     """Raises `NoMotionError` for a machine that comes to a stop in part number `reached`."""
-    last = to_the_stop(body, way, drive, energy, reached)
+    last = to_the_stop(body, path, drive, energy, reached)
     angle = float(last.angle[-1])
     missing = -float(last.torque[-1] + last.drive[-1])
     raise NoMotionError("stalls", angle=float(np.mod(angle, body.whole)), missing=missing)
 
 
-def _level(body: ReducedMachine, way: ReducedWay, drive: Drive, speed: float, mean: float, size: float) -> SteadyMotion:
+def _level(
+    body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float, mean: float, size: float
+) -> SteadyMotion:
     """The steady motion without a torque that depends on the speed, its mean set to `speed`."""
     torque = float(drive.torque(np.zeros(1))[0])
     if abs(mean + torque) > BALANCED * max(size, abs(torque)):
         raise NoMotionError("runs-away" if mean + torque > 0 else "runs-down", missing=-(mean + torque))
     # What is left of the mean is rounding.
     even = ConstantDrive(-mean)
-    p, r, alpha, beta = linear(way, even, np.ones_like(way.angle))
+    p, r, alpha, beta = linear(path, even, np.ones_like(path.angle))
     edges = energy_at_edges(0.0, alpha, beta)
     inside = p * edges[:-1, None] + r
     least = -min(float(edges.min()), float(inside.min()))
-    mean_inertia = float(way.inertia.mean())
+    mean_inertia = float(path.inertia.mean())
 
     def at(level: float) -> SteadyMotion:
-        return _described(way, even, EnergyAlong(edges + level, inside + level), 1.0)
+        return _described(path, even, EnergyAlong(edges + level, inside + level), 1.0)
 
     level = max(speed**2 / 2 * mean_inertia, least * (1 + 1e-6) + LEAST_ENERGY)
     for _ in range(MOST_STEPS):
         made = at(level)
         # dω/dT = 1/(Jω) at both extremes.
         rate = sum(
-            1 / (made.run.inertia[int(np.abs(made.run.angle - one.angle).argmin())] * max(one.speed, 1e-9 * speed)) / 2
-            for one in (made.fastest, made.slowest)
+            1
+            / (made.run.inertia[int(np.abs(made.run.angle - each.angle).argmin())] * max(each.speed, 1e-9 * speed))
+            / 2
+            for each in (made.fastest, made.slowest)
         )
         wanted = level + (speed - made.mean) / rate
         if abs(wanted - level) <= SETTLED * level:
@@ -305,25 +309,25 @@ def _level(body: ReducedMachine, way: ReducedWay, drive: Drive, speed: float, me
         if wanted <= least:
             wanted = least + (level - least) * LEFT
             if wanted - least <= 1e-9 * max(least, 1e-300):
-                raise NoMotionError("stalls", angle=_emptiest(way, edges, inside), missing=0.0)
+                raise NoMotionError("stalls", angle=_emptiest(path, edges, inside), missing=0.0)
         level = wanted
     return made
 
 
-def _emptiest(way: ReducedWay, edges: Floats, inside: Floats) -> float:
+def _emptiest(path: ReducedWay, edges: Floats, inside: Floats) -> float:
     """Where (rad) the energy is least."""
     return float(
-        way.edges[int(edges.argmin())] if edges.min() < inside.min() else way.angle.ravel()[int(inside.argmin())]
+        path.edges[int(edges.argmin())] if edges.min() < inside.min() else path.angle.ravel()[int(inside.argmin())]
     )
 
 
-def to_the_stop(body: ReducedMachine, way: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int) -> MotionRun:
+def to_the_stop(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int) -> MotionRun:
     """The run to where the energy is used up in part number `reached`, found backwards from there.
 
     It begins a part earlier, so that no part is left in which T changes much.
     """
     begin = max(reached - 1, 0)
-    before, low, high = way.edges[begin : reached + 1], float(way.edges[reached]), float(way.edges[reached + 1])
+    before, low, high = path.edges[begin : reached + 1], float(path.edges[reached]), float(path.edges[reached + 1])
     first = float(energy.edges[begin])
 
     def from_stop(at: float) -> tuple[ReducedWay, EnergyAlong]:
@@ -333,11 +337,11 @@ def to_the_stop(body: ReducedMachine, way: ReducedWay, drive: Drive, energy: Ene
     inside, outside = low, high
     at = (low + high) / 2
     for _ in range(MOST_STEPS):
-        back, found = from_stop(at)
-        left = float(found.edges[-1]) - first
+        back, result = from_stop(at)
+        left = float(result.edges[-1]) - first
         # The farther the stop, the more energy it takes to get there.
         inside, outside = (at, outside) if left < 0 else (inside, at)
-        speed = np.sqrt(2 * found.edges[-1:] / back.at_edges[0][-1:])
+        speed = np.sqrt(2 * result.edges[-1:] / back.at_edges[0][-1:])
         torque = float(back.at_edges[2][-1] + drive.torque(speed)[0])
         better = at + left / torque if torque < 0 else np.nan
         if not inside < better < outside:
@@ -345,4 +349,4 @@ def to_the_stop(body: ReducedMachine, way: ReducedWay, drive: Drive, energy: Ene
         if abs(better - at) <= SETTLED * max(1.0, at):
             break
         at = better
-    return run_along(back, drive, found, backwards=True)
+    return run_along(back, drive, result, backwards=True)

@@ -72,10 +72,10 @@ def start(
     while abs(run.speed[-1] - wanted) > NEAR_STEADY * wanted:
         if len(ends) >= MOST_CYCLES:
             raise NoMotionError("starts-too-slowly", speed=float(run.speed[-1]))
-        way, energy, reached = march(body, edges, drive, float(run.energy[-1]))
-        if reached < way.size:
-            stalled(body, way, drive, energy, reached)
-        run = run.joined(run_along(way, drive, energy).shifted(len(ends) * body.whole))
+        path, energy, reached = march(body, edges, drive, float(run.energy[-1]))
+        if reached < path.size:
+            stalled(body, path, drive, energy, reached)
+        run = run.joined(run_along(path, drive, energy).shifted(len(ends) * body.whole))
         ends.append(len(run.angle) - 1)
     return StartFromRest(run, tuple(ends), turns_back)
 
@@ -109,27 +109,27 @@ def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[Mot
 
 def _from_rest(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, bool]:
     """From rest at the first edge to the last one, or to where it comes to rest again; and whether it arrives."""
-    way, energy, reached = march(body, edges[: AT_REST + 1], drive, 0.0, rest=True)
-    if reached < way.size:
-        least = float((way.torque + drive.torque(np.zeros_like(way.torque))).min())
+    path, energy, reached = march(body, edges[: AT_REST + 1], drive, 0.0, rest=True)
+    if reached < path.size:
+        least = float((path.torque + drive.torque(np.zeros_like(path.torque))).min())
         raise NoMotionError("stalls", angle=float(np.mod(edges[0], body.whole)), missing=-least)
-    run = run_along(way, drive, energy)
-    way, energy, reached = march(body, edges[AT_REST:], drive, float(energy.edges[-1]))
-    rest, arrives = _through(body, way, drive, energy, reached)
+    run = run_along(path, drive, energy)
+    path, energy, reached = march(body, edges[AT_REST:], drive, float(energy.edges[-1]))
+    rest, arrives = _through(body, path, drive, energy, reached)
     return (run if rest is None else run.joined(rest)), arrives
 
 
 def _through(
-    body: ReducedMachine, way: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int
+    body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int
 ) -> tuple[MotionRun | None, bool]:
     """The run along a way, to its end or to the stop on it, and whether it comes to the end."""
-    arrives = reached == way.size
+    arrives = reached == path.size
     kept = reached if arrives else max(reached - 1, 0)
     first = EnergyAlong(energy.edges[: kept + 1], energy.inside[:kept])
-    run = run_along(way.parts(0, kept), drive, first) if kept else None
+    run = run_along(path.parts(0, kept), drive, first) if kept else None
     if arrives:
         return run, True
-    last = to_the_stop(body, way, drive, energy, reached)
+    last = to_the_stop(body, path, drive, energy, reached)
     return (last if run is None else run.joined(last)), False
 
 
@@ -142,8 +142,8 @@ def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, o
     first = speed**2 / 2 * float(body.reduced(edges[:1])[0][0])
     run: MotionRun | None = None
     for number in range(MOST_CYCLES):
-        way, energy, reached = march(body, edges, brake, first)
-        through, goes_on = _through(body, way, brake, energy, reached)
+        path, energy, reached = march(body, edges, brake, first)
+        through, goes_on = _through(body, path, brake, energy, reached)
         assert through is not None, "a way has parts"
         through = through.shifted(number * body.whole)
         run = through if run is None else run.joined(through)

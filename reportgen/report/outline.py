@@ -37,6 +37,8 @@ from reportgen.report import (
     phrases,
     plans,
     result_tables,
+    running,
+    running_curves,
     tables,
     wide_sliders,
 )
@@ -165,6 +167,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "has_chosen_scale": chapters.has_chosen_scale,
     "plan_in_text": figures.plan_in_text,
     "shares_pins": chapters.shares_pins,
+    **running.VALUES,
 }
 """What functions make of a report."""
 
@@ -210,6 +213,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "flywheel-work": ("fig.Jr", curves.flywheel_work),
     "flywheel-speed": ("fig.speed", curves.flywheel_speed),
     "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
+    **running_curves.FIGURES,
 }
 """What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
 
@@ -333,6 +337,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
     "M": QuantityTable(result_tables.balance, "all_positions"),
     "flywheel": result_tables.flywheel,
+    **running.TABLES,
     "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
 }
 """Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
@@ -441,6 +446,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "slider_rates": comments.slider_rates,
     "top_reactions": comments.top_reactions,
     "work_range": comments.work_range,
+    **running.FUNCTIONS,
 }
 """Functions of a report and of what a template puts between the parentheses."""
 
