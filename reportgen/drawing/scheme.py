@@ -340,7 +340,7 @@ def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex,
         return (Line(*_carried(slide, size), style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
         return style.guide(slide.low, slide.high, size, bars)
-    return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)
+    return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size, bars)
 
 
 def _body_points(bones: Skeleton, link: int) -> list[complex]:

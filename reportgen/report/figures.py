@@ -52,6 +52,7 @@ LARGER = tuple(
     size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
 )
 """Sheets A2, A1, A0, lying and standing."""
+PLATES = (A3_ACROSS, A3_UPRIGHT, *LARGER)
 FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
 """What of an A4 page a figure may fill."""
 TURNED_ROOM = (254.0, 150.5)
@@ -123,16 +124,28 @@ def on_paper(*scenes: Scene) -> FigureScenes:
         if len(shown) == 1 and across(shown[0]):
             return FigureScenes(shown, turned=True)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
-    papers = (paper for paper in (A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    papers = (paper for paper in PLATES if fits(width, height, paper))
     return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
 def beside_one_another(*scenes: Scene) -> FigureScenes:
-    """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
+    """Scenes close together if they fit a text block so, else as they are; on a page of their own if they must.
+
+    That is one for all, turned or as large as they need: what is small takes no large page for itself.
+    """
     together = sheets(scenes, *FIGURE_ROOM, trim=CLOSE)
     if in_text(*together):
         return FigureScenes(together)
-    return FigureScenes(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)
+    if all(map(in_text, scenes)):
+        return FigureScenes(scenes)
+    turned = sheets(scenes, *TURNED_ROOM, trim=CLOSE)
+    if len(turned) == 1 and across(turned[0]):
+        return FigureScenes(turned, turned=True)
+    for paper in PLATES:
+        shown = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
+        if len(shown) == 1 and fits(shown[0].width, shown[0].height, paper):
+            return FigureScenes(shown, paper)
+    return on_paper(*scenes)
 
 
 def drawing_scale(report: Report) -> float:
