@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.sheet import Sheet
+from reportgen.machine.coils import Coil
 from reportgen.machine.gas import AngleIndicator, Indicator, StrokeIndicator, Tabled, crossings
 from reportgen.machine.motion import Motion
 
@@ -145,6 +146,11 @@ class Law(ABC):
     @property
     def read_along(self) -> Stroke | None:
         """The course of the slider by whose way its table is read, if it has one."""
+        return None
+
+    @property
+    def coil(self) -> Coil | None:
+        """The spring that exerts it, if one does."""
         return None
 
     def formula(self, q: Sheet, link: int) -> Expression | None:

@@ -160,14 +160,14 @@ def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = Non
 
 
 def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
-    """Pistons with their bore, mass centres, the figure's scale, by a factor of enlargement."""
+    """Pistons with their bore, mass centres, the figure's scale by a factor of enlargement, springs."""
     blocks = {
         piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
         for piston in report.machine.pistons
     }
     jointed = {name for group in report.groups for name in (group.P, group.Q)}
     centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre not in jointed)
-    return Looks(blocks=blocks, centres=centres, scale=scale_note(report, "mu.l", factor))
+    return Looks(blocks, centres, scale_note(report, "mu.l", factor), report.machine.coils)
 
 
 def short(number: Number) -> Number:
@@ -218,7 +218,9 @@ def _shown_at(report: Report) -> int:
 
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
-    points = np.array([report.place(name, _shown_at(report) + 1) for name in report.analysis.motion.points])
+    index, motion = _shown_at(report), report.analysis.motion
+    hung = [place[index] for coil in report.machine.coils for place in coil.at(motion)]
+    points = np.array([*(report.place(name, index + 1) for name in motion.points), *hung])
     size = points[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
