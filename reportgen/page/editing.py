@@ -45,7 +45,6 @@ from reportgen.page.html import Live
 from reportgen.page.live import PART, LiveSession, empty_document
 from reportgen.page.making import Maker
 from reportgen.page.ownership import owners
-from reportgen.report.case import Case
 
 PART_KEYS = "kind", "parameters"
 """What is begun of a part."""
@@ -87,7 +86,8 @@ class EditSession(LiveSession):
     done: list[Change] = field(default_factory=list)
     undone: list[Change] = field(default_factory=list)
     dragging: threading.Lock = field(default_factory=threading.Lock)
-    _resident: tuple[Case, Resident | None] | None = None
+    _resident: tuple[int, Resident | None] = 0, None
+    """The machine as it moves, by the number of its revision."""
     _opening: threading.Lock = field(default_factory=threading.Lock)
     _parts: dict[Path, tuple[int, EditSession | None]] = field(default_factory=dict)
     """The files of parts by the numbers under which they are served, which stay when parts are moved."""
@@ -211,10 +211,10 @@ class EditSession(LiveSession):
 
     def _resident_machine(self) -> Resident | None:
         """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
-        case = self.case
-        if case is not None and (self._resident is None or self._resident[0] is not case):
-            self._resident = case, Resident.of(case)
-        return self._resident[1] if self._resident else None
+        now = self.revision
+        if now.case is not None and self._resident[0] != now.moving:
+            self._resident = now.moving, Resident.of(now.case, now.moving)
+        return self._resident[1]
 
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
         return self.revision.language, self.revision.words

@@ -81,8 +81,10 @@
         document.body.classList.toggle("stale", !known);
         if (!known) continue;
         const length = new DataView(samples).getUint32(0, true);
-        const bodies = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
-        extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), bodies);
+        const changes = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
+        // Changes of another machine than the page shows are no changes of that; its own come with the next value.
+        if (String(changes.of) !== document.body.dataset.moving) continue;
+        extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes);
       } catch { /* the server tells of itself */ }
     }
     asking = false;
