@@ -56,9 +56,10 @@ class Resident:
     def sampled(self, assignment: Assignment) -> bytes:
         """What another assignment changes: as JSON `bodies` of other shape by their places and `runs`, then samples.
 
-        It is a change `of` the machine with this number.  A run is the place of a sample among all and the number of those that follow on it.  The length of the JSON
-        stands in front of it, in four bytes, blanks behind it up to the next four.  Nothing comes where the animation
-        would have other parts.  Raises what solving raises for a machine that cannot be.
+        It is a change `of` the machine with this number.  A run is the place of a sample among all and the number of
+        those from it on.  The length of the JSON stands in front of it, in four bytes, blanks behind it up to the next
+        four.  Nothing comes where the animation would have other parts.  Raises what solving raises for a machine that
+        cannot be.
         """
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})

@@ -80,8 +80,8 @@ class EditSession(LiveSession):
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
     """Begins the form of a part's file; None where none is opened."""
-    whole: str = ""
-    """Of a part, the name of the coursework's file."""
+    whole: Path | None = None
+    """Of a part, the coursework's file, from whose machine it takes what that says."""
     lock: threading.RLock = field(default_factory=threading.RLock)
     done: list[Change] = field(default_factory=list)
     undone: list[Change] = field(default_factory=list)
@@ -149,7 +149,9 @@ class EditSession(LiveSession):
         return [file for file in parts.files(source, self.path) if file.is_file()]
 
     def _pages(self, source: Source) -> Mapping[str, tuple[str, str]]:
-        """The address of each part's own page and the name of its file, by its path."""
+        """The address of each part's own page, or of the coursework's, and the name of its file, by its path."""
+        if self.whole is not None:
+            return {str(self.whole): ("../../", self.whole.name)}
         if self.of_part is None:
             return {}
         files = self._part_files(source)
@@ -166,12 +168,13 @@ class EditSession(LiveSession):
             source = (
                 Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
             )
-            problems = self._problems(source, language)
+            given = catalogue.with_taken(source, self.path, self.whole)
+            problems = catalogue.problems_of(given, self.path, language)
         kind = at(source.top, ("kind",))
         known = isinstance(kind, Scalar) and kind.text in kinds()
         form = (
-            Form(catalogue.kind(kind.text), language, source.top)
-            if known and isinstance(kind, Scalar) and isinstance(source.top, MappingNode)
+            Form(catalogue.kind(kind.text), language, given.top, source.top)
+            if known and isinstance(kind, Scalar) and isinstance(given.top, MappingNode)
             else None
         )
         return html.template("form.html.j2").render(
@@ -184,11 +187,12 @@ class EditSession(LiveSession):
             faults=_by_place(problems, source),
             can_undo=bool(self.done),
             can_redo=bool(self.undone),
-            products=list(self.products),
+            # What takes something from a machine cannot be made without it.
+            products=[] if given.top is not source.top else list(self.products),
             part_kinds=part_kinds(),
             pages=self._pages(source),
             folder=self.path.parent,
-            whole=self.whole,
+            whole=self.whole and self.whole.name,
             kind_titles=titles(language),
         )
 
@@ -218,10 +222,6 @@ class EditSession(LiveSession):
 
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
         return self.revision.language, self.revision.words
-
-    def _problems(self, source: Source, language: Language) -> list[Problem]:
-        """The faults of a text as it stands; of one without, its warnings."""
-        return catalogue.problems_of(source, self.path, language)
 
     # --- what is asked
 

@@ -252,7 +252,7 @@ def whole_of_two(folder: Path) -> Iterator[EditSession]:
     parts: list[EditSession] = []
 
     def of_part(file: Path) -> EditSession:
-        parts.append(EditSession(partial(open_case, file), "en", path=file, whole=whole.path.name))
+        parts.append(EditSession(partial(open_case, file), "en", path=file, whole=whole.path))
         return parts[-1]
 
     whole.of_part = of_part
@@ -281,6 +281,29 @@ def test_a_part_in_a_file_of_its_own_has_its_own_form(tmp_path: Path) -> None:
         assert whole.below(page) is part
         whole.edit({"op": "remove", "where": ["parts", 0]})
         assert whole.below(page) is None
+
+
+def test_a_part_has_on_its_page_what_it_takes_from_the_machine(tmp_path: Path) -> None:
+    """Half of the machine's 89 rpm, not to be typed there; its own page follows the machine."""
+    without_speed = re.sub(r"(?m)^  n:.*\n", "", catalogue.sample("cam", "en"))
+    (file := tmp_path / "cam.yaml").write_text(without_speed, encoding="utf-8")
+    taking = "from: {n: {of: n, times: 1/2}}"
+    whole = session(tmp_path, f"{SHAPER}\nparts:\n  - {{file: cam.yaml, {taking}}}\n")
+    part = EditSession(partial(open_case, file, "en", whole.path), "en", path=file, whole=whole.path)
+    shown = r'<input id="f:parameters.n" value="([^"]*)"[^>]* readonly>'
+    assert re.findall(shown, part.form()) == ["44.5 rpm"]
+    assert "data-goto" not in part.form()
+    assert open_case(file, "en", whole.path).assignment.parameters.n.text == "44.5 rpm"
+    put(whole, ("parameters", "n"), "100 rpm")
+    assert re.findall(shown, part.form()) == ["50 rpm"]
+    put(part, ("parameters", "n"), "60 rpm")
+    assert 'aria-invalid="true"' in re.findall(r'id="f:parameters.n"[^>]*', part.form())[0]
+    # So it is of one that stands in the coursework's file.
+    inside = session(tmp_path, f"{SHAPER}\nparts:\n  - {taking}\n" + re.sub("(?m)^", "    ", without_speed))
+    assert re.findall(shown.replace(":p", ":parts.0.p"), inside.form()) == ["44.5 rpm"]
+    assert [problem for problem in catalogue.check(inside.path) if problem.level == "error"] == []
+    put(inside, ("parts", 0, "from", "n", "times"), "1/4")
+    assert re.findall(shown.replace(":p", ":parts.0.p"), inside.form()) == ["22.25 rpm"]
 
 
 def test_no_page_leads_to_a_part_outside_the_folder(tmp_path: Path) -> None:
