@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from errno import errorcode
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,7 @@ from reportgen.base.source import (
     encoding_of,
     read_own,
     read_text,
+    text_in,
 )
 from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
 from reportgen.base.source_text import at, put
@@ -64,11 +66,22 @@ class Change:
 
 
 class RefusedChangeError(Exception):
-    """What is asked for cannot be done; the key of the words that say why, and what fills them."""
+    """What is asked for cannot be done; the key of the words that say why, and what fills them.
 
-    def __init__(self, key: str, **arguments: str) -> None:
+    Of what the system refuses the reason is the name of its number, which has words, else what the system says.
+    """
+
+    def __init__(self, key: str, system: OSError | None = None, /, **arguments: str) -> None:
         super().__init__(key)
-        self.key, self.arguments = key, arguments
+        self.key, self.arguments, self.system = key, arguments, system
+
+    def told(self, words: Mapping[str, Any]) -> str:
+        """The refusal in words, those of the form."""
+        arguments = dict(self.arguments)
+        if self.system is not None:
+            said = self.system.strerror or str(self.system)
+            arguments["reason"] = words["reasons"].get(errorcode.get(self.system.errno or 0), said)
+        return str(words["refused"][self.key]).format(**arguments)
 
 
 @dataclass
@@ -144,7 +157,7 @@ class EditSession(LiveSession):
         """The files of parts that the text names and that may be opened."""
         if source is None:
             with self.lock:
-                text = self._text()
+                text = text_in(self.path)
             source = Source("") if isinstance(text, Fault) else read_text(text)
         return [file for file in parts.files(source, self.path) if file.is_file()]
 
@@ -164,7 +177,7 @@ class EditSession(LiveSession):
         """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
         with self.lock:
             language, words = self._spoken()
-            text = self._text()
+            text = text_in(self.path)
             source = (
                 Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
             )
@@ -201,7 +214,7 @@ class EditSession(LiveSession):
         with self.dragging:
             resident = self._resident_machine()
         with self.lock:
-            text = self._text()
+            text = text_in(self.path)
         top = None if isinstance(text, Fault) else read_own(text).top
         if resident is None or not isinstance(top, MappingNode):
             return {"fields": [], "ground": {}}
@@ -239,8 +252,7 @@ class EditSession(LiveSession):
                 else:
                     self._change(operation, where, asked)
             except RefusedChangeError as refusal:
-                words = self._spoken()[1]["edit"]["refused"]
-                said["refused"] = str(words[refusal.key]).format(**refusal.arguments)
+                said["refused"] = refusal.told(self._spoken()[1]["edit"])
                 if refusal.key == "meanwhile":
                     said["meanwhile"] = refusal.arguments["there"]
         self.touched.set()
@@ -258,7 +270,7 @@ class EditSession(LiveSession):
         try:
             changed = _changed(text, operation, where, asked)
         except EditError as error:
-            raise RefusedChangeError("cannot", reason=str(error)) from error
+            raise RefusedChangeError(error.key, **error.arguments) from error
         # Only a text of that many characters can hold more than a file may: of another no form could be made.
         if len(changed) > MOST_TOKENS and read_text(changed).faults:
             raise RefusedChangeError("too_large")
@@ -267,7 +279,7 @@ class EditSession(LiveSession):
             try:
                 after = mark + changed.encode(codec)
             except UnicodeEncodeError as error:
-                raise RefusedChangeError("cannot", reason=str(error.reason)) from error
+                raise RefusedChangeError("no_letter", codec=codec) from error
             self._write(Change(before, after))
             self.undone.clear()
 
@@ -301,7 +313,7 @@ class EditSession(LiveSession):
             if resident is None:
                 return {}
             with self.lock:
-                text = self._text()
+                text = text_in(self.path)
             top = None if isinstance(text, Fault) else read_own(text).top
             old = at(top, where)
             if not isinstance(old, Scalar) or top is None:
@@ -321,21 +333,15 @@ class EditSession(LiveSession):
         try:
             data = contents(self.path, LARGEST + 1)
         except OSError as error:
-            raise RefusedChangeError("unreadable", reason=error.strerror or str(error)) from error
+            raise RefusedChangeError("unreadable", error) from error
         if len(data) > LARGEST:
             raise RefusedChangeError("too_large")
         return data
 
-    def _text(self) -> str | Fault:
-        try:
-            return decoded(self._bytes(), str(self.path))
-        except RefusedChangeError as refusal:
-            return Fault("unreadable", Mark(str(self.path)), {"reason": refusal.arguments.get("reason", str(refusal))})
-
     def _decoded(self, data: bytes) -> str:
         text = decoded(data, str(self.path))
         if isinstance(text, Fault):
-            raise RefusedChangeError("cannot", reason=text.code)
+            raise RefusedChangeError("no_table")
         return text
 
     def _write(self, change: Change) -> None:
@@ -349,7 +355,7 @@ class EditSession(LiveSession):
         try:
             renew_file(self.path, content)
         except OSError as error:
-            raise RefusedChangeError("unwritten", reason=error.strerror or str(error)) from error
+            raise RefusedChangeError("unwritten", error) from error
 
 
 # --- what is meant ------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import http.client
+import inspect
 import json
 import os
 import re
@@ -21,15 +22,17 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
-from reportgen.base import source
+from reportgen.base import source, source_edit
 from reportgen.base.errors import Where
 from reportgen.base.kinds import kinds
 from reportgen.base.source import LARGEST, MappingNode, read_text
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
+from reportgen.base.words import load_words
 from reportgen.cases import open_case
 from reportgen.page import editing
 from reportgen.page.choosing import Chooser
-from reportgen.page.editing import EditSession
+from reportgen.page.editing import EditSession, RefusedChangeError
 from reportgen.page.fields import FieldGroup, FieldLine, Form
 from reportgen.page.making import Maker
 from reportgen.page.serving import Server
@@ -151,6 +154,8 @@ def test_one_key_gives_way_to_another(tmp_path: Path) -> None:
     assert catalogue.check(edited.path) == []
     edited.edit({"op": "instead", "where": ["parameters", "G3"], "key": "m3", "value": ""})
     assert "  m3:   " in edited.path.read_text(encoding="utf-8")
+    there = edited.edit({"op": "instead", "where": ["parameters", "a"], "key": "b", "value": "1 mm"})
+    assert there["refused"].startswith("parameters.a cannot give way to b")
 
 
 def test_parts_are_added_moved_and_removed(tmp_path: Path) -> None:
@@ -218,10 +223,25 @@ def test_a_full_disk_is_told_and_leaves_the_file(tmp_path: Path, monkeypatch: py
     with monkeypatch.context() as disk:
         disk.setattr(Path, "write_bytes", full)
         refused = put(edited, ("parameters", "a"), "275 mm")["refused"]
-    assert os.strerror(errno.ENOSPC) in refused
+    assert refused == "The file cannot be written: the disk is full."
     assert (list(tmp_path.iterdir()), edited.done) == ([edited.path], [])
     assert edited.path.read_text(encoding="utf-8") == SHAPER
     assert "refused" not in put(edited, ("parameters", "a"), "275 mm"), "there is room again"
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_what_is_refused_is_told_in_the_language_of_the_form(language: Language) -> None:
+    """Every reason that the code names has its words, and no words are left over."""
+    words = load_words(search_path(language))["edit"]
+    named = re.compile(r'(?:EditError|RefusedChangeError)\("(\w+)"')
+    keys = {key for module in (source_edit, editing) for key in named.findall(inspect.getsource(module))}
+    assert keys == words["refused"].keys()
+    assert {"ENOSPC", "EACCES", "EROFS"} <= words["reasons"].keys() <= set(errno.errorcode.values())
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    told = {"en": "the disk is full", "vi": "đĩa đã đầy"}[language]
+    assert told in RefusedChangeError("unwritten", full).told(words)
+    unknown = OSError(errno.EXDEV, "what the system says")
+    assert "what the system says" in RefusedChangeError("unwritten", unknown).told(words)
 
 
 def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
