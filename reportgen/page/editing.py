@@ -75,7 +75,7 @@ class RefusedChangeError(Exception):
         super().__init__(key)
         self.key, self.arguments, self.system = key, arguments, system
 
-    def told(self, words: Mapping[str, Any]) -> str:
+    def in_words(self, words: Mapping[str, Any]) -> str:
         """The refusal in words, those of the form."""
         arguments = dict(self.arguments)
         if self.system is not None:
@@ -252,7 +252,7 @@ class EditSession(LiveSession):
                 else:
                     self._change(operation, where, asked)
             except RefusedChangeError as refusal:
-                said["refused"] = refusal.told(self._spoken()[1]["edit"])
+                said["refused"] = refusal.in_words(self._spoken()[1]["edit"])
                 if refusal.key == "meanwhile":
                     said["meanwhile"] = refusal.arguments["there"]
         self.touched.set()

@@ -89,9 +89,22 @@ def edit(
     """As `watch`, with a form beside what moves, by which the file is changed and its `products` are made."""
     if not path.is_file():
         opens(path, language)
-    path = path.absolute()
-    with _with_parts(path, opens, language, products) as session:
-        serve(session, path, opens, browser, port, stream)
+    with suppress(KeyboardInterrupt), edited(path.absolute(), opens, language, products, port) as server:
+        _announce(server, browser, stream)
+        _wait()
+
+
+@contextmanager
+def edited(
+    path: Path, opens: Opener, language: Language | None = None, products: Products = nothing, port: int = 0
+) -> Iterator[Server]:
+    """The server of a file's form, which answers and is renewed meanwhile."""
+    with (
+        _with_parts(path, opens, language, products) as session,
+        _served(session, port) as server,
+        _followed(session, path, opens),
+    ):
+        yield server
 
 
 def choose(

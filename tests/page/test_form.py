@@ -30,7 +30,7 @@ from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.cases import open_case
-from reportgen.page import editing
+from reportgen.page import editing, html
 from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession, RefusedChangeError
 from reportgen.page.fields import FieldGroup, FieldLine, Form
@@ -89,6 +89,15 @@ def _written(node: Any, where: Where = ()) -> Iterator[tuple[Where, str]]:
             yield from _written(value, (*where, key.text))
         elif hasattr(value, "text"):
             yield (*where, key.text), "" if value.null else value.text
+
+
+def test_the_form_is_small(tmp_path: Path) -> None:
+    """The longest form has 60 kB, what only a form needs of scripts and styles 25 kB."""
+    edited = session(tmp_path, catalogue.sample("linkage", "vi"))
+    assert len(edited.form().encode()) < 60_000
+    scripts = [html.lean(name) for name in (*editing.SCRIPTS, html.FEED) if name != "live.js"]
+    styles = [html.read(name) for name in editing.STYLES if name != "live.css"]
+    assert sum(len(text.encode()) for text in (*scripts, *styles)) < 25_000
 
 
 def test_a_quantity_knows_unit_bounds_and_what_may_stand_instead() -> None:
@@ -238,10 +247,10 @@ def test_what_is_refused_is_told_in_the_language_of_the_form(language: Language)
     assert keys == words["refused"].keys()
     assert {"ENOSPC", "EACCES", "EROFS"} <= words["reasons"].keys() <= set(errno.errorcode.values())
     full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-    told = {"en": "the disk is full", "vi": "đĩa đã đầy"}[language]
-    assert told in RefusedChangeError("unwritten", full).told(words)
+    full_disk = {"en": "the disk is full", "vi": "đĩa đã đầy"}[language]
+    assert full_disk in RefusedChangeError("unwritten", full).in_words(words)
     unknown = OSError(errno.EXDEV, "what the system says")
-    assert "what the system says" in RefusedChangeError("unwritten", unknown).told(words)
+    assert "what the system says" in RefusedChangeError("unwritten", unknown).in_words(words)
 
 
 def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
