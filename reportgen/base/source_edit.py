@@ -184,6 +184,23 @@ def _content_end(text: str, index: int) -> int:
     return index - len(text[:index]) + len(text[:index].rstrip("\r\n"))
 
 
+def _behind(text: str, index: int, depth: int) -> int:
+    """Where the line after an entry that ends at an index begins, behind remarks that are set deeper than the entry.
+
+    They belong to the table in it, as `# G3: 200 N` below the last of the `parameters`.
+    """
+    end = line = _line_end(text, _content_end(text, index))
+    while line < len(text):
+        following = _line_end(text, line)
+        bare = text[line:following].strip()
+        if bare and not (bare.startswith("#") and text.index("#", line) - line > depth):
+            break
+        line = following
+        if bare:
+            end = line
+    return end
+
+
 def _newline(text: str) -> str:
     return "\r\n" if "\r\n" in text else "\n"
 
@@ -205,8 +222,8 @@ def _with_item(text: str, listed: SequenceNode, value: Node) -> str:
         closing = listed.span[1] - 1
         before = text[:closing].rstrip()
         return f"{before}{', ' if listed.items else ''}{flow(value)}{text[closing:]}"
-    end = _line_end(text, _content_end(text, listed.span[1]))
     dash = listed.span[0] - _line_start(text, listed.span[0])
+    end = _behind(text, listed.span[1], dash)
     head = text[:end] if text[:end].endswith("\n") else text[:end] + _newline(text)
     lines = "".join(f"{line}{_newline(text)}" for line in item_lines(value, dash))
     return head + lines + text[end:]
@@ -218,8 +235,8 @@ def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
         closing = table.span[1] - 1
         before = text[:closing].rstrip() if not text[:closing].rstrip().endswith(":") else text[:closing]
         return f"{before}{', ' if table.entries else ''}{quoted(key)}: {flow(value)}{text[closing:]}"
-    end = _line_end(text, _content_end(text, table.span[1]))
     depth = table.span[0] - _line_start(text, table.span[0])
+    end = _behind(text, table.span[1], depth)
     lines = entry_text(Scalar(key, value.mark), value, depth).replace("\n", _newline(text))
     head = text[:end] if text[:end].endswith("\n") else text[:end] + _newline(text)
     return head + lines + text[end:]

@@ -46,6 +46,13 @@ clipboardData.setData("text", arguments[1]);
 const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-column="1"]`);
 cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
 """
+POINTED = """
+const spot = (name) => extended.get(moving.root).spotAt(name), [a, b] = [spot(arguments[0]) ?? [0, 0], spot(arguments[1])];
+const drawing = document.querySelector("[data-stage=machine] svg");
+const { x, y } = new DOMPoint((a[0] + b[0]) / 2, (a[1] + b[1]) / 2).matrixTransform(drawing.getScreenCTM());
+drawing.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
+return [...document.querySelectorAll(".field.own [data-w]")].map((one) => one.id);
+"""
 REFUSED = "return document.getElementById('refused').textContent"
 IN_SIGHT = """
 const { left, top } = document.getElementById("refused").getBoundingClientRect();
@@ -93,14 +100,15 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
         browser.run(SLIDE, "f:parameters.r", 160)
         until(lambda: browser.run(PLACE) != here)
         assert file.read_text(encoding="utf-8") == begun, "nothing is written while a value is drawn"
-        browser.run(TYPE, "f:parameters.r", "95")
-        until(lambda: written(file, "r") == "95")
+        assert "f:parameters.r" in browser.run(POINTED, "A", "B"), "the crank is its length's own"
+        browser.run(TYPE, "f:parameters.l", "650")
+        until(lambda: written(file, "l") == "650")
         until(lambda: browser.run("return document.querySelector('#problems li')?.textContent || ''"))
         assert browser.run("return document.body.classList.contains('stale')")
         browser.run("document.querySelector('[data-goto]').click()")
-        assert browser.run("return document.activeElement.id") == "f:parameters.r"
+        assert browser.run("return document.activeElement.id") == "f:parameters.l"
         browser.run("document.querySelector('[data-remedy]').click()")
-        until(lambda: written(file, "r") == "95 mm")
+        until(lambda: written(file, "l") == "650 mm")
         browser.run("document.getElementById('undo').click()")
         browser.run("document.getElementById('undo').click()")
         until(lambda: file.read_text(encoding="utf-8") == begun)

@@ -5,7 +5,7 @@
   const machine = typeof panels === "undefined" ? undefined : panels[0];
   const post = (name, body) => fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
   const place = (element) => JSON.parse(element.closest("[data-w]").dataset.w);
-  const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => one.dataset.w === JSON.stringify(where));
+  const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => JSON.stringify(place(one)) === JSON.stringify(where));
 
   // --- numbers with their units
 
