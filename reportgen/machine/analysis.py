@@ -13,6 +13,7 @@ import numpy as np
 from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
+from reportgen.machine.coils import Coil
 from reportgen.machine.drives import MotionAsked
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import (
@@ -299,6 +300,11 @@ class Machine:
     def loads(self) -> tuple[Applied | Torque, ...]:
         """The forces and torques that act on it, beside weights and inertia."""
         return (*self.applied, *self.torques)
+
+    @property
+    def coils(self) -> tuple[Coil, ...]:
+        """The springs that act on it, in the order of their numbers."""
+        return tuple(sorted({coil for load in self.loads if (coil := load.law.coil)}, key=lambda coil: coil.number))
 
     @property
     def way(self) -> float:
