@@ -178,18 +178,18 @@ class _Steady:
         q, i = self.q, self.q.find("run.i")
         if isinstance(self.motion.drive, ConstantDrive):
             return
-        at_motor: Expression = ω if i is None else ω / i
         if (k := q.find("run.k")) is not None:
-            torque: Expression = q["run.M0"] - k * at_motor
+            falling = q["run.M0"] - k * (ω if i is None else ω / i)
+            torque: Expression = falling if i is None else falling / i
         elif (breakdown := q.find("run.Mk")) is not None:
             if "run.omega0" not in q:
                 q.define("run.omega0", 2 * PI * q["run.n0"] / 60, Symbol("ω", "0"), "angular velocity")
-            s = q.define(self.id("slip"), 1 - at_motor / q["run.omega0"], self.symbol("s", "t"), "ratio", scale=1.0)
-            torque = 2 * breakdown / (s / q["run.sk"] + q["run.sk"] / s)
+            ω0 = q["run.omega0"] if i is None else i * q["run.omega0"]
+            s = q.define(self.id("slip"), 1 - ω / ω0, self.symbol("s", "t"), "ratio", scale=1.0)
+            shares = s / q["run.sk"] + q["run.sk"] / s
+            torque = 2 * breakdown / (shares if i is None else i * shares)
         else:
             return
-        if i is not None:
-            torque = torque / i
         read = q[self.id("Md")]
         formula = q.define(self.id("Mc"), torque, self.symbol("M", "dc", sup="′"), "torque")
         most = call("highest", call("abs", read))

@@ -167,14 +167,13 @@ def drive_equations(report: Report) -> Equation:
     ledger = report.ledger
     M, ω = ledger.symbol("run.Md"), Symbol("ω")
     i = ledger.symbol("run.i") if "run.i" in ledger else None
-    at_motor: Expression = ω if i is None else ω / i
     if "run.k" in ledger:
-        falling = ledger.symbol("run.M0") - ledger.symbol("run.k") * at_motor
+        falling = ledger.symbol("run.M0") - ledger.symbol("run.k") * (ω if i is None else ω / i)
         return Equation((Chain((M, falling if i is None else falling / i)),))
     s, s_k = ledger.symbol("run.slip"), ledger.symbol("run.sk")
-    kloss = 2 * ledger.symbol("run.Mk") / (s / s_k + s_k / s)
-    slip = Chain((s, 1 - at_motor / ledger.symbol("run.omega0")))
-    return Equation((Chain((M, kloss if i is None else kloss / i)), slip))
+    shares, ω0 = s / s_k + s_k / s, ledger.symbol("run.omega0")
+    kloss = 2 * ledger.symbol("run.Mk") / (shares if i is None else i * shares)
+    return Equation((Chain((M, kloss)), Chain((s, 1 - ω / (ω0 if i is None else i * ω0)))))
 
 
 def step_equation(report: Report) -> Equation:

@@ -22,6 +22,8 @@ THINNED = 3
 BEYOND = 1.15
 """How far beyond the fastest working point the characteristic is drawn, as a multiple of its speed."""
 DRAWN = 241
+SEEN = 0.15
+"""The share of the way from the origin that a loop has to take to be seen with it."""
 
 Curve = tuple[Symbol | str, np.ndarray, np.ndarray]
 
@@ -135,12 +137,16 @@ def energy(report: Report) -> FigureScenes:
     motion = motion_of(report)
     steady = motion.alone
     run, kept = steady.run, _thinned(steady.run)
-    ends = np.array([0.0, float(run.inertia.max())])
+    low, high = float(run.inertia.min()), float(run.inertia.max())
+    # A loop that would be a dot beside the origin fills the diagram.
+    begin = 0.0 if high - low >= SEEN * high else low - (high - low) / 4
+    ends = np.array([begin, high])
     curves: list[Curve] = [(Symbol("T"), run.inertia[kept], run.energy[kept])]
     for id, extreme in (("run.max", steady.fastest), ("run.min", steady.slowest)):
         curves.append((report.ledger.symbol(id), ends, extreme.speed**2 / 2 * ends))
     across = axis(Symbol("J"), "moment of inertia")
-    return FigureScenes((_chart(report, curves, across, _axis_of(report, "run.T"), turn=False),))
+    up = _axis_of(report, "run.T")
+    return FigureScenes((_chart(report, curves, across, up, turn=False, zero=begin == 0.0),))
 
 
 def _of_run(report: Report, run: MotionRun) -> FigureScenes:
