@@ -34,7 +34,7 @@ def mistaken(ledger: Ledger, turns: int) -> Mapping[str, list[tuple[str, Express
         drive = run_ids.quantity("Md", *state)
         if drive in ledger and len(ledger[drive].values) > 1:
             even = -call("level", M_r, Ref("steps"))
-            changed[drive] = [("motor-constant", 0 * ω + even)]
+            changed[drive] = [("motor-constant", 0 * M_r + even)]
     return changed
 
 

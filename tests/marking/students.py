@@ -37,6 +37,12 @@ KEPT = ("deg", "m/s2")
 OF_FURTHER_KEYS = {"no-tangential", "no-couple-of-driver", "no-free-length"}
 """The mistakes with what few files give: an acceleration of the driving link, springs."""
 
+OF_TRUE_MOTION = {
+    *("half-forgotten", "slope-left-out", "speed-not-squared", "half-of-slope", "load-sign"),
+    *("motor-constant", "two-pi-forgotten", "bounds-of-table"),
+}
+"""Those of the motion under a drive."""
+
 NAMES = {
     "stroke-for-radius",
     "ratio-inverted",
