@@ -50,6 +50,7 @@ from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motio
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
+from reportgen.page.running import timed_runs, working_point
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
@@ -189,6 +190,7 @@ class Samples:
             values=tuple(self.values()),
             errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
             layers=tuple(layer for layer in LAYERS if layer in layers),
+            runs=timed_runs(self.report),
         )
 
     def turn(self, values: np.ndarray) -> Track:
@@ -416,6 +418,7 @@ class Samples:
             title = axis(Symbol("p"), "pressure")
             tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
             yield _chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
+        yield from working_point(report)
 
     def values(self) -> Iterator[MomentValue]:
         """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""

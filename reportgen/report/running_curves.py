@@ -119,6 +119,10 @@ def torques(report: Report) -> FigureScenes:
 
 def characteristic(report: Report) -> FigureScenes:
     """The torque of the drive over the speed, and the closed loop that the reduced torque of the loads makes there."""
+    return FigureScenes((characteristic_chart(report).scene,))
+
+
+def characteristic_chart(report: Report, half: bool = False) -> charts.Plotted:
     motion = motion_of(report)
     run = motion.alone.run
     kept = _thinned(run)
@@ -129,7 +133,7 @@ def characteristic(report: Report) -> FigureScenes:
         (Symbol("−" + loads.base, loads.sub), run.speed[kept], -run.torque[kept]),
     ]
     across, up = _axis_of(report, "run.omega"), _axis_of(report, "run.Md")
-    return FigureScenes((_chart(report, curves, across, up, turn=False),))
+    return _plotted(report, curves, across, up, turn=False, half=half)
 
 
 def energy(report: Report) -> FigureScenes:
