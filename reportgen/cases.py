@@ -150,7 +150,9 @@ class MachineCase(MachineAnalysis):
         slides = bool(machine.span)
         gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
         called = self.words["figure"]["way" if slides else "cycle_angle"]
-        return DriverMotion(gone, machine.way, called, abs(machine.speed), slides=slides, signed=signed)
+        # A speed that holds at each position by itself makes no time.
+        speed = None if machine.acceleration else abs(machine.speed)
+        return DriverMotion(gone, machine.way, called, speed, slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:

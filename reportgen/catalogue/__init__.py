@@ -38,6 +38,7 @@ from reportgen.base.words import as_error, as_problem, language_of, sections, sp
 from reportgen.catalogue import assembly, declared_loads, given_springs, wide_sliders
 from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
+from reportgen.machine.laws import FULL_TURN
 
 
 def module(kind: str) -> ModuleType:
@@ -90,10 +91,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
         points = declared_loads.pins(machine.linkage)
         for index, load in enumerate(assignment.parameters.loads):
             where = ("parameters", "loads", index)
-            yield from declared_loads.on_link(points, load.link, load.at, where)
-            yield from declared_loads.sized(load, where)
-            if isinstance(load, declared_loads.OverAngle):
-                yield from declared_loads.over_cycle(load, machine.turns, where)
+            yield from declared_loads.faults(load, points, machine.turns * FULL_TURN, where)
 
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
