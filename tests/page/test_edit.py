@@ -47,7 +47,8 @@ const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-c
 cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
 """
 POINTED = """
-const spot = (name) => extended.get(moving.root).spotAt(name), [a, b] = [spot(arguments[0]) ?? [0, 0], spot(arguments[1])];
+const spot = (name) => extended.get(moving.root).spotAt(name) ?? [0, 0];
+const [a, b] = [spot(arguments[0]), spot(arguments[1])];
 const drawing = document.querySelector("[data-stage=machine] svg");
 const { x, y } = new DOMPoint((a[0] + b[0]) / 2, (a[1] + b[1]) / 2).matrixTransform(drawing.getScreenCTM());
 drawing.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
