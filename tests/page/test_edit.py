@@ -101,7 +101,7 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
         browser.run(SLIDE, "f:parameters.r", 160)
         until(lambda: browser.run(PLACE) != here)
         assert file.read_text(encoding="utf-8") == begun, "nothing is written while a value is drawn"
-        assert "f:parameters.r" in browser.run(POINTED, "A", "B"), "the crank is its length's own"
+        until(lambda: "f:parameters.r" in browser.run(POINTED, "A", "B"))
         browser.run(TYPE, "f:parameters.l", "650")
         until(lambda: written(file, "l") == "650")
         until(lambda: browser.run("return document.querySelector('#problems li')?.textContent || ''"))
