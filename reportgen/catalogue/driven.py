@@ -62,7 +62,8 @@ def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
     if placed or not isinstance(driver, Crank) or not any(q.of_link(letter, DRIVER) for letter in "GmJs"):
         return linkage
     share = q.of_link("s", DRIVER)
-    if given.crank_on_axis if share is None else share.si == 0:
+    weightless = not any(q.of_link(letter, DRIVER) for letter in "Gm")
+    if (given.crank_on_axis or weightless) if share is None else share.si == 0:
         # A body on its own axis is no rod: its moment of inertia is given, or none.
         q.mass(DRIVER)
         q.moment(DRIVER, None)

@@ -138,7 +138,7 @@ class StopSection(Part):
 class MotionSection(Part):
     """What is asked of the true motion: always the steady one, start and stop where they are named.
 
-    Start and stop have the `flywheel` if it is asked for.
+    Start and stop have the `flywheel` if it is asked for; `forces` asks for those at the true speeds.
     """
 
     drive: DriveSection
@@ -146,6 +146,7 @@ class MotionSection(Part):
     start: StartSection | None = None
     stop: StopSection | None = None
     flywheel: Annotated[bool, Flag()] = False
+    forces: Annotated[bool, Flag()] = False
 
     @property
     def asked(self) -> MotionAsked:
@@ -157,6 +158,7 @@ class MotionSection(Part):
             stop_from=None if stop is None else stop.from_.si,
             brake=0.0 if stop is None else stop.brake.si,
             wheeled=self.flywheel,
+            forces=self.forces,
         )
 
 

@@ -171,7 +171,7 @@ class MotionAsked:
     `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia` (kg·m²)
     of motor and gear there.  Cycle angles (rad) `start_from` where the machine starts from rest, `stop_from` where the
     motor is switched off and the `brake` (N·m) acts; None where neither is asked for.  Start and stop have the flywheel
-    if `wheeled`.
+    if `wheeled`.  `forces` asks for the forces at the true speeds and accelerations.
     """
 
     drive: Drive | None
@@ -180,3 +180,4 @@ class MotionAsked:
     stop_from: float | None = None
     brake: float = 0.0
     wheeled: bool = False
+    forces: bool = False

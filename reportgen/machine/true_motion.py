@@ -7,10 +7,12 @@ from typing import Literal
 
 import numpy as np
 
-from reportgen.machine.analysis import Machine
+from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.drives import ConstantDrive, Drive, MotionAsked
 from reportgen.machine.energy import ReducedMachine
 from reportgen.machine.flywheel import RegulatedCycle
+from reportgen.machine.forces import inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.motion import solve_motion
 from reportgen.machine.running import MotionRun, NoMotionError, SteadyMotion, mean_torque, steady
 from reportgen.machine.starting import StartFromRest, start, stop
 
@@ -84,3 +86,24 @@ def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle 
 def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:
     """The indices among the samples [N] of a steady motion at which the machine is at its positions."""
     return np.array([motion.run.place(float(angle)) for angle in machine.cycle_angles])
+
+
+def at_true_speeds(analysis: Analysis, steady: SteadyMotion) -> Analysis:
+    """The same positions with the angular velocity and acceleration that the crank has there in steady motion."""
+    machine, at = analysis.machine, at_positions(analysis.machine, steady)
+    rate, acceleration = machine.turn * steady.run.speed[at], machine.turn * steady.run.acceleration[at]
+    motion = solve_motion(machine.linkage, machine.angles(analysis.cycle_angle), rate, acceleration)
+    applied = tuple(load.load(analysis.cycle_angle, motion) for load in machine.loads)
+    heavy, inert = weights(machine.linkage, motion), inertia_loads(machine.linkage, motion)
+    loads = (*heavy, *inert, *applied)
+    forces = solve_forces(machine.linkage, motion, loads)
+    return replace(
+        analysis,
+        motion=motion,
+        weights=heavy,
+        inertia=inert,
+        applied=applied,
+        forces=forces,
+        torque=forces.torque,
+        torque_by_work=virtual_work_torque(machine.linkage, motion, loads),
+    )

@@ -8,9 +8,9 @@ from typing import Any
 
 from reportgen.formula import ids
 from reportgen.machine import Crank
-from reportgen.machine.analysis import Analysis, Machine
+from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import Load
-from reportgen.machine.true_motion import TrueMotion, at_positions
+from reportgen.machine.true_motion import TrueMotion, at_positions, at_true_speeds
 
 Entries = Mapping[str, Any]
 """Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""
@@ -30,7 +30,7 @@ def entries_of(analysis: Analysis, motion: TrueMotion | None = None) -> ResultEn
     positions = [_position(analysis, k) for k in range(len(analysis.cycle_angle))]
     if motion is None:
         return ResultEntries(positions, {"dyad_signs": signs})
-    moved = true_motion_entries(analysis.machine, motion)
+    moved = true_motion_entries(analysis, motion)
     return ResultEntries(
         [None if entry is None else {**entry, "true_motion": of} for entry, of in zip(positions, moved, strict=True)],
         {"dyad_signs": signs, "true_motion": true_motion_summary(motion)},
@@ -40,9 +40,11 @@ def entries_of(analysis: Analysis, motion: TrueMotion | None = None) -> ResultEn
 STATES = {"": "alone", "wheel": "with_flywheel"}
 
 
-def true_motion_entries(machine: Machine, motion: TrueMotion) -> list[Entries]:
-    """What holds at each position of the steady motion, by itself and with the flywheel."""
+def true_motion_entries(analysis: Analysis, motion: TrueMotion) -> list[Entries]:
+    """What holds at each position of the steady motion, by itself and with the flywheel; its reactions if asked for."""
+    machine = analysis.machine
     at = {state: at_positions(machine, steady) for state, steady in motion.states.items()}
+    true = at_true_speeds(analysis, motion.states[motion.shown]) if motion.asked.forces else None
     alone = motion.alone.run
     return [
         {
@@ -59,9 +61,14 @@ def true_motion_entries(machine: Machine, motion: TrueMotion) -> list[Entries]:
                 }
                 for state, steady in motion.states.items()
             },
+            **({} if true is None else {"reactions": _reactions(true, k)}),
         }
         for k in range(machine.positions)
     ]
+
+
+def _reactions(analysis: Analysis, k: int) -> Entries:
+    return {name: reaction.force[k] for name, reaction in analysis.forces.reactions.items()}
 
 
 def true_motion_summary(motion: TrueMotion) -> Entries:

@@ -15,6 +15,7 @@ from reportgen.plans import run_ids
 from reportgen.report import Equation, Inlines, Paragraph, Table, Value, listed
 from reportgen.report.report import Report
 from reportgen.report.running_curves import motion_of
+from reportgen.report.running_forces import asks_forces, forces_table
 from reportgen.report.tables import list_table, tables
 
 AS_ASKED = 1e-5
@@ -203,7 +204,19 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
     return {"drive": (float(max(readings)), ""), **result} if readings else result
 
 
+def _of_shown(name: str) -> Callable[[Report], str]:
+    """The id of a quantity of the motion that starts, stops and has its forces shown."""
+
+    def of(report: Report) -> str:
+        motion = report.case.true_motion
+        return run_ids.in_state(name, "" if motion is None else motion.shown)
+
+    return of
+
+
 VALUES: Mapping[str, Callable[[Report], Any]] = {
+    "forces_omega": _of_shown("omega"),
+    "forces_eps": _of_shown("eps"),
     "inertia_apart": inertia_apart,
     "drive_form": drive_form,
     "governed": governed,
@@ -220,6 +233,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "start_angle": start_angle,
     "stop_angle": stop_angle,
     "has_motion": _asked,
+    "asks_forces": asks_forces,
 }
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "bound_lines": bound_lines,
@@ -305,4 +319,5 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "run.steps": steps_table,
     "run.start": start_table,
     "run.stop": stop_table,
+    "run.forces": forces_table,
 }
