@@ -16,6 +16,7 @@ from reportgen.assignment.fields import (
     Interval,
     MomentOfInertia,
     Nodes,
+    OneLine,
     Quantity,
     Ratio,
     Reader,
@@ -27,7 +28,16 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.formula import Ref, Symbol
 from reportgen.machine.analysis import Machine
-from reportgen.machine.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, MotionAsked, TableDrive
+from reportgen.machine.drives import (
+    ConstantDrive,
+    Drive,
+    Geared,
+    KlossDrive,
+    LinearDrive,
+    MotionAsked,
+    Motor,
+    TableDrive,
+)
 from reportgen.machine.flywheel import flywheel
 from reportgen.machine.running import NoMotionError
 from reportgen.machine.true_motion import true_motion
@@ -37,6 +47,8 @@ FIND = "find"
 Torque = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-9)]
 PositiveTorque = Annotated[Given, quantity("N m", least=1e-9, most=1e9)]
 Damping = Annotated[Given, quantity("N m s", least=1e-9, most=1e9)]
+Power = Annotated[Given, quantity("kW", least=1e-6, most=1e6)]
+MOST_MOTORS = 60
 Slip = Annotated[Given, Ratio(Interval(least=1e-3, most=1))]
 GearRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1e4))]
 Datum = Callable[[str, Given, Symbol, str], Ref]
@@ -84,6 +96,20 @@ class DriveTable(Part):
     M: Annotated[tuple[Torque, ...], Nodes]
 
 
+class MotorSection(Part):
+    """A motor to choose from: its name, rated power and speed, starting and breakdown torque."""
+
+    name: OneLine
+    power: Power
+    n: RotationalSpeed
+    start: PositiveTorque
+    breakdown: PositiveTorque
+
+    @property
+    def motor(self) -> Motor:
+        return Motor(self.name, self.power.si, self.n.si, self.start.si, self.breakdown.si)
+
+
 class DriveSection(Part):
     """The characteristic of the motor, the gear between it and the crank, what turns with the motor."""
 
@@ -94,6 +120,7 @@ class DriveSection(Part):
     constant: Annotated[Given | None, FoundTorque(quantity("N m", least=-1e9, most=1e9, tiny=1e-9))] = None
     ratio: GearRatio | None = None
     J: MomentOfInertia | None = None
+    motors: Annotated[tuple[MotorSection, ...], Field(max_length=MOST_MOTORS)] = ()
 
     @property
     def i(self) -> float:
@@ -159,6 +186,8 @@ class MotionSection(Part):
             brake=0.0 if stop is None else stop.brake.si,
             wheeled=self.flywheel,
             forces=self.forces,
+            motors=tuple(motor.motor for motor in drive.motors),
+            ratio=drive.i,
         )
 
 

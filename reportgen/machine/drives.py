@@ -14,6 +14,22 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 
 
+@dataclass(frozen=True, slots=True)
+class Motor:
+    """A motor of a list: rated `power` (W) at the rated `speed` (rad/s), starting and breakdown torque (N·m)."""
+
+    name: str
+    power: float
+    speed: float
+    start: float
+    breakdown: float
+
+    @property
+    def rated(self) -> float:
+        """M_n = P/ω (N·m)."""
+        return self.power / self.speed
+
+
 class Drive(ABC):
     """A characteristic M(ω)."""
 
@@ -171,7 +187,8 @@ class MotionAsked:
     `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia` (kg·m²)
     of motor and gear there.  Cycle angles (rad) `start_from` where the machine starts from rest, `stop_from` where the
     motor is switched off and the `brake` (N·m) acts; None where neither is asked for.  Start and stop have the flywheel
-    if `wheeled`.  `forces` asks for the forces at the true speeds and accelerations.
+    if `wheeled`.  `forces` asks for the forces at the true speeds and accelerations.  One of
+    the `motors` is chosen, behind a gear by which the crank turns `ratio` times as fast.
     """
 
     drive: Drive | None
@@ -181,3 +198,5 @@ class MotionAsked:
     brake: float = 0.0
     wheeled: bool = False
     forces: bool = False
+    motors: tuple[Motor, ...] = ()
+    ratio: float = 1.0

@@ -12,7 +12,9 @@ from reportgen.machine.drives import ConstantDrive, Drive, MotionAsked
 from reportgen.machine.energy import ReducedMachine
 from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.forces import inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import solve_motion
+from reportgen.machine.motors import DriveDemand, MotorChecks, judged
 from reportgen.machine.running import MotionRun, NoMotionError, SteadyMotion, mean_torque, steady
 from reportgen.machine.starting import StartFromRest, start, stop
 
@@ -47,6 +49,14 @@ class TrueMotion:
     def added(self, state: State) -> float:
         """What turns with the crank beside the links (kg·m²): motor and gear, the flywheel."""
         return self.asked.inertia + (self.wheel if state else 0.0)
+
+    def demand(self, machine: Machine) -> DriveDemand:
+        """What the steady motion asks of the drive, with the flywheel if start and stop have it."""
+        return DriveDemand.of(self.states[self.shown], machine.turns * FULL_TURN)
+
+    def motors(self, machine: Machine) -> list[MotorChecks]:
+        """The motors to choose from by rising power, with their checks."""
+        return judged(self.asked.motors, self.demand(machine), self.asked.ratio) if self.asked.motors else []
 
     @property
     def shown(self) -> State:

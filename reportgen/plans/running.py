@@ -31,7 +31,8 @@ def enter_running(q: Sheet, analysis: Analysis, motion: TrueMotion) -> None:
     its flywheel, `run.Md` the torque of the drive, `run.Mc` the same by its formula, `run.A` its work and that of the
     loads, `run.T`, `run.omega`, `run.eps`, `run.t`; the bounds `run.max`, `run.min` of the speed, `run.mean`,
     `run.delta`, `run.period`, `run.work`, `run.power`; `run.step`, `run.apart` by steps.  Of start and stop
-    `run.t.start`, `run.t.stop`, `run.phi.start`, `run.phi.stop`.
+    `run.t.start`, `run.t.stop`, `run.phi.start`, `run.phi.stop`; of the choice of a motor `run.Mmean`, `run.Meff`,
+    `run.Mmost`, `run.Mres`.
     """
     at = at_positions(analysis.machine, motion.alone)
     if "M.r" not in q:
@@ -45,6 +46,15 @@ def enter_running(q: Sheet, analysis: Analysis, motion: TrueMotion) -> None:
     for state in motion.states:
         _Steady(q, analysis, motion, state).enter(slope)
     _start_and_stop(q, motion)
+    if motion.asked.motors:
+        demand = motion.demand(analysis.machine)
+        for name, value, index in (
+            ("Mmean", demand.mean, "dc,tb"),
+            ("Meff", demand.effective, "dc,hd"),
+            ("Mmost", demand.most, "dc,max"),
+            ("Mres", demand.resistance, "tt,max"),
+        ):
+            q.give(run_ids.quantity(name), value, Symbol("M", index), "torque", exact=False)
 
 
 def _slope(q: Sheet, analysis: Analysis) -> Expression:

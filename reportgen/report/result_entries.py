@@ -8,7 +8,7 @@ from typing import Any
 
 from reportgen.formula import ids
 from reportgen.machine import Crank
-from reportgen.machine.analysis import Analysis
+from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.forces import Load
 from reportgen.machine.true_motion import TrueMotion, at_positions, at_true_speeds
 
@@ -33,7 +33,7 @@ def entries_of(analysis: Analysis, motion: TrueMotion | None = None) -> ResultEn
     moved = true_motion_entries(analysis, motion)
     return ResultEntries(
         [None if entry is None else {**entry, "true_motion": of} for entry, of in zip(positions, moved, strict=True)],
-        {"dyad_signs": signs, "true_motion": true_motion_summary(motion)},
+        {"dyad_signs": signs, "true_motion": true_motion_summary(analysis.machine, motion)},
     )
 
 
@@ -71,8 +71,8 @@ def _reactions(analysis: Analysis, k: int) -> Entries:
     return {name: reaction.force[k] for name, reaction in analysis.forces.reactions.items()}
 
 
-def true_motion_summary(motion: TrueMotion) -> Entries:
-    """What the cycle comes to, start and stop."""
+def true_motion_summary(machine: Machine, motion: TrueMotion) -> Entries:
+    """What the cycle comes to, start and stop, the choice of a motor."""
     entries: dict[str, Any] = {
         STATES[state]: {
             "fastest": {"omega": steady.fastest.speed, "cycle_angle": steady.fastest.angle},
@@ -91,6 +91,15 @@ def true_motion_summary(motion: TrueMotion) -> Entries:
     if motion.stopped is not None:
         run = motion.stopped
         entries["stop"] = {"time": run.time[-1], "angle": run.angle[-1] - run.angle[0]}
+    if motors := motion.motors(machine):
+        demand = motion.demand(machine)
+        entries["motor"] = {
+            "chosen": next((each.motor.name for each in motors if each.fits), None),
+            "mean": demand.mean,
+            "effective": demand.effective,
+            "greatest": demand.most,
+            "resistance": demand.resistance,
+        }
     return entries
 
 

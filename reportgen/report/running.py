@@ -12,7 +12,7 @@ from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
 from reportgen.machine.drives import ConstantDrive
 from reportgen.machine.running import MotionRun
 from reportgen.plans import run_ids
-from reportgen.report import Equation, Inlines, Paragraph, Table, Value, listed
+from reportgen.report import Equation, Inlines, Paragraph, Table, Value, listed, running_motors
 from reportgen.report.report import Report
 from reportgen.report.running_curves import motion_of
 from reportgen.report.running_forces import asks_forces, forces_table
@@ -233,6 +233,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "start_angle": start_angle,
     "stop_angle": stop_angle,
     "has_motion": _asked,
+    **running_motors.VALUES,
     "asks_forces": asks_forces,
 }
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
@@ -320,4 +321,5 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "run.start": start_table,
     "run.stop": stop_table,
     "run.forces": forces_table,
+    **running_motors.TABLES,
 }

@@ -12,15 +12,17 @@ from time_integration import integrate
 
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.analysis import Machine
-from reportgen.machine.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, TableDrive
+from reportgen.machine.analysis import Machine, analyse
+from reportgen.machine.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, Motor, TableDrive
 from reportgen.machine.energy import ReducedMachine
 from reportgen.machine.flywheel import flywheel
 from reportgen.machine.laws import FULL_TURN, AngleLaw, ConstantLaw, Law, Stroke, TableLaw, by_stroke, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
+from reportgen.machine.motors import DriveDemand, judged
 from reportgen.machine.reduction import reduced
 from reportgen.machine.running import MotionRun, NoMotionError, mean_torque, steady
 from reportgen.machine.starting import start, stop
+from reportgen.machine.true_motion import at_positions, at_true_speeds
 from tests.lanes import matrix
 
 MOTOR = LinearDrive(600.0, 20.0)
@@ -314,3 +316,36 @@ def made_at_random(seed: int) -> tuple[Machine, float, Drive]:
     mean, _ = mean_torque(body, body.along(body.parted(0.0)))
     slope = rng.uniform(1.0, 5.0)
     return machine, added, LinearDrive(-mean + slope * 25.0, slope)
+
+
+# --- forces and motors ----------------------------------------------------------------------------------
+
+
+def test_the_crank_is_balanced_at_its_true_speed() -> None:
+    """Equilibrium of all links at ω and ε asks of the crank what the drive gives beside the flywheel's inertia."""
+    motion = steady(ReducedMachine(R3, 2.0), MOTOR, 27.0, R3.cycle_angles)
+    true = at_true_speeds(analyse(R3), motion)
+    places = at_positions(R3, motion)
+    given_ = motion.run.drive[places] - 2.0 * motion.run.acceleration[places]
+    assert true.torque == pytest.approx(given_, abs=1e-9 * float(np.abs(given_).max()))
+
+
+def test_the_least_motor_that_is_strong_enough() -> None:
+    motion = steady(ReducedMachine(R3, 3.4), MOTOR, 27.0)
+    demand = DriveDemand.of(motion, FULL_TURN)
+    assert demand.mean == pytest.approx(MEAN)
+    # The variance of the torque comes on top of the mean, here over nearly equal steps of time.
+    assert demand.mean < demand.effective < demand.most
+    assert demand.resistance == pytest.approx(154.63, abs=0.01)
+    weak = Motor("weak", 27.0 * 50, 27.0, 500.0, 500.0)
+    cold = Motor("cold", 27.0 * 80, 27.0, 100.0, 500.0)
+    short = Motor("short", 27.0 * 90, 27.0, 500.0, demand.most * 0.99)
+    good = Motor("good", 27.0 * 100, 27.0, 500.0, 500.0)
+    checks = judged([good, short, weak, cold], demand, 1.0)
+    assert [each.motor.name for each in checks] == ["weak", "cold", "short", "good"]
+    assert [each.fits for each in checks] == [False, False, False, True]
+    assert not checks[0].endures
+    assert not checks[1].starts
+    assert not checks[2].holds
+    # A gear that makes the crank slower makes torques greater.
+    assert judged([weak], demand, 0.5)[0].rated == pytest.approx(100)
