@@ -244,14 +244,20 @@ def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tup
 
 
 def march(
-    body: ReducedMachine, edges: Floats, drive: Drive, first: float, *, rest: bool = False
+    body: ReducedMachine,
+    edges: Floats,
+    drive: Drive,
+    first: float,
+    *,
+    rest: bool = False,
+    known: ReducedWay | None = None,
 ) -> tuple[ReducedWay, EnergyAlong, int]:
-    """T along the way between edges (rad) from T = `first`, or from `rest` at the first of them.
+    """T along the way between edges (rad), if it is `known`, from T = `first`, or from `rest` at the first of them.
 
     Parts in which T changes too much are halved, as where the machine all but stalls: √T is no polynomial.
     """
     for _ in range(MOST_HALVINGS):
-        path = body.from_rest(edges) if rest else body.along(edges)
+        path = known or (body.from_rest(edges) if rest else body.along(edges))
         torque = float(path.at_edges[2][0] + drive.torque(np.zeros(1))[0])
         guess = torque * (path.angle - edges[0]) if rest else None
         energy, reached = follow(path, drive, first, guess)
@@ -263,7 +269,7 @@ def march(
         if not uneven.any():
             break
         at = np.flatnonzero(uneven)
-        edges = np.sort(np.concatenate((edges, (edges[at] + edges[at + 1]) / 2)))
+        edges, known = np.sort(np.concatenate((edges, (edges[at] + edges[at + 1]) / 2))), None
     return path, energy, reached
 
 

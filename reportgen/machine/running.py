@@ -87,17 +87,23 @@ class MotionRun:
         edges = self.angle[self.at]
         return int(self.at[int(np.abs(edges - angle).argmin())])
 
-    def joined(self, after: MotionRun) -> MotionRun:
-        """This run and that which goes on where it ends."""
+    def joined(self, *after: MotionRun) -> MotionRun:
+        """This run and those that go on where it ends, one after the other."""
+        runs = (self, *after)
+        names = ("angle", "inertia", "slope", "torque", "drive", "energy", "speed", "acceleration")
         both = {
-            name: np.concatenate((getattr(self, name)[:-1], getattr(after, name) + shift))
-            for name, shift in (
-                *((name, 0.0) for name in ("angle", "inertia", "slope", "torque", "drive", "energy")),
-                *((name, 0.0) for name in ("speed", "acceleration")),
-                ("time", self.time[-1]),
-            )
+            name: np.concatenate([*(getattr(run, name)[:-1] for run in runs[:-1]), getattr(runs[-1], name)])
+            for name in names
         }
-        return MotionRun(**both, at=np.concatenate((self.at[:-1], after.at + len(self.angle) - 1)))
+        begins = np.cumsum([0.0, *(run.time[-1] for run in runs[:-1])])
+        time = [run.time + begin for run, begin in zip(runs, begins, strict=True)]
+        first = np.cumsum([0, *(len(run.angle) - 1 for run in runs[:-1])])
+        at = [run.at + begin for run, begin in zip(runs, first, strict=True)]
+        return MotionRun(
+            **both,
+            time=np.concatenate([*(one[:-1] for one in time[:-1]), time[-1]]),
+            at=np.concatenate([*(one[:-1] for one in at[:-1]), at[-1]]),
+        )
 
     def shifted(self, angle: float) -> MotionRun:
         """The same further on by an angle (rad)."""

@@ -68,16 +68,16 @@ def start(
         raise NoMotionError("does-not-start", angle=angle, missing=-torque, ranges=ranges)
     run, turns_back = _first_cycle(body, drive, edges)
     wanted = float(to.run.speed[to.run.place(np.mod(angle, body.whole))])
-    ends = [len(run.angle) - 1]
-    while abs(run.speed[-1] - wanted) > NEAR_STEADY * wanted:
-        if len(ends) >= MOST_CYCLES:
-            raise NoMotionError("starts-too-slowly", speed=float(run.speed[-1]))
-        path, energy, reached = march(body, edges, drive, float(run.energy[-1]))
-        if reached < path.size:
-            stalled(body, path, drive, energy, reached)
-        run = run.joined(run_along(path, drive, energy).shifted(len(ends) * body.whole))
-        ends.append(len(run.angle) - 1)
-    return StartFromRest(run, tuple(ends), turns_back)
+    cycles, path = [run], body.along(edges)
+    while abs(cycles[-1].speed[-1] - wanted) > NEAR_STEADY * wanted:
+        if len(cycles) >= MOST_CYCLES:
+            raise NoMotionError("starts-too-slowly", speed=float(cycles[-1].speed[-1]))
+        gone, energy, reached = march(body, edges, drive, float(cycles[-1].energy[-1]), known=path)
+        if reached < gone.size:
+            stalled(body, gone, drive, energy, reached)
+        cycles.append(run_along(gone, drive, energy).shifted(len(cycles) * body.whole))
+    ends = np.cumsum([len(cycle.angle) - 1 for cycle in cycles])
+    return StartFromRest(run.joined(*cycles[1:]), tuple(map(int, ends)), turns_back)
 
 
 def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, tuple[float, ...]]:
@@ -139,16 +139,16 @@ def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, o
     Raises `NoMotionError` where the loads keep the machine going.
     """
     edges = body.parted(angle, own)
-    first = speed**2 / 2 * float(body.reduced(edges[:1])[0][0])
-    run: MotionRun | None = None
+    path = body.along(edges)
+    first = speed**2 / 2 * float(path.at_edges[0][0])
+    runs: list[MotionRun] = []
     for number in range(MOST_CYCLES):
-        path, energy, reached = march(body, edges, brake, first)
-        through, goes_on = _through(body, path, brake, energy, reached)
+        gone, energy, reached = march(body, edges, brake, first, known=path)
+        through, goes_on = _through(body, gone, brake, energy, reached)
         assert through is not None, "a way has parts"
-        through = through.shifted(number * body.whole)
-        run = through if run is None else run.joined(through)
+        runs.append(through.shifted(number * body.whole))
         if not goes_on:
-            return run
+            return runs[0].joined(*runs[1:])
         if energy.edges[-1] >= first:
             break
         first = float(energy.edges[-1])

@@ -49,7 +49,7 @@ def governed(report: Report) -> bool:
     return motion is not None and motion.drive.governs
 
 
-def of_links(report: Report) -> list[str]:
+def inertia_slopes(report: Report) -> list[str]:
     """The components of accelerations along the velocities, the shares of links in J′, and J′."""
     points = (run_ids.along_velocity(body.centre) for body in report.machine.linkage.inertias)
     shares = (run_ids.slope(link) for link in report.machine.linkage.links)
@@ -189,6 +189,13 @@ def inertia_apart(report: Report) -> bool:
     return report.has_reduced_inertia and not report.has_flywheel
 
 
+def inertia_form(report: Report) -> str:
+    """Whether the reduced moment of inertia "varies", is "even", or there is only that of the motor, "none"."""
+    if not report.has_reduced_inertia:
+        return "none"
+    return "varies" if inertia_slopes(report) else "even"
+
+
 def residuals(report: Report) -> dict[str, tuple[float, str]]:
     """How far the drive is from its characteristic, and a steady cycle from its beginning, as shares."""
     motion, families = report.case.true_motion, report.case.ledger.families
@@ -218,9 +225,10 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "forces_omega": _of_shown("omega"),
     "forces_eps": _of_shown("eps"),
     "inertia_apart": inertia_apart,
+    "inertia_form": inertia_form,
     "drive_form": drive_form,
     "governed": governed,
-    "inertia_slopes": of_links,
+    "inertia_slopes": inertia_slopes,
     "characteristic_lines": characteristic_lines,
     "motion_verdict": verdict,
     "verdict_of": with_wheel_or_alone,

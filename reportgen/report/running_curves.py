@@ -22,6 +22,8 @@ THINNED = 3
 BEYOND = 1.15
 """How far beyond the fastest working point the characteristic is drawn, as a multiple of its speed."""
 DRAWN = 241
+MOST = 4000
+"""Samples of a long start or stop that its curves are drawn through."""
 SEEN = 0.15
 """The share of the way from the origin that a loop has to take to be seen with it."""
 
@@ -79,12 +81,13 @@ def _steady_curves(report: Report, id: str, values: str) -> list[Curve]:
 
 
 def inertia(report: Report) -> FigureScenes:
-    """J_r and its slope over the cycle."""
+    """J_r and its slope over the cycle, as far as they are there."""
     run = motion_of(report).alone.run
     kept = _thinned(run)
     angle, own = np.degrees(run.angle[kept]), motion_of(report).asked.inertia
     across = _over_angle(report)
-    drawings = ((run.inertia - own, "J.r"), (run.slope, "run.dJ"))
+    every = ((run.inertia - own, "J.r"), (run.slope, "run.dJ"))
+    drawings = [(values, id) for values, id in every if id in report.ledger]
     scenes = (
         _chart(report, [("", angle, values[kept])], across, _axis_of(report, id), half=True) for values, id in drawings
     )
@@ -155,6 +158,8 @@ def energy(report: Report) -> FigureScenes:
 
 def _of_run(report: Report, run: MotionRun) -> FigureScenes:
     kept = _thinned(run)
+    kept = kept[:: -(-len(kept) // MOST)] if len(kept) > MOST else kept
+    kept = np.append(kept[kept < len(run.angle) - 1], len(run.angle) - 1)
     up, time = _axis_of(report, "run.omega"), axis(Symbol("t"), "time")
     over_angle = _chart(
         report, [("", np.degrees(run.angle[kept]), run.speed[kept])], _over_angle(report), up, half=True
