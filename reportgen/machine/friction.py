@@ -20,8 +20,9 @@ from reportgen.formula import ids
 from reportgen.machine import GROUND, Joint, Linkage, joints
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import Forces, Load, reaction_name, solve_forces
-from reportgen.machine.motion import Complexes, Flags, Floats, Motion, cross
+from reportgen.machine.motion import Complexes, Flags, Floats, LinkMotion, Motion, cross
 
+ROUNDING = 1e-12
 STANDS = 1e-13
 """Of the greatest reaction: rounding alone moves it in later rounds."""
 MOST_ROUNDS = 200
@@ -50,15 +51,22 @@ class Friction:
 class FrictionForces:
     """Reactions and balancing torque with friction, and how they came out; arrays over positions [N]."""
 
-    forces: Forces
+    rounds: tuple[Forces, ...]
+    """The reactions of each round; the first are those without friction, the last have come to stand."""
     loads: tuple[Load, ...]
     """What friction does to each link of each joint: couples of pins, forces of guides."""
-    rounds: tuple[Floats, ...]
-    """The balancing torque (N·m) after each round [N]; the first is that without friction."""
-    stands: Flags
-    """Where the reactions came to stand [N]; elsewhere the mechanism locks, or is near it."""
     held: Mapping[str, Flags]
     """The joints by their reactions, with the positions [N] at which theirs does not stand."""
+
+    @property
+    def forces(self) -> Forces:
+        """The reactions with friction, and the torque."""
+        return self.rounds[-1]
+
+    @property
+    def stands(self) -> Flags:
+        """Where the reactions came to stand [N]; elsewhere the mechanism locks, or is near it."""
+        return ~np.any(list(self.held.values()), axis=0)
 
     @property
     def torque(self) -> Floats:
@@ -66,25 +74,30 @@ class FrictionForces:
         return np.where(self.stands, self.forces.torque, np.nan)
 
 
-def sense(rate: Floats, next_rate: Floats, scale: float) -> Floats:
-    """The sign of a motion [N]; where it stands still, which a rate below 1e-12 of `scale` does, of that to follow."""
-    moves = np.abs(rate) > 1e-12 * scale
-    return np.asarray(np.sign(np.where(moves, rate, next_rate)))
+def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
+    """How fast the second link of a joint turns (rad/s) or slides (m/s) against the first [N], and that rate's rate."""
+    if joint.kind == "P":
+        slide = motion.slides[joint.links]
+        return slide.v, slide.a
+    still = np.zeros_like(motion.driver)
+    first, second = (motion.links.get(link, LinkMotion(still, still, still)) for link in joint.links)
+    return second.omega - first.omega, second.epsilon - first.epsilon
 
 
 def relative_sense(joint: Joint, motion: Motion) -> Floats:
-    """The sign [N] with which the second link of a joint turns or slides against the first."""
-    if joint.kind == "P":
-        slide = motion.slides[joint.links]
-        return sense(slide.v, slide.a, _largest(slide.v))
-    still = np.zeros_like(motion.driver)
+    """The sign of a joint's relative motion [N]; where that stands still, of the motion that follows.
 
-    def turning(link: int, name: str) -> Floats:
-        return still if link == GROUND else np.asarray(getattr(motion.links[link], name))
-
-    rates = [turning(link, "omega") for link in joint.links]
-    changes = [turning(link, "epsilon") for link in joint.links]
-    return sense(rates[1] - rates[0], changes[1] - changes[0], max(map(_largest, rates)))
+    What is below 1e-12 of the rates that it is the difference of is rounding.
+    """
+    rate, change = relative_motion(joint, motion)
+    links = [motion.links[link] for link in joint.links if link != GROUND]
+    size, size_of_change = (
+        (largest(rate), largest(change))
+        if joint.kind == "P"
+        else (max(largest(link.omega) for link in links), max(largest(link.epsilon) for link in links))
+    )
+    follows = np.where(np.abs(change) > ROUNDING * size_of_change, np.sign(change), 0.0)
+    return np.where(np.abs(rate) > ROUNDING * size, np.sign(rate), follows)
 
 
 def friction_loads(friction: Friction, linkage: Linkage, motion: Motion, forces: Forces) -> tuple[Load, ...]:
@@ -96,26 +109,36 @@ def friction_loads(friction: Friction, linkage: Linkage, motion: Motion, forces:
     )
 
 
+def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> Floats:
+    """The force (N) [N] that presses the links of a joint together: R of a pin, |N| of a guide.
+
+    Both ends of a wide slider that tilts press: |N₁| + |N₂|.
+    """
+    reaction = forces.reactions[reaction_name(*joint.links)]
+    if joint.kind == "R":
+        return np.abs(reaction.force)
+    normal = cross(motion.slides[joint.links].direction, reaction.force)
+    faces = friction.faces.get(joint.links[1])
+    if faces is None:
+        return np.abs(normal)
+    first, last = faces.ends(normal, reaction.moment)
+    return np.where(faces.tilts(normal, reaction.moment), np.abs(first) + np.abs(last), np.abs(normal))
+
+
 def _in_pin(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Load, ...]:
     """M = −sgn(ω_rel) ρ R."""
-    reaction = forces.reactions[reaction_name(*joint.links)].force
-    couple = -relative_sense(joint, motion) * friction.circles[joint.point] * np.abs(reaction)
-    return _on_both(joint, np.zeros_like(reaction), motion.points[joint.point].p, couple)
+    size = friction.circles[joint.point] * pressing(friction, joint, motion, forces)
+    couple = -relative_sense(joint, motion) * size
+    return _on_both(joint, np.zeros_like(couple, dtype=np.complex128), motion.points[joint.point].p, couple)
 
 
 def _in_guide(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Load, ...]:
-    """F = −sgn(v) f |N| along the guide; f (|N₁| + |N₂|) where the slider tilts, at its face."""
-    reaction = forces.reactions[reaction_name(*joint.links)]
-    along = motion.slides[joint.links].direction
-    at = motion.points[joint.point].p
-    normal = cross(along, reaction.force)
-    carried = np.abs(normal)
-    if (faces := friction.faces.get(joint.links[1])) is not None:
-        first, last = faces.ends(normal, reaction.moment)
-        carried = np.where(faces.tilts(normal, reaction.moment), np.abs(first) + np.abs(last), carried)
-        at = at - 1j * along * faces.below
-    force = -relative_sense(joint, motion) * friction.coefficients[joint.links[1]] * carried * along
-    return _on_both(joint, force, at, np.zeros_like(normal))
+    """F = −sgn(v) f |N| along the guide, at the face of a wide slider."""
+    along, at, slider = motion.slides[joint.links].direction, motion.points[joint.point].p, joint.links[1]
+    if slider in friction.faces:
+        at = at - 1j * along * friction.faces[slider].below
+    size = friction.coefficients[slider] * pressing(friction, joint, motion, forces)
+    return _on_both(joint, -relative_sense(joint, motion) * size * along, at, np.zeros_like(size))
 
 
 def _on_both(joint: Joint, force: Complexes, at: Complexes, couple: Floats) -> tuple[Load, ...]:
@@ -134,31 +157,28 @@ def solve_with_friction(
 
     Positions at which the reactions do not come to stand are told, not raised: the mechanism locks there, or nearly so.
     """
-    forces = frictionless or solve_forces(linkage, motion, loads)
+    rounds = [frictionless or solve_forces(linkage, motion, loads)]
     names = [reaction_name(*joint.links) for joint in friction.joints(linkage)]
-    rounds = [forces.torque]
     rubbing: tuple[Load, ...] = ()
-    before = _wrenches(forces, names)
-    off = np.zeros(before.shape)
+    before = _forces_in(rounds[0], names)
     for _ in range(MOST_ROUNDS):
         with np.errstate(over="ignore", invalid="ignore"):
-            rubbing = friction_loads(friction, linkage, motion, forces)
-            forces = solve_forces(linkage, motion, (*loads, *rubbing))
-            after = _wrenches(forces, names)
+            rubbing = friction_loads(friction, linkage, motion, rounds[-1])
+            rounds.append(solve_forces(linkage, motion, (*loads, *rubbing)))
+            after = _forces_in(rounds[-1], names)
             off = np.abs(after - before)
-        rounds.append(forces.torque)
-        if not np.any(off > STANDS * np.max(np.abs(after), axis=0, initial=0.0)):
+            open_ = motion.reachable & ~(off <= STANDS * np.max(np.abs(after), axis=0, initial=0.0))
+        if not open_.any():
             break
         before = after
-    largest = np.max(np.abs(before), axis=0, initial=0.0)
-    open_ = (off > STANDS * largest) | ~(np.isfinite(off) | ~motion.reachable)
-    return FrictionForces(forces, rubbing, tuple(rounds), ~open_.any(axis=0), dict(zip(names, open_, strict=True)))
+    return FrictionForces(tuple(rounds), rubbing, dict(zip(names, open_, strict=True)))
 
 
-def _wrenches(forces: Forces, names: Sequence[str]) -> Complexes:
+def _forces_in(forces: Forces, names: Sequence[str]) -> Complexes:
     """The reactions of some joints [joints, N]."""
     return np.array([forces.reactions[name].force for name in names]).reshape(len(names), -1)
 
 
-def _largest(values: Floats) -> float:
+def largest(values: Floats) -> float:
+    """The greatest size among values that may be nan, 0 of none."""
     return float(np.nanmax(np.abs(values), initial=0.0))

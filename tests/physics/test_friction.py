@@ -1,6 +1,6 @@
 """Friction in the joints, against common tangents of friction circles and against the balance of power.
 
-The slider-crank r 0.1, l 0.4 m has no masses; 1000 N resist its slider both ways.  Friction circles of 2.5, 2 and
+The slider-crank r 0.1, L 0.4 m has no masses; 1000 N resist its slider both ways.  Friction circles of 2.5, 2 and
 1.5 mm in O, A and B, f 0.12 in the guide.
 """
 
@@ -23,10 +23,10 @@ from reportgen.machine.forces import Load, inertia_loads, reaction_name, solve_f
 from reportgen.machine.friction import Friction, FrictionForces, solve_with_friction
 from reportgen.machine.motion import Motion, cross, dot, solve_motion
 
-r, l, f = 0.1, 0.4, 0.12
+r, L, f = 0.1, 0.4, 0.12
 ρ_O, ρ_A, ρ_B = 0.0025, 0.002, 0.0015
 P = 1000.0
-SLIDER_CRANK = Linkage({"O": 0j}, Crank("O", "A", r), (Dyad("RRP", (2, 3), "A", "B", Guide(0, 0.0), lengths=(l, 0)),))
+SLIDER_CRANK = Linkage({"O": 0j}, Crank("O", "A", r), (Dyad("RRP", (2, 3), "A", "B", Guide(0, 0.0), lengths=(L, 0)),))
 FRICTION = Friction({"O": ρ_O, "A": ρ_A, "B": ρ_B}, {3: f})
 LAST_DIGIT = 0.5e-6
 """Half a unit of the sixth decimal."""
@@ -46,14 +46,14 @@ def test_figures_of_an_independent_computation() -> None:
     The reference prints 105.358950 for the first round, a unit of its last decimal more than its own recipe gives.
     """
     found = resisted([60, 120, 240, 300])
-    M0, M = found.rounds[0], found.torque
-    assert M0 == pytest.approx([97.690859, 75.514221, 75.514221, 97.690859], abs=LAST_DIGIT)
-    assert M == pytest.approx([105.698777, 82.261324, 82.261324, 105.698777], abs=LAST_DIGIT)
-    assert M0 / M == pytest.approx([0.924238, 0.917980, 0.917980, 0.924238], abs=LAST_DIGIT)
+    frictionless, torque = found.rounds[0].torque, found.torque
+    assert frictionless == pytest.approx([97.690859, 75.514221, 75.514221, 97.690859], abs=LAST_DIGIT)
+    assert torque == pytest.approx([105.698777, 82.261324, 82.261324, 105.698777], abs=LAST_DIGIT)
+    assert frictionless / torque == pytest.approx([0.924238, 0.917980, 0.917980, 0.924238], abs=LAST_DIGIT)
     rod, guide = (found.forces.reactions[name].force for name in ("R12", "R03"))
     assert np.abs(rod)[:2] == pytest.approx([1055.582162, 1052.761645], abs=LAST_DIGIT)
     assert guide.imag[:2] == pytest.approx([-237.548762, -229.214143], abs=LAST_DIGIT)
-    rounds = [float(torque[0]) for torque in found.rounds[1:7]]
+    rounds = [float(forces.torque[0]) for forces in found.rounds[1:7]]
     assert rounds == pytest.approx(
         [105.358949, 105.680656, 105.697902, 105.698733, 105.698775, 105.698777], abs=LAST_DIGIT
     )
@@ -62,12 +62,12 @@ def test_figures_of_an_independent_computation() -> None:
 def tangent(φ: float) -> tuple[float, float]:
     """The rod's force, along the common tangent of the circles at A and B, and the crank's torque; no iteration."""
     A = r * cmath.exp(1j * φ)
-    B = complex(A.real + math.sqrt(l**2 - A.imag**2), 0)
+    B = complex(A.real + math.sqrt(L**2 - A.imag**2), 0)
     ω2 = -A.real / (B - A).real
     v = -A.imag + A.imag * ω2
     turning_A, turning_B, against = -math.copysign(1, ω2 - 1), -math.copysign(1, ω2), -math.copysign(1, v)
     # The moment of the force about A is ±ρ_A, about B ∓ρ_B of its size, as the tangents leave the circles.
-    lean = math.asin(-(turning_A * ρ_A + turning_B * ρ_B) / l)
+    lean = math.asin(-(turning_A * ρ_A + turning_B * ρ_B) / L)
     along = cmath.phase(A - B)
     t = cmath.exp(1j * (along + lean)) if against > 0 else -cmath.exp(1j * (along - lean))
     R = -against * P / (t.real + against * f * abs(t.imag))
@@ -89,7 +89,7 @@ def test_a_wide_slider_that_tilts() -> None:
     rod pulls along 168°; 52 kg, F −1000 N at (0.35, −0.12), a −3.2 m/s², mass centre at (0.08, 0.03).
     """
     m, g, a, F, S, at = 52.0, 9.81, -3.2, -1000.0, 0.08 + 0.03j, 0.35 - 0.12j
-    φ = math.pi - math.asin(l * math.sin(math.radians(12)) / r)
+    φ = math.pi - math.asin(L * math.sin(math.radians(12)) / r)
     motion = solve_motion(SLIDER_CRANK, [φ], -10.0)
     B = motion.points["B"]
     assert B.v.real[0] > 0
