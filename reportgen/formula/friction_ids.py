@@ -10,6 +10,7 @@ from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
 coefficient = Name("friction.f.{at}")  # of a pin by its point, of a slider by its link
 pin_radius = Name("friction.r.{point}")
 circle = Name("friction.rho.{point}")
+angle = Name("friction.phi.{link}")
 turning = Name("friction.omega.{joint}")  # of the second link against the first, a size
 reaction = Name("friction.R.{joint}[.{round}]")
 """Of a pin, or across a guide; with a round before it has come to stand."""
@@ -22,14 +23,15 @@ torque_of_round = Name("friction.round.{round}")
 efficiency = "friction.eta"
 mean = "friction.mean"
 cycle_efficiency = "friction.eta.cycle"
-dead = Name("friction.dead.{slider}.{place}")
-"""How far from a dead centre the crank can be moved by its slider: in front of it, or behind it."""
+dead = Name("friction.dead.{slider}.{number}.{side}")
+"""How far before or behind a dead centre a slider cannot move its crank."""
 
 KINDS: Mapping[str, QuantityKind] = {}
 ROWS = (
     VocabularyRow(coefficient, "f", "ratio", name="friction coefficient"),
     VocabularyRow(pin_radius, "r", "length", name="pin radius"),
     VocabularyRow(circle, "ρ", "length", Chapter.forces, name="friction circle"),
+    VocabularyRow(angle, "φ", "angle", Chapter.forces, name="friction angle"),
     VocabularyRow(turning, "ω", "angular velocity", Chapter.torque, name="turning in a joint"),
     VocabularyRow(reaction, "R", "force", Chapter.torque, below="{joint}", above="fr", name="reaction with friction"),
     VocabularyRow(couple, "M", "torque", Chapter.torque, below="fr{joint}", name="friction couple"),

@@ -66,7 +66,7 @@ class FrictionForces:
     @property
     def stands(self) -> Flags:
         """Where the reactions came to stand [N]; elsewhere the mechanism locks, or is near it."""
-        return ~np.any(list(self.held.values()), axis=0)
+        return np.asarray(~np.any(list(self.held.values()), axis=0))
 
     @property
     def torque(self) -> Floats:

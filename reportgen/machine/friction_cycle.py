@@ -12,7 +12,7 @@ from reportgen.machine.analysis import Machine, analyse, breaks, motion_at
 from reportgen.machine.forces import Load, mean_over
 from reportgen.machine.friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, Stroke, halved, opposing
-from reportgen.machine.motion import Floats
+from reportgen.machine.motion import Flags, Floats
 
 HALVINGS = 40
 """Past the spacing of floats beside an angle."""
@@ -58,7 +58,7 @@ def mean_torque(machine: Machine) -> float:
 
 @dataclass(frozen=True, slots=True)
 class DeadZone:
-    """Round a dead centre at the cycle angle `centre`: how far `before` and `behind` it (rad) a slider moves nothing."""
+    """How far (rad) `before` and `behind` the dead centre at cycle angle `centre` a slider cannot move its crank."""
 
     centre: float
     before: float
@@ -73,13 +73,14 @@ def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[De
     """
     bare = replace(machine, applied=(), torques=(), linkage=replace(machine.linkage, inertias=()))
 
-    def stuck(angle: Floats) -> Floats:
+    def stuck(angle: Floats) -> Flags:
         motion = motion_at(bare, angle.ravel())
         pin = motion.points[stroke.pin]
         along = stroke.inward * np.where(stroke.fraction_rate(motion) >= 0, 1.0, -1.0)
         load = Load("P", stroke.link, along, pin.p, np.zeros(angle.size))
         found = solve_with_friction(friction, bare.linkage, motion, [load])
-        return np.asarray(~(machine.turn * found.torque < 0)).reshape(angle.shape)
+        drives = np.asarray(machine.turn * found.torque < 0)
+        return np.asarray(~drives.reshape(angle.shape))
 
     def reach(centre: float, sense: int) -> float:
         _, high = halved(np.array([0.0]), np.array([FARTHEST]), lambda way: stuck(centre + sense * way), HALVINGS)

@@ -19,8 +19,8 @@ from reportgen.machine.analysis import Analysis, GasState, no_formulas
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.forces import enter_forces
-from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.friction import enter_friction, enter_friction_of_cycle
+from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.loads import Polygon
 from reportgen.plans.rests import with_rest
 from reportgen.plans.scales import DIAGRAM, fitting_axis, no_scales, own_scales

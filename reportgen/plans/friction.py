@@ -10,13 +10,13 @@ a round give the next torque by the balance of power,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.formula import Expression, Ref, Symbol, call, friction_ids, ids, signed, total
+from reportgen.formula import Expression, Ref, Symbol, atan, call, friction_ids, ids, signed, total
 from reportgen.formula import size as size_of
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import KINDS
@@ -72,6 +72,9 @@ def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: 
         id, f, r = (name(point) for name in (friction_ids.circle, friction_ids.coefficient, friction_ids.pin_radius))
         if id not in q and r in q:
             q.define(id, q[f] * q[r])
+    for link in friction.coefficients:
+        if (of := q.find(friction_ids.coefficient(link))) is not None:
+            q.define(friction_ids.angle(link), atan(of))
     rates = {each: rate for each in rubbing_joints(q, machine.linkage, friction) if (rate := _rate(q, machine, each))}
     letter, kind, driver = _balanced(q, machine.linkage)
     size = float(np.nanmax(np.abs(found.rounds[0].torque)))
@@ -88,6 +91,7 @@ def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: 
                 by_rule=q[ids.reaction(each.digits)],
                 symbol="",
                 scale=largest,
+                hidden=bool(name),
             )
             for each in rates
         }
@@ -100,7 +104,7 @@ def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: 
     for number in range(1, _rounds(found, worked)):
         parts = [q[each.share] * R[each] * rates[each] / driver for each in rates]
         symbol = Symbol(letter, "cb", f"({number})")
-        q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size)
+        q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size, hidden=True)
         R = reactions(number, str(number))
     R, parts = reactions(-1, ""), []
     for each in rates:
@@ -189,3 +193,10 @@ def enter_friction_of_cycle(q: Sheet, machine: Machine, friction: Friction) -> N
             q.define(friction_ids.cycle_efficiency, q["M.mean"] / M, Symbol("η", "m"))
         elif bare < 0 and mean * machine.turn < 0:
             q.define(friction_ids.cycle_efficiency, M / q["M.mean"], Symbol("η", "m"))
+    for course in machine.sliders:
+        for number, zone in enumerate(dead_zones(machine, friction, course), 1):
+            for side, reach in (("before", zone.before), ("behind", zone.behind)):
+                if np.isfinite(reach):
+                    q.give(
+                        friction_ids.dead(course.link, number, side), reach, Symbol("Δφ", str(course.link)), exact=False
+                    )
