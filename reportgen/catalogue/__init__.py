@@ -68,6 +68,7 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
         machine = machine_of(assignment)
         faults = reading.placed(source, [*_misplaced(assignment, machine), *_out_of_reach(machine)])
+        faults = faults or reading.placed(source, [*given_friction.locks(machine, assignment.worked_positions)])
     return (None if faults else assignment), faults
 
 
@@ -86,7 +87,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
     if isinstance(assignment.parameters, UnderGravity):
         yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)
         yield from given_springs.faults(assignment.parameters.springs, machine.linkage)
-        yield from given_friction.faults(assignment.parameters.friction, machine.linkage)
+        yield from given_friction.faults(assignment.parameters.friction, machine)
     if isinstance(assignment.parameters, Driven):
         points = declared_loads.pins(machine.linkage)
         for index, load in enumerate(assignment.parameters.loads):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated
 
 from pydantic import Field
@@ -13,8 +13,9 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import MOST_LOADS, Link, Name, listed
 from reportgen.catalogue.wide_sliders import Datum
-from reportgen.formula import friction_ids
+from reportgen.formula import friction_ids, ids
 from reportgen.machine import Linkage, joints
+from reportgen.machine.analysis import Machine, analyse
 from reportgen.machine.faces import Faces
 from reportgen.machine.friction import Friction
 
@@ -44,11 +45,13 @@ class JointFriction(Part):
     sliders: Annotated[dict[Link, Coefficient], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
 
 
-def faults(given: JointFriction | None, linkage: Linkage) -> Iterator[Finding]:
-    """Each pin and slider is a joint of the linkage; a pin has either its circle or both f and its radius."""
+def faults(given: JointFriction | None, machine: Machine) -> Iterator[Finding]:
+    """Joints are those of the linkage; a pin has its circle or both f and its radius; something presses the joints."""
     if given is None:
         return
-    at = ("parameters", "friction")
+    linkage, at = machine.linkage, ("parameters", "friction")
+    if not (linkage.inertias or machine.loads):
+        yield Finding("friction-without-loads", at, at="key")
     pins = {joint.point for joint in joints(linkage) if joint.kind == "R"}
     for name, pin in given.pins.items():
         where = (*at, "pins", name)
@@ -91,3 +94,18 @@ def entered(given: JointFriction | None, linkage: Linkage, faces: dict[int, Face
     for link in dict.fromkeys(joint.links[1] for joint in rubbing if joint.kind == "P"):
         datum(friction_ids.coefficient(link), given.sliders[link], "", "")
     return friction if rubbing else None
+
+
+def locks(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
+    """A joint whose friction grows with what it causes, at a position that is to be worked out: the mechanism locks."""
+    if machine.friction is None:
+        return
+    found = analyse(machine).with_friction
+    assert found is not None
+    for name, held in found.held.items():
+        for k in worked:
+            if held[k - 1]:
+                first, second = ids.links_of(name)
+                words = {"first": str(first), "second": str(second), "position": str(machine.position(k))}
+                yield Finding("locks", ("parameters", "friction"), words, at="key")
+                return

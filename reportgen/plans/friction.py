@@ -18,7 +18,7 @@ import numpy as np
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.formula import Expression, Ref, Symbol, atan, call, friction_ids, ids, signed, total
 from reportgen.formula import size as size_of
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine
@@ -113,7 +113,9 @@ def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: 
         symbol = Symbol(f"Δ{letter}", each.digits)
         parts.append(q.define(friction_ids.part(each.digits), power, symbol, kind, scale=size))
     M = q.define(friction_ids.torque, overcome(parts), Symbol(letter, "cb", "fr"), kind, scale=size)
-    q.define(friction_ids.efficiency, call("where_positive", q["M.eq"] / M, signed(machine.turn, q["M.eq"])))
+    # What is nothing beside the greatest torque drives nothing.
+    drives = signed(machine.turn, q["M.eq"]) - ZERO * size
+    q.define(friction_ids.efficiency, call("where_positive", q["M.eq"] / M, drives))
 
 
 def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:

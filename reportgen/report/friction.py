@@ -113,11 +113,16 @@ def drives(report: Report, k: int) -> str:
 
 
 def cycle(report: Report) -> str:
-    """What can be said of the efficiency over the cycle: the driver drives, is driven, or the machine locks."""
+    """What can be said of the efficiency over the cycle: the driver drives, is driven, is neither, or it locks.
+
+    Friction may also have "consumed" all that the machine gives.
+    """
+    if friction_ids.mean not in report.ledger:
+        return "locks"
+    mean = report.ledger["M.mean"].at(None) * report.machine.turn
     if friction_ids.cycle_efficiency in report.ledger:
-        taken = report.ledger["M.mean"].at(None) * report.machine.turn > 0
-        return "drives" if taken else "driven"
-    return "even" if friction_ids.mean in report.ledger else "locks"
+        return "drives" if mean > 0 else "driven"
+    return "consumed" if mean < 0 else "even"
 
 
 # --- tables ---------------------------------------------------------------------------------------
