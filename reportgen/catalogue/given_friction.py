@@ -100,9 +100,9 @@ def locks(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
     """A joint whose friction grows with what it causes, at a position that is to be worked out: the mechanism locks."""
     if machine.friction is None:
         return
-    found = analyse(machine).with_friction
-    assert found is not None
-    for name, held in found.held.items():
+    solved = analyse(machine).with_friction
+    assert solved is not None
+    for name, held in solved.held.items():
         for k in worked:
             if held[k - 1]:
                 first, second = ids.links_of(name)

@@ -9,10 +9,11 @@ import numpy as np
 
 from reportgen.machine import Joint
 from reportgen.machine.analysis import Machine, analyse, breaks, motion_at
-from reportgen.machine.forces import Load, mean_over
+from reportgen.machine.forces import Load
 from reportgen.machine.friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, Stroke, halved, opposing
 from reportgen.machine.motion import Flags, Floats
+from reportgen.machine.quadrature import mean_over
 
 HALVINGS = 40
 """Past the spacing of floats beside an angle."""
@@ -46,10 +47,10 @@ def mean_torque(machine: Machine) -> float:
     standing = []
 
     def torque(angle: Floats) -> Floats:
-        found = analyse(machine, angle).with_friction
-        assert found is not None
-        standing.append(bool(found.stands.all()))
-        return np.nan_to_num(found.torque)
+        solved = analyse(machine, angle).with_friction
+        assert solved is not None
+        standing.append(bool(solved.stands.all()))
+        return np.nan_to_num(solved.torque)
 
     whole = machine.turns * FULL_TURN
     mean = mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole)
@@ -78,8 +79,8 @@ def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[De
         pin = motion.points[stroke.pin]
         along = stroke.inward * np.where(stroke.fraction_rate(motion) >= 0, 1.0, -1.0)
         load = Load("P", stroke.link, along, pin.p, np.zeros(angle.size))
-        found = solve_with_friction(friction, bare.linkage, motion, [load])
-        drives = np.asarray(machine.turn * found.torque < 0)
+        solved = solve_with_friction(friction, bare.linkage, motion, [load])
+        drives = np.asarray(machine.turn * solved.torque < 0)
         return np.asarray(~drives.reshape(angle.shape))
 
     def reach(centre: float, sense: int) -> float:

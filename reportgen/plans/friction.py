@@ -16,9 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.formula import Expression, Ref, Symbol, atan, call, friction_ids, ids, signed, total
+from reportgen.formula import Call, Expression, Ref, Sum, Symbol, atan, call, friction_ids, ids, signed, total
 from reportgen.formula import size as size_of
-from reportgen.formula.sheet import ZERO, Sheet
+from reportgen.formula.sheet import ZERO, Family, Sheet
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine
@@ -53,18 +53,18 @@ class RubbingJoint:
 
 def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: Friction) -> tuple[RubbingJoint, ...]:
     """The joints that rub, in the order of assembly, each once by the digits that the ledger has for its reaction."""
-    found = []
+    solved = []
     for joint in friction.joints(linkage):
         first, second = joint.links
         digits = next(
             digits for digits in (ids.joint(first, second), ids.joint(second, first)) if ids.reaction(digits) in q
         )
         share = friction_ids.circle(joint.point) if joint.kind == "R" else friction_ids.coefficient(second)
-        found.append(RubbingJoint(joint, digits, share))
-    return tuple(found)
+        solved.append(RubbingJoint(joint, digits, share))
+    return tuple(solved)
 
 
-def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: Sequence[int]) -> None:
+def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked: Sequence[int]) -> None:
     """Enter what friction does at each position; rounds until the printed figures of the `worked` ones stand."""
     machine, friction = analysis.machine, analysis.machine.friction
     assert friction is not None
@@ -77,11 +77,11 @@ def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: 
             q.define(friction_ids.angle(link), atan(of))
     rates = {each: rate for each in rubbing_joints(q, machine.linkage, friction) if (rate := _rate(q, machine, each))}
     letter, kind, driver = _balanced(q, machine.linkage)
-    size = float(np.nanmax(np.abs(found.rounds[0].torque)))
+    size = float(np.nanmax(np.abs(solved.rounds[0].torque)))
 
     def reactions(number: int, name: str) -> dict[RubbingJoint, Ref]:
         """The reactions of a round, which follow those without friction."""
-        forces = found.rounds[number]
+        forces = solved.rounds[number]
         largest = max(float(np.nanmax(np.abs(reaction.force))) for reaction in forces.reactions.values())
         return {
             each: with_rest(
@@ -101,7 +101,7 @@ def enter_friction(q: Sheet, analysis: Analysis, found: FrictionForces, worked: 
         return q["M.eq"] + signed(machine.turn, total(parts)) if parts else q["M.eq"]
 
     R = {each: q[ids.reaction(each.digits)] for each in rates}
-    for number in range(1, _rounds(found, worked)):
+    for number in range(1, _rounds(solved, worked)):
         parts = [q[each.share] * R[each] * rates[each] / driver for each in rates]
         symbol = Symbol(letter, "cb", f"({number})")
         q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size, hidden=True)
@@ -125,9 +125,9 @@ def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:
     return "P", "force", q[ids.velocity(linkage.driver.pin)]
 
 
-def _rounds(found: FrictionForces, worked: Sequence[int]) -> int:
+def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
     """How many rounds there are before one whose torque prints as the last does at the positions asked for."""
-    torques = np.array([forces.torque for forces in found.rounds])
+    torques = np.array([forces.torque for forces in solved.rounds])
     shown = torques[:, [k - 1 for k in worked]] if worked else torques
     shown = shown[:, np.isfinite(shown).all(axis=0)]
     decimals = significant_decimals(float(np.nanmax(np.abs(torques[-1]))), KINDS["torque"].digits)
@@ -202,3 +202,27 @@ def enter_friction_of_cycle(q: Sheet, machine: Machine, friction: Friction) -> N
                     q.give(
                         friction_ids.dead(course.link, number, side), reach, Symbol("Δφ", str(course.link)), exact=False
                     )
+
+
+# --- what is easily mistaken ------------------------------------------------------------------------
+
+
+def misconceptions(families: Mapping[str, Family]) -> dict[str, list[tuple[str, Expression]]]:
+    """Other definitions of what has to do with friction, by ids, with the names of the mistakes that they are."""
+    solved: dict[str, list[tuple[str, Expression]]] = {}
+    for id, family in families.items():
+        if names := friction_ids.circle.read(id):
+            if (r := friction_ids.pin_radius(names["point"])) in families:
+                solved[id] = [("radius-for-circle", Ref(r))]
+        elif names := friction_ids.angle.read(id):
+            solved[id] = [("coefficient-for-angle", Ref(friction_ids.coefficient(names["link"])))]
+        elif id in friction_ids.turning:
+            assert isinstance(family.definition, Call)
+            (difference,) = family.definition.arguments
+            assert isinstance(difference, Sum)
+            second, first = difference.terms
+            solved[id] = [("links-turned-alike", size_of(second - first)), ("one-link", size_of(second))]
+        elif id == friction_ids.efficiency:
+            M0, M = Ref("M.eq"), Ref(friction_ids.torque)
+            solved[id] = [("efficiency-inverted", M / M0)]
+    return solved

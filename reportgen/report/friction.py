@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -36,6 +36,8 @@ REACH = 22.0
 """How far (mm) the lines of forces are drawn beyond the joints that they belong to."""
 DETAIL = 26.0
 """The length (mm) of the reaction of a guide whose angle of friction is drawn."""
+CLOSING = "n"
+"""The corner that closes a force plan."""
 ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 
 
@@ -72,7 +74,7 @@ def data(report: Report) -> Inlines:
     names = (friction_ids.coefficient, friction_ids.pin_radius, friction_ids.circle)
     given = (name(place) for place in at for name in names)
     shown = [equations.quantity(report, id) for id in given if id in report.machine.sheet]
-    return tuple(inline for n, one in enumerate(shown) for inline in (*((Text("; "),) if n else ()), *one))
+    return tuple(inline for n, carried in enumerate(shown) for inline in (*((Text("; "),) if n else ()), *carried))
 
 
 def loss_lines(report: Report) -> list[str]:
@@ -179,19 +181,19 @@ class _JointForce:
 
 
 def _found(report: Report) -> FrictionForces:
-    found = report.analysis.with_friction
-    assert found is not None
-    return found
+    solved = report.analysis.with_friction
+    assert solved is not None
+    return solved
 
 
 def _joint_forces(report: Report, k: int) -> Iterator[_JointForce]:
     """The force in each joint, friction included."""
-    found, motion, index = _found(report), report.analysis.motion, k - 1
-    loads = {(load.name, load.link): load for load in found.loads}
+    solved, motion, index = _found(report), report.analysis.motion, k - 1
+    loads = {(load.name, load.link): load for load in solved.loads}
     for each in rubbing(report):
         joint = each.of.joint
         name = reaction_name(*joint.links)
-        reaction, rubs = found.forces.reactions[name], loads[name, joint.links[1]]
+        reaction, rubs = solved.forces.reactions[name], loads[name, joint.links[1]]
         force, pin = complex(reaction.force[index]), complex(motion.points[joint.point].p[index])
         if each.kind == "pin":
             couple = float(rubs.couple[index])
@@ -210,26 +212,30 @@ def scheme(report: Report, k: int) -> FigureScenes:
 def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
     """The same by a factor of enlargement."""
     machine, motion, scale = report.machine.linkage, report.analysis.motion, drawing_scale(report) * factor
-    shown = [one for one in _joint_forces(report, k) if one.force]
+    shown = [carried for carried in _joint_forces(report, k) if carried.force]
     bones, look = skeleton(machine, motion, k - 1, scale), looks(report, scale, factor)
     draft = mechanism(bones, (0, *machine.links), look)
-    circles = {one.each.point: _circle(report, one.each) * scale for one in shown if one.each.kind == "pin"}
+    circles = {
+        carried.each.point: _circle(report, carried.each) * scale for carried in shown if carried.each.kind == "pin"
+    }
     marks: list[Item] = [Circle(bones.points[point], radius, style.REACTION) for point, radius in circles.items()]
     forces = []
-    for one in shown:
-        marks += _line(one, shown, scale)
-        forces.append(Force(_named(report, one.each), (one.at + one.offset) * scale, one.force, "reaction"))
+    for carried in shown:
+        marks += _line(carried, shown, scale)
+        forces.append(
+            Force(_named(report, carried.each), (carried.at + carried.offset) * scale, carried.force, "reaction")
+        )
     return finish(draft + Canvas(tuple(marks)) + draw_forces(forces), notes=look.notes)
 
 
-def _line(one: _JointForce, shown: Sequence[_JointForce], scale: float) -> Iterator[Item]:
+def _line(carried: _JointForce, shown: Sequence[_JointForce], scale: float) -> Iterator[Item]:
     """The line of a force: to the other joint of its link if it is tangent to that one's circle too."""
-    along, here = one.force / abs(one.force), (one.at + one.offset) * scale
-    for other in shown:
-        there = (other.at + other.offset) * scale
-        share_link = set(one.each.of.joint.links) & set(other.each.of.joint.links) - {0}
+    along, here = carried.force / abs(carried.force), (carried.at + carried.offset) * scale
+    for further in shown:
+        there = (further.at + further.offset) * scale
+        share_link = set(carried.each.of.joint.links) & set(further.each.of.joint.links) - {0}
         apart = (there - here) * along.conjugate()
-        if other is not one and share_link and abs(apart) > REACH / 2 and abs(apart.imag) < style.ON_LINE:
+        if further is not carried and share_link and abs(apart) > REACH / 2 and abs(apart.imag) < style.ON_LINE:
             yield Line(here, there, style.CONSTRUCTION)
             return
     yield Line(here - REACH / 2 * along, here + REACH * along, style.CONSTRUCTION)
@@ -247,18 +253,20 @@ def _named(report: Report, each: Rubbing) -> Symbol:
 def joints(report: Report, k: int) -> FigureScenes:
     """Each friction circle enlarged with the line of its reaction; each guide with its angle of friction."""
     scale = drawing_scale(report)
-    return beside_one_another(*(_detail(report, k, one, scale) for one in _joint_forces(report, k) if one.force))
+    return beside_one_another(
+        *(_detail(report, k, carried, scale) for carried in _joint_forces(report, k) if carried.force)
+    )
 
 
-def _detail(report: Report, k: int, one: _JointForce, scale: float) -> Scene:
+def _detail(report: Report, k: int, carried: _JointForce, scale: float) -> Scene:
     """A friction circle enlarged, or the angle of friction of a guide with the parts of its reaction."""
-    if one.each.kind == "slider":
-        return _guide_detail(report, one)
-    radius = _circle(report, one.each) * scale
+    if carried.each.kind == "slider":
+        return _guide_detail(report, carried)
+    radius = _circle(report, carried.each) * scale
     factor = max((factor for factor in ENLARGEMENTS if radius * factor <= ENLARGED), default=1.0)
     radius *= factor
-    along, foot = one.force / abs(one.force), one.offset / abs(one.offset) * radius
-    sense = float(relative_sense(one.each.of.joint, report.analysis.motion)[k - 1])
+    along, foot = carried.force / abs(carried.force), carried.offset / abs(carried.offset) * radius
+    sense = float(relative_sense(carried.each.of.joint, report.analysis.motion)[k - 1])
     turn = cmath.phase(-foot)
     start, stop = (turn - 0.7, turn + 0.7) if sense > 0 else (turn + 0.7, turn - 0.7)
     items: list[Item] = [
@@ -268,26 +276,30 @@ def _detail(report: Report, k: int, one: _JointForce, scale: float) -> Scene:
         Line(foot - REACH / 2 * along, foot + REACH / 2 * along, style.CONSTRUCTION),
         Arc(0j, radius + 3.0, start, stop, style.DIMENSION, style.DIMENSION_HEAD),
     ]
-    turning = friction_ids.turning(one.each.digits)
+    turning = friction_ids.turning(carried.each.digits)
     # Of a pin on the frame the link itself turns.
-    ω = report.ledger.symbol(turning) if turning in report.ledger else Symbol("ω", str(max(one.each.of.joint.links)))
+    ω = (
+        report.ledger.symbol(turning)
+        if turning in report.ledger
+        else Symbol("ω", str(max(carried.each.of.joint.links)))
+    )
     names = [
-        label(foot / 2, report.ledger.symbol(friction_ids.circle(one.each.point))),
+        label(foot / 2, report.ledger.symbol(friction_ids.circle(carried.each.point))),
         label((radius + 3.0) * polar(turn), ω),
     ]
-    forces = draw_forces((Force(_named(report, one.each), foot, one.force, "reaction"),))
-    title = f"{subscripted(one.each.point)} ({factor:g} : 1)"
+    forces = draw_forces((Force(_named(report, carried.each), foot, carried.force, "reaction"),))
+    title = f"{subscripted(carried.each.point)} ({factor:g} : 1)"
     return finish(Canvas(tuple(items), tuple(names)) + forces, title=title)
 
 
-def _guide_detail(report: Report, one: _JointForce) -> Scene:
+def _guide_detail(report: Report, carried: _JointForce) -> Scene:
     """N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N."""
-    links, k = one.each.of.joint.links, one.k
+    links, k = carried.each.of.joint.links, carried.k
     guide = complex(report.analysis.motion.slides[links].direction[k - 1])
-    along = guide * (one.force * guide.conjugate()).real
-    across = one.force - along
-    size = DETAIL / abs(one.force)
-    N, F, R = across * size, along * size, one.force * size
+    along = guide * (carried.force * guide.conjugate()).real
+    across = carried.force - along
+    size = DETAIL / abs(carried.force)
+    N, F, R = across * size, along * size, carried.force * size
     angles = cmath.phase(N), cmath.phase(N) + cmath.phase(R / N)
     items: tuple[Item, ...] = (
         Line(-DETAIL / 2 * guide, DETAIL / 2 * guide, style.AXIS),
@@ -296,14 +308,14 @@ def _guide_detail(report: Report, one: _JointForce) -> Scene:
         Arrow(0j, R, style.REACTION, style.HEAD),
         Arc(0j, DETAIL / 2, *angles, style.DIMENSION, style.DIMENSION_HEAD),
     )
-    digits = one.each.digits
+    digits = carried.each.digits
     names = (
         label((N, N * 0.8), report.named(Symbol("N", digits, "", "vector"))),
         label(N + F / 2, report.named(Symbol("F", f"fr{digits}", "", "vector"))),
-        label((R, R * 0.8), _named(report, one.each)),
-        label(DETAIL / 2 * polar(sum(angles) / 2), report.ledger.symbol(friction_ids.angle(one.each.link))),
+        label((R, R * 0.8), _named(report, carried.each)),
+        label(DETAIL / 2 * polar(sum(angles) / 2), report.ledger.symbol(friction_ids.angle(carried.each.link))),
     )
-    return finish(Canvas(items, names), title=f"{report.words['figure']['link']} {one.each.link}")
+    return finish(Canvas(items, names), title=f"{report.words['figure']['link']} {carried.each.link}")
 
 
 # --- force plans ----------------------------------------------------------------------------------
@@ -312,19 +324,19 @@ def _guide_detail(report: Report, one: _JointForce) -> Scene:
 def force_plan_of_group(report: Report, k: int, group: GroupView) -> FigureScenes:
     """The force plan of a group with friction over the one without."""
     assert group.polygon is not None
-    return on_paper(plan(_over_the_other(report, group.polygon, k)))
+    return on_paper(plan(force_plan_with_friction(report, group.polygon, k)))
 
 
 def force_plan_of_driver(report: Report, k: int) -> FigureScenes:
     """The force plan of the driver with friction over the one without."""
     assert report.driver_polygon is not None
-    return on_paper(plan(_over_the_other(report, report.driver_polygon, k)))
+    return on_paper(plan(force_plan_with_friction(report, report.driver_polygon, k)))
 
 
-def _over_the_other(report: Report, polygon: Polygon, k: int) -> Plan:
+def force_plan_with_friction(report: Report, polygon: Polygon, k: int) -> Plan:
     """The plan without friction, of whole reactions alone, and where the plan with friction leaves it.
 
-    Loads are laid off alike; reactions carried over from other groups and those that close the plan are those with
+    Loads are laid off alike; reactions carried over from further groups and those that close the plan are those with
     friction, which in guides is a part of them.
     """
     drawing, μ = force_plan(report, polygon, k), float(report.ledger[ids.force_scale(polygon.name)].at(k))
@@ -364,7 +376,9 @@ def _closing(polygon: Polygon) -> list[Edge]:
     """The whole reactions that close a plan, head to tail from the end of its loads."""
     edges = [edge for edge in (*polygon.edges, *polygon.reads) if edge.unknown and not edge.part]
     loads = [edge for edge in polygon.edges if not edge.unknown and not edge.part]
-    at, first = (loads[-1].end, loads[0].start) if loads else (edges[0].start, edges[0].start)
+    # Without loads the reaction in the outer joint, which leads to the closing corner, begins where the plan does.
+    begin = next((edge.start for edge in edges if edge.end == CLOSING), "")
+    at, first = (loads[-1].end, loads[0].start) if loads else (begin, begin)
     path: list[Edge] = []
     while not path or at != first:
         path.append(next(edge for edge in edges if edge.start == at and edge not in path))
@@ -374,6 +388,20 @@ def _closing(polygon: Polygon) -> list[Edge]:
 
 def _with_friction(report: Report, name: str, k: int) -> complex:
     """A reaction by its name (N), with the force of friction in its guide."""
-    found = _found(report)
-    rubbing = sum(complex(load.force[k - 1]) for load in found.loads if load.name == name)
-    return complex(found.forces.reactions[name].force[k - 1]) + rubbing
+    solved = _found(report)
+    rubbing = sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
+    return complex(solved.forces.reactions[name].force[k - 1]) + rubbing
+
+
+VALUES: Mapping[str, Callable[[Report], object]] = {
+    "dead_zones": lambda report: any(dead_rows(report)),
+    "friction_angles": angle_lines,
+    "friction_circles": circle_lines,
+    "friction_cycle": cycle,
+    "friction_data": data,
+    "friction_losses": loss_lines,
+    "friction_means": mean_lines,
+    "friction_parts": part_lines,
+    "friction_turning": turning_lines,
+}
+"""What templates name of it without parentheses."""
