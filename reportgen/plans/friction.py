@@ -91,7 +91,7 @@ def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked:
                 by_rule=q[ids.reaction(each.digits)],
                 symbol="",
                 scale=largest,
-                hidden=bool(name),
+                optional=bool(name),
             )
             for each in rates
         }
@@ -104,7 +104,7 @@ def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked:
     for number in range(1, _rounds(solved, worked)):
         parts = [q[each.share] * R[each] * rates[each] / driver for each in rates]
         symbol = Symbol(letter, "cb", f"({number})")
-        q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size, hidden=True)
+        q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size, optional=True)
         R = reactions(number, str(number))
     R, parts = reactions(-1, ""), []
     for each in rates:

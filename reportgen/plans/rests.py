@@ -16,9 +16,9 @@ def with_rest(
     symbol: Symbol | str,
     kind: str = "",
     scale: float = 0.0,
-    hidden: bool = False,
+    optional: bool = False,
 ) -> Ref:
     """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
     by_rule_alone = q.construct(ids.rule(id), by_rule)
     rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)
-    return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale, hidden=hidden)
+    return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale, optional=optional)

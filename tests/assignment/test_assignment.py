@@ -175,13 +175,13 @@ def test_new_file_is_in_order(tmp_path: Path, language: str) -> None:
 
 
 CRANKS = sorted(name for name in kinds() if "# plane: horizontal" in sample(name, "en"))
-REMARKED = re.compile(r"^  # (?=(at|loads|springs|faces|epsilon1): )", re.MULTILINE)
+REMARKED = re.compile(r"^  # (?=(at|loads|springs|faces|friction|epsilon1): )", re.MULTILINE)
 EVENLY = re.compile(r"^  (count|direction|worked_positions): .*\n", re.MULTILINE)
 
 
 @pytest.mark.parametrize("kind", CRANKS)
 def test_what_a_new_file_only_remarks_is_in_order_too(tmp_path: Path, kind: str) -> None:
-    """At a single instant, with an accelerated crank, further loads, springs and wide sliders."""
+    """At a single instant, with an accelerated crank, further loads, springs, wide sliders and friction."""
     file = tmp_path / "new.yaml"
     text = sample(kind, "en")
     assert {"at", "springs"} <= {found[1] for found in REMARKED.finditer(text)}
@@ -191,6 +191,7 @@ def test_what_a_new_file_only_remarks_is_in_order_too(tmp_path: Path, kind: str)
     assert made.instants
     assert made.facts["springs"]
     assert len(made.faces) == ("# faces" in text)
+    assert made.friction is not None
 
 
 def _as_an_editor_sees(text: str) -> object:
