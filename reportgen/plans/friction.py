@@ -101,7 +101,7 @@ def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked:
         return q["M.eq"] + signed(machine.turn, total(parts)) if parts else q["M.eq"]
 
     R = {each: q[ids.reaction(each.digits)] for each in rates}
-    for number in range(1, _rounds(solved, worked)):
+    for number in range(1, _rounds(solved, worked) + 1):
         parts = [q[each.share] * R[each] * rates[each] / driver for each in rates]
         symbol = Symbol(letter, "cb", f"({number})")
         q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size, optional=True)
@@ -126,7 +126,7 @@ def _balanced(q: Sheet, linkage: Linkage) -> tuple[str, str, Ref]:
 
 
 def _rounds(solved: FrictionForces, worked: Sequence[int]) -> int:
-    """How many rounds there are before one whose torque prints as the last does at the positions asked for."""
+    """The first round whose torque prints as the last does at the positions asked for."""
     torques = np.array([forces.torque for forces in solved.rounds])
     shown = torques[:, [k - 1 for k in worked]] if worked else torques
     shown = shown[:, np.isfinite(shown).all(axis=0)]

@@ -169,7 +169,7 @@ def dead_rows(report: Report) -> Iterator[Sequence[object]]:
 
 
 @dataclass(frozen=True, slots=True)
-class _JointForce:
+class JointForce:
     """What a joint that rubs carries at a position: its force on the second link, and where that acts (m)."""
 
     each: Rubbing
@@ -186,7 +186,7 @@ def _found(report: Report) -> FrictionForces:
     return solved
 
 
-def _joint_forces(report: Report, k: int) -> Iterator[_JointForce]:
+def joint_forces(report: Report, k: int) -> Iterator[JointForce]:
     """The force in each joint, friction included."""
     solved, motion, index = _found(report), report.analysis.motion, k - 1
     loads = {(load.name, load.link): load for load in solved.loads}
@@ -198,10 +198,10 @@ def _joint_forces(report: Report, k: int) -> Iterator[_JointForce]:
         if each.kind == "pin":
             couple = float(rubs.couple[index])
             offset = -1j * force * couple / abs(force) ** 2 if force else 0j
-            yield _JointForce(each, force, pin, k, offset)
+            yield JointForce(each, force, pin, k, offset)
         else:
             place = complex(reaction.point[index])
-            yield _JointForce(each, force + complex(rubs.force[index]), place if cmath.isfinite(place) else pin, k, 0j)
+            yield JointForce(each, force + complex(rubs.force[index]), place if cmath.isfinite(place) else pin, k, 0j)
 
 
 def scheme(report: Report, k: int) -> FigureScenes:
@@ -212,7 +212,7 @@ def scheme(report: Report, k: int) -> FigureScenes:
 def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
     """The same by a factor of enlargement."""
     machine, motion, scale = report.machine.linkage, report.analysis.motion, drawing_scale(report) * factor
-    shown = [carried for carried in _joint_forces(report, k) if carried.force]
+    shown = [carried for carried in joint_forces(report, k) if carried.force]
     bones, look = skeleton(machine, motion, k - 1, scale), looks(report, scale, factor)
     draft = mechanism(bones, (0, *machine.links), look)
     circles = {
@@ -228,7 +228,7 @@ def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
     return finish(draft + Canvas(tuple(marks)) + draw_forces(forces), notes=look.notes)
 
 
-def _line(carried: _JointForce, shown: Sequence[_JointForce], scale: float) -> Iterator[Item]:
+def _line(carried: JointForce, shown: Sequence[JointForce], scale: float) -> Iterator[Item]:
     """The line of a force: to the other joint of its link if it is tangent to that one's circle too."""
     along, here = carried.force / abs(carried.force), (carried.at + carried.offset) * scale
     for further in shown:
@@ -254,11 +254,11 @@ def joints(report: Report, k: int) -> FigureScenes:
     """Each friction circle enlarged with the line of its reaction; each guide with its angle of friction."""
     scale = drawing_scale(report)
     return beside_one_another(
-        *(_detail(report, k, carried, scale) for carried in _joint_forces(report, k) if carried.force)
+        *(_detail(report, k, carried, scale) for carried in joint_forces(report, k) if carried.force)
     )
 
 
-def _detail(report: Report, k: int, carried: _JointForce, scale: float) -> Scene:
+def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
     """A friction circle enlarged, or the angle of friction of a guide with the parts of its reaction."""
     if carried.each.kind == "slider":
         return _guide_detail(report, carried)
@@ -292,7 +292,7 @@ def _detail(report: Report, k: int, carried: _JointForce, scale: float) -> Scene
     return finish(Canvas(tuple(items), tuple(names)) + forces, title=title)
 
 
-def _guide_detail(report: Report, carried: _JointForce) -> Scene:
+def _guide_detail(report: Report, carried: JointForce) -> Scene:
     """N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N."""
     links, k = carried.each.of.joint.links, carried.k
     guide = complex(report.analysis.motion.slides[links].direction[k - 1])
