@@ -23,8 +23,9 @@ from reportgen.machine.forces import Forces, Load, reaction_name, solve_forces
 from reportgen.machine.motion import Complexes, Flags, Floats, LinkMotion, Motion, cross
 
 ROUNDING = 1e-12
-STANDS = 1e-13
-"""Of the greatest reaction: rounding alone moves it in later rounds."""
+"""A rate below this share of those that it is the difference of stands still."""
+STANDS = 1e-12
+"""Of the greatest reaction: what a round changes by less than this has come to stand."""
 MOST_ROUNDS = 200
 """A joint that wants more turns each round's change into one at least nine tenths as large: it locks, or nearly so."""
 
@@ -100,15 +101,6 @@ def relative_sense(joint: Joint, motion: Motion) -> Floats:
     return np.where(np.abs(rate) > ROUNDING * size, np.sign(rate), follows)
 
 
-def friction_loads(friction: Friction, linkage: Linkage, motion: Motion, forces: Forces) -> tuple[Load, ...]:
-    """What friction does at given reactions: on the second link of each joint, and the opposite on the first."""
-    return tuple(
-        load
-        for joint in friction.joints(linkage)
-        for load in (_in_pin if joint.kind == "R" else _in_guide)(friction, joint, motion, forces)
-    )
-
-
 def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> Floats:
     """The force (N) [N] that presses the links of a joint together: R of a pin, |N| of a guide.
 
@@ -125,20 +117,18 @@ def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -
     return np.where(faces.tilts(normal, reaction.moment), np.abs(first) + np.abs(last), np.abs(normal))
 
 
-def _in_pin(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Load, ...]:
-    """M = −sgn(ω_rel) ρ R."""
-    size = friction.circles[joint.point] * pressing(friction, joint, motion, forces)
-    couple = -relative_sense(joint, motion) * size
-    return _on_both(joint, np.zeros_like(couple, dtype=np.complex128), motion.points[joint.point].p, couple)
+def _rubbing(friction: Friction, joint: Joint, sense: Floats, motion: Motion, forces: Forces) -> tuple[Load, ...]:
+    """What friction does at given reactions, against the `sense` [N] of the motion in a joint.
 
-
-def _in_guide(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Load, ...]:
-    """F = −sgn(v) f |N| along the guide, at the face of a wide slider."""
-    along, at, slider = motion.slides[joint.links].direction, motion.points[joint.point].p, joint.links[1]
+    M = −sgn(ω_rel) ρ R of a pin, F = −sgn(v) f |N| along a guide, at the face of a wide slider.
+    """
+    at, pressed = motion.points[joint.point].p, pressing(friction, joint, motion, forces)
+    if joint.kind == "R":
+        return _on_both(joint, np.zeros_like(at), at, -sense * friction.circles[joint.point] * pressed)
+    along, slider = motion.slides[joint.links].direction, joint.links[1]
     if slider in friction.faces:
         at = at - 1j * along * friction.faces[slider].below
-    size = friction.coefficients[slider] * pressing(friction, joint, motion, forces)
-    return _on_both(joint, -relative_sense(joint, motion) * size * along, at, np.zeros_like(size))
+    return _on_both(joint, -sense * friction.coefficients[slider] * pressed * along, at, np.zeros_like(pressed))
 
 
 def _on_both(joint: Joint, force: Complexes, at: Complexes, couple: Floats) -> tuple[Load, ...]:
@@ -158,12 +148,15 @@ def solve_with_friction(
     Positions at which the reactions do not come to stand are told, not raised: the mechanism locks there, or nearly so.
     """
     rounds = [frictionless or solve_forces(linkage, motion, loads)]
-    names = [reaction_name(*joint.links) for joint in friction.joints(linkage)]
+    senses = {joint: relative_sense(joint, motion) for joint in friction.joints(linkage)}
+    names = [reaction_name(*joint.links) for joint in senses]
     rubbing: tuple[Load, ...] = ()
     before = _forces_in(rounds[0], names)
     for _ in range(MOST_ROUNDS):
         with np.errstate(over="ignore", invalid="ignore"):
-            rubbing = friction_loads(friction, linkage, motion, rounds[-1])
+            rubbing = tuple(
+                load for joint, sense in senses.items() for load in _rubbing(friction, joint, sense, motion, rounds[-1])
+            )
             rounds.append(solve_forces(linkage, motion, (*loads, *rubbing)))
             after = _forces_in(rounds[-1], names)
             off = np.abs(after - before)

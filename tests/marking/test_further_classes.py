@@ -1,4 +1,4 @@
-"""Classes with what few files give, single instants, friction: drawn, set as tasks, filled in, marked, mistakes named."""
+"""Classes with what few files give: single instants, friction.  Drawn, set as tasks, filled in, marked; slips named."""
 
 from __future__ import annotations
 
