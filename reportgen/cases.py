@@ -22,7 +22,7 @@ from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.laws import FULL_TURN, STEPS
-from reportgen.plans.friction import misconceptions
+from reportgen.plans.joint_friction import misconceptions
 from reportgen.report import Block, Document, Paragraph, Strong, Text
 from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.report.key import Span

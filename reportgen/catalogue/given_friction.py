@@ -17,7 +17,7 @@ from reportgen.formula import friction_ids, ids
 from reportgen.machine import Linkage, joints
 from reportgen.machine.analysis import Machine, analyse
 from reportgen.machine.faces import Faces
-from reportgen.machine.friction import Friction
+from reportgen.machine.joint_friction import Friction
 
 Coefficient = Annotated[Given, Ratio(Interval(least=0, most=2, tiny=1e-6))]
 Radius = Annotated[Given, quantity("mm", least=0, below=1e4, tiny=1e-6)]
@@ -98,7 +98,7 @@ def entered(given: JointFriction | None, linkage: Linkage, faces: dict[int, Face
 
 def locks(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
     """A joint whose friction grows with what it causes, at a position that is to be worked out: the mechanism locks."""
-    if machine.friction is None:
+    if machine.joint_friction is None:
         return
     solved = analyse(machine).with_friction
     assert solved is not None

@@ -24,8 +24,8 @@ from reportgen.machine.forces import (
     virtual_work_torque,
     weights,
 )
-from reportgen.machine.friction import Friction, FrictionForces, solve_with_friction
 from reportgen.machine.gas import indicated_work, stroke_at
+from reportgen.machine.joint_friction import Friction, FrictionForces, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque, carriers
 from reportgen.machine.motion import Motion, cross, solve_motion
@@ -77,7 +77,7 @@ class Analysis:
     @cached_property
     def with_friction(self) -> FrictionForces | None:
         """Reactions and torque with the friction of the joints, None where nothing rubs."""
-        friction = self.machine.friction
+        friction = self.machine.joint_friction
         if friction is None:
             return None
         return solve_with_friction(friction, self.machine.linkage, self.motion, self.loads, self.forces)

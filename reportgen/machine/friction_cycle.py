@@ -10,7 +10,7 @@ import numpy as np
 from reportgen.machine import Joint
 from reportgen.machine.analysis import Machine, analyse, breaks, motion_at
 from reportgen.machine.forces import Load
-from reportgen.machine.friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
+from reportgen.machine.joint_friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, Stroke, halved, opposing
 from reportgen.machine.motion import Flags, Floats
 from reportgen.machine.quadrature import mean_over
@@ -41,9 +41,11 @@ def mean_torque(machine: Machine) -> float:
 
     Raises `ValueError` for a machine in which nothing rubs.
     """
-    if machine.friction is None:
+    if machine.joint_friction is None:
         raise ValueError("nothing rubs")
-    corners = [angle for joint in machine.friction.joints(machine.linkage) for angle in turning_back(machine, joint)]
+    corners = [
+        angle for joint in machine.joint_friction.joints(machine.linkage) for angle in turning_back(machine, joint)
+    ]
     standing = []
 
     def torque(angle: Floats) -> Floats:

@@ -11,7 +11,7 @@ from reportgen.drawing.animation import MovingBody, MovingItem, MovingVector, Tr
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import reaction_name
-from reportgen.report.friction import rubbing
+from reportgen.report.joint_friction import rubbing
 from reportgen.report.report import Report
 
 LAYER = "friction"

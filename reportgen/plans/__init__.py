@@ -19,8 +19,8 @@ from reportgen.machine.analysis import Analysis, GasState, no_formulas
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.forces import enter_forces
-from reportgen.plans.friction import enter_friction, enter_friction_of_cycle
 from reportgen.plans.groups import enter_kinematics
+from reportgen.plans.joint_friction import enter_friction, enter_friction_of_cycle
 from reportgen.plans.loads import Polygon
 from reportgen.plans.rests import with_rest
 from reportgen.plans.scales import DIAGRAM, fitting_axis, no_scales, own_scales
@@ -58,8 +58,8 @@ def write_ledger(
             enter_friction(q, analysis, analysis.with_friction, worked)
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
-            if machine.friction is not None and machine.cyclic:
-                enter_friction_of_cycle(q, machine, machine.friction)
+            if machine.joint_friction is not None and machine.cyclic:
+                enter_friction_of_cycle(q, machine, machine.joint_friction)
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)

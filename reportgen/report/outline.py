@@ -34,7 +34,6 @@ from reportgen.report import (
     equations,
     figures,
     force_figures,
-    friction,
     phrases,
     plans,
     result_tables,
@@ -43,6 +42,7 @@ from reportgen.report import (
 )
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
+from reportgen.report import joint_friction as friction
 from reportgen.report import phrases as steps
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close

@@ -10,7 +10,7 @@ from reportgen.formula import ids
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import Load
-from reportgen.machine.friction import FrictionForces
+from reportgen.machine.joint_friction import FrictionForces
 
 Entries = Mapping[str, Any]
 """Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""

@@ -23,7 +23,8 @@ from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves, friction
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
+from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme

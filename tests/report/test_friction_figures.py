@@ -12,8 +12,8 @@ import pytest
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase, open_case
 from reportgen.drawing import Circle, Scene
-from reportgen.machine.friction import relative_sense
-from reportgen.report import friction
+from reportgen.machine.joint_friction import relative_sense
+from reportgen.report import joint_friction as friction
 from reportgen.report.figures import drawing_scale
 from reportgen.report.report import Report
 

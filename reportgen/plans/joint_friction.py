@@ -22,8 +22,8 @@ from reportgen.formula.sheet import ZERO, Family, Sheet
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine
-from reportgen.machine.friction import Friction, FrictionForces, pressing
 from reportgen.machine.friction_cycle import dead_zones, mean_torque
+from reportgen.machine.joint_friction import Friction, FrictionForces, pressing
 from reportgen.plans.motion import natural_sizes
 from reportgen.plans.rests import with_rest
 from reportgen.plans.sides import scheme, sides
@@ -66,7 +66,7 @@ def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: 
 
 def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked: Sequence[int]) -> None:
     """Enter what friction does at each position; rounds until the printed figures of the `worked` ones stand."""
-    machine, friction = analysis.machine, analysis.machine.friction
+    machine, friction = analysis.machine, analysis.machine.joint_friction
     assert friction is not None
     for point in friction.circles:
         id, f, r = (name(point) for name in (friction_ids.circle, friction_ids.coefficient, friction_ids.pin_radius))

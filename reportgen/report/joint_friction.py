@@ -19,8 +19,8 @@ from reportgen.drawing.plan import SAME_POINT, Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.scheme import mechanism, skeleton
 from reportgen.formula import Number, Symbol, friction_ids, ids
 from reportgen.machine.forces import reaction_name
-from reportgen.machine.friction import FrictionForces, relative_sense
-from reportgen.plans.friction import RubbingJoint, rubbing_joints
+from reportgen.machine.joint_friction import FrictionForces, relative_sense
+from reportgen.plans.joint_friction import RubbingJoint, rubbing_joints
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.report import FIRST_COLUMN, Column, Inlines, Table, Text, equations
 from reportgen.report.figures import FigureScenes, as_large_as_asked, beside_one_another, drawing_scale, looks, on_paper
@@ -55,7 +55,7 @@ class Rubbing:
 
 def rubbing(report: Report) -> tuple[Rubbing, ...]:
     """The joints that rub, in the order of assembly."""
-    friction = report.machine.friction
+    friction = report.machine.joint_friction
     if friction is None or not report.has_forces:
         return ()
     return tuple(
