@@ -98,7 +98,7 @@ def entered(given: JointFriction | None, linkage: Linkage, faces: dict[int, Face
 
 def locks(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
     """A joint whose friction grows with what it causes, at a position that is to be worked out: the mechanism locks."""
-    if machine.joint_friction is None:
+    if machine.friction is None:
         return
     solved = analyse(machine).with_friction
     assert solved is not None

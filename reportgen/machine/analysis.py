@@ -77,7 +77,7 @@ class Analysis:
     @cached_property
     def with_friction(self) -> FrictionForces | None:
         """Reactions and torque with the friction of the joints, None where nothing rubs."""
-        friction = self.machine.joint_friction
+        friction = self.machine.friction
         if friction is None:
             return None
         return solve_with_friction(friction, self.machine.linkage, self.motion, self.loads, self.forces)

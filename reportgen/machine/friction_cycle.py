@@ -41,11 +41,9 @@ def mean_torque(machine: Machine) -> float:
 
     Raises `ValueError` for a machine in which nothing rubs.
     """
-    if machine.joint_friction is None:
+    if machine.friction is None:
         raise ValueError("nothing rubs")
-    corners = [
-        angle for joint in machine.joint_friction.joints(machine.linkage) for angle in turning_back(machine, joint)
-    ]
+    corners = [angle for joint in machine.friction.joints(machine.linkage) for angle in turning_back(machine, joint)]
     standing = []
 
     def torque(angle: Floats) -> Floats:

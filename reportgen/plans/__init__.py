@@ -58,8 +58,8 @@ def write_ledger(
             enter_friction(q, analysis, analysis.with_friction, worked)
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
-            if machine.joint_friction is not None and machine.cyclic:
-                enter_friction_of_cycle(q, machine, machine.joint_friction)
+            if machine.friction is not None and machine.cyclic:
+                enter_friction_of_cycle(q, machine, machine.friction)
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)

@@ -66,7 +66,7 @@ def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: 
 
 def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked: Sequence[int]) -> None:
     """Enter what friction does at each position; rounds until the printed figures of the `worked` ones stand."""
-    machine, friction = analysis.machine, analysis.machine.joint_friction
+    machine, friction = analysis.machine, analysis.machine.friction
     assert friction is not None
     for point in friction.circles:
         id, f, r = (name(point) for name in (friction_ids.circle, friction_ids.coefficient, friction_ids.pin_radius))

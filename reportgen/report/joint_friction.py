@@ -55,7 +55,7 @@ class Rubbing:
 
 def rubbing(report: Report) -> tuple[Rubbing, ...]:
     """The joints that rub, in the order of assembly."""
-    friction = report.machine.joint_friction
+    friction = report.machine.friction
     if friction is None or not report.has_forces:
         return ()
     return tuple(
