@@ -38,7 +38,9 @@ ROWS = (
     VocabularyRow(force, "F", "force", Chapter.torque, below="fr{joint}", name="friction force"),
     VocabularyRow(part, "ΔM", "torque", Chapter.torque, name="torque against friction"),
     VocabularyRow(Name(torque), "M", "torque", Chapter.torque, below="cb", above="fr", name="torque with friction"),
-    VocabularyRow(torque_of_round, "M", "torque", Chapter.torque, below="cb", above="({round})"),
+    VocabularyRow(
+        torque_of_round, "M", "torque", Chapter.torque, below="cb", above="({round})", name="torque with friction"
+    ),
     VocabularyRow(Name(efficiency), "η", "ratio", Chapter.torque, name="efficiency"),
     VocabularyRow(Name(mean), "M", "torque", Chapter.cycle, below="m", above="fr", name="mean torque with friction"),
     VocabularyRow(Name(cycle_efficiency), "η", "ratio", Chapter.cycle, below="m", name="efficiency over the cycle"),

@@ -131,8 +131,8 @@ def cycle(report: Report) -> str:
 
 
 def results(report: Report) -> list[str]:
-    """Both torques and the efficiency."""
-    return report.known(("M.eq", friction_ids.torque, friction_ids.efficiency))
+    """The torque with friction and the efficiency."""
+    return report.known((friction_ids.torque, friction_ids.efficiency))
 
 
 def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> tuple[Table, ...]:

@@ -254,13 +254,19 @@ def _on_one_line(drawing: Plan) -> bool:
 
 
 def _friction(sources: Sources) -> Iterator[Drawn]:
-    """At the worked positions the machine with its friction circles, and the force plans with friction."""
+    """At the worked positions the machine with its friction circles, and each of them enlarged."""
     report, small = sources.report, sources.small
     if not friction.rubbing(report):
         return
     for k in report.worked_forces:
         scenes = (friction.scheme_scene(small, k), *friction.joints(small, k).scenes)
         yield Drawn("friction", "forces", scenes, (sources.place(k),))
+
+
+def _friction_plans(sources: Sources) -> Iterator[Drawn]:
+    """The force plans with friction of the worked positions."""
+    report, small = sources.report, sources.small
+    for k in report.worked_forces if friction.rubbing(report) else ():
         polygons = [(sources.called(group), group.polygon) for group in reversed(report.groups)]
         for called, polygon in (*polygons, (str(report.words["figure"]["driver"]), report.driver_polygon)):
             if polygon is not None:
@@ -425,12 +431,23 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
         *(_velocity_table, _acceleration_table),
     ),
     "forces": (
-        *(_indicator, _springs, _worked_forces, _friction, _force_plates, _torque, _polar, _flywheel, _flywheel_speed),
+        *(
+            _indicator,
+            _springs,
+            _worked_forces,
+            _friction,
+            _friction_plans,
+            _force_plates,
+            _torque,
+            _polar,
+            _flywheel,
+            _flywheel_speed,
+        ),
         *(_reaction_table, _load_table),
     ),
 }
 """What each set shows, in the order of the work."""
-FURTHER = frozenset({_centres, _force_plates, _polar, _flywheel_speed})
+FURTHER = frozenset({_centres, _friction_plans, _force_plates, _polar, _flywheel_speed})
 """What is shown only where every plate is asked for."""
 RESULTS = frozenset({_velocity_table, _acceleration_table, _reaction_table, _load_table})
 """Tables that else fill what is left of a sheet."""
