@@ -157,8 +157,8 @@ class _Blocks:
                 first, *others = layout.in_parts(block)
                 place = "#standing" if block.here else "#W"
                 figures = [f"{place}({literal(key)},{label},\n{self.rows(first)})"]
-                for number, rows in enumerate(others, 2):
-                    again = literal(f"{self.words.figure} {block.number} ({self.words.part.format(part=number)})")
+                for part, rows in enumerate(others, 2):
+                    again = literal(f"{self.words.figure} {block.number} ({self.words.part.format(part=part)})")
                     figures.append(f'{place}("",{again},[],\n{self.rows(rows)})')
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
