@@ -23,7 +23,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from reportgen.assignment import reading
+from reportgen.assignment import parts, reading
 from reportgen.assignment.common import Assignment, Kind, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
@@ -109,12 +109,17 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
         yield from assembly.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
 
-def load(path: Path | str, language: Language | None = None) -> Assignment:
-    """The assignment of a file, in its own language or in `language`.
+def load(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Assignment:
+    """The assignment of a file, in its own language or in `language`; of a part, with what it takes in the `whole`.
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    return _in_order(read_source(Path(path)), Path(path), language)
+    return _in_order(with_taken(read_source(Path(path)), Path(path), whole), Path(path), language)
+
+
+def with_taken(source: Source, path: Path, whole: Path | None) -> Source:
+    """Nodes that were read from `path`, of a part with what it takes from the machine of the coursework `whole`."""
+    return parts.in_coursework(source, path, whole, kind) if whole else source
 
 
 def _in_order(source: Source, path: Path, language: Language | None) -> Assignment:
