@@ -59,7 +59,9 @@ TELLING = [("engine-single", "everything"), ("toggle-press", "springs-alone")]
 @pytest.mark.parametrize(("kind", "form"), matrix(CASES, TELLING))
 def test_every_kind_bears_it(tmp_path: Path, kind: str, form: str) -> None:
     """Report, key and task say it without a fault."""
-    text = EVENLY.sub("", REMARKED.sub("  ", sample(kind, "en")))
+    new = sample(kind, "en")
+    assert {"at", "springs"} <= {found[1] for found in REMARKED.finditer(new)}
+    text = EVENLY.sub("", REMARKED.sub("  ", new))
     change, language, extent = FORMS[form]
     told = change(yaml.load(text, yaml.BaseLoader)) | {"report": {"language": language, "extent": extent}}
     path = tmp_path / "told.yaml"
