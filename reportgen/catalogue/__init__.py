@@ -83,7 +83,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
     slides = bool(machine.span)
     for index, at in enumerate(assignment.positions.at or ()):
         if slides == measures(at.unit, "deg"):
-            words = {"given": at.text, "unit": "mm" if slides else "deg"}
+            words = {"given": at.unit, "unit": "mm" if slides else "deg"}
             yield Finding("wrong-unit", ("positions", "at", index), words)
     if isinstance(assignment.parameters, UnderGravity):
         yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)

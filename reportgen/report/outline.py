@@ -94,6 +94,7 @@ PROPERTIES = (
     "has_flywheel",
     "has_force",
     "has_forces",
+    "has_own_load",
     "has_formulas",
     "has_gas",
     "has_turning_links",
