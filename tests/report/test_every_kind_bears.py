@@ -1,4 +1,4 @@
-"""Every kind with a crank bears what every file may say: instants, acceleration, loads, springs, faces, no weights."""
+"""Every kind with a crank bears what every file may say: instants, acceleration, loads, springs, faces, friction."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from tests.lanes import matrix
 
-REMARKED = re.compile(r"^  # (?=(at|loads|springs|faces|epsilon1): )", re.MULTILINE)
+REMARKED = re.compile(r"^  # (?=(at|loads|springs|faces|friction|epsilon1): )", re.MULTILINE)
 EVENLY = re.compile(r"^  (count|direction|worked_positions): .*\n", re.MULTILINE)
 OWN_LOADS = {"force", "cutting", "torque", "press"}
 CRANKS = sorted(name for name in kinds() if "# plane: horizontal" in sample(name, "en"))
