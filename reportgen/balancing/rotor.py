@@ -72,6 +72,8 @@ def check(given: Parameters) -> Iterator[Finding]:
         yield Finding("rotor-needs", (*TOP, "mass"), {"key": "mass", "other": "grade"}, at="key")
     if is_balanced(given):
         yield Finding("rotor-balanced", (*TOP, "masses"), at="key")
+    elif planes.B is not None and not any(mass.z.si - planes.A.si for mass in given.masses):
+        yield Finding("rotor-one-plane", (*TOP, "planes", "B"), at="key")
 
 
 def is_balanced(given: Parameters) -> bool:

@@ -28,8 +28,8 @@ OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force
 """What each bearing bears."""
 WORKED = 6
 """Products of so many masses are written out; of more masses the table has all of them, and a line is of the first."""
-PAGE_WIDTH = 165.0
-"""What a table may take of a page (mm)."""
+FIRST_WIDTH, PAGE_WIDTH = 18.0, 165.0
+"""What its first column takes, and what a table may take of a page (mm)."""
 
 
 @dataclass(frozen=True)
@@ -128,17 +128,24 @@ class RotorPage(DesignPage[SolvedRotor]):
         return self._by_place("products", [*columns, *(name for _, name in plans)], case.masses)
 
     def _by_place(self, name: str, families: Sequence[Any], places: Sequence[str]) -> Table:
-        """A row of values for each place, their symbols and units in the head."""
-        printed = self.case.printed
-        heads: list[Inlines] = [(Text(self.words["heads"]["place"]),)]
-        for family in families:
-            number = printed.number(family(places[0]))
-            symbol = printed.symbol(family(places[0]))
-            shown = replace(symbol, sub=symbol.sub.removesuffix(places[0]))
-            heads.append((InlineMath(shown), Text(f", {number.unit}")))
+        """A row of values for each place."""
+        printed, first = self.case.printed, places[0]
+        symbols = (printed.symbol(family(first)) for family in families)
+        heads = [
+            (replace(symbol, sub=symbol.sub.removesuffix(first)), printed.number(family(first)).unit)
+            for symbol, family in zip(symbols, families, strict=True)
+        ]
         rows = [((Text(place),), *(bare(printed.number(family(place))) for family in families)) for place in places]
-        width = min(30.0, (PAGE_WIDTH - 15) / len(families))
-        return self.table(name, (Column(15.0), *(Column(width) for _ in families)), (heads,), rows)
+        return self._headed(name, self.words["heads"]["place"], heads, rows)
+
+    def _headed(
+        self, name: str, first: str, heads: Sequence[tuple[Symbol, str]], rows: Iterable[tuple[Inlines, ...]]
+    ) -> Table:
+        """A table whose head has symbols, and their units below them."""
+        symbols: list[Inlines] = [(Text(first),), *((InlineMath(symbol),) for symbol, _ in heads)]
+        units: list[Inlines] = [(Text(""),), *((Text(unit),) for _, unit in heads)]
+        width = min(30.0, (PAGE_WIDTH - FIRST_WIDTH) / len(heads))
+        return self.table(name, (Column(FIRST_WIDTH), *(Column(width) for _ in heads)), (symbols, units), rows)
 
     @property
     def components(self) -> Table:
@@ -146,14 +153,13 @@ class RotorPage(DesignPage[SolvedRotor]):
         printed, kinds = self.case.printed, ("U", "V") if self.case.moments else ("U",)
         columns = [(of, axis) for of in kinds for axis in "xy"]
         sums = [rotor_ids.resultant(*column) for column in columns]
-        heads: list[Inlines] = [(Text(self.words["heads"]["place"]),)]
-        heads += [(InlineMath(printed.symbol(id)), Text(f", {printed.number(id).unit}")) for id in sums]
         rows = [
             ((Text(place),), *(bare(printed.number(rotor_ids.component(*column, place))) for column in columns))
             for place in self.case.masses
         ]
         rows.append(((Text("Σ"),), *(bare(printed.number(id)) for id in sums)))
-        return self.table("components", (Column(15.0), *(Column(33.0) for _ in columns)), (heads,), rows)
+        heads = [(printed.symbol(id), printed.number(id).unit) for id in sums]
+        return self._headed("components", self.words["heads"]["place"], heads, rows)
 
     @property
     def compared(self) -> Table:
@@ -173,22 +179,13 @@ class RotorPage(DesignPage[SolvedRotor]):
 
     @property
     def loads_table(self) -> Table:
-        """What each bearing bears before and after, and whether the grade is met."""
-        printed, words, limit = self.case.printed, self.words["loads"], self.case.permitted
-        heads: list[Inlines] = [(Text(words["bearing"]),)]
-        for when in (BEFORE, AFTER):
-            for family in OF_BEARING:
-                id = family(when, BEARINGS[0])
-                symbol, number = printed.symbol(id), printed.number(id)
-                heads.append((InlineMath(replace(symbol, sub="")), Text(f", {number.unit}")))
-        rows = []
-        for place in BEARINGS:
-            ids = [family(when, place) for when in (BEFORE, AFTER) for family in OF_BEARING]
-            rows.append(((Text(place),), *(bare(printed.number(id)) for id in ids)))
-        if limit is not None:
-            heads.append((Text(words["grade"]),))
-            rows = [(*row, (Text(words["yes" if met else "no"]),)) for row, met in zip(rows, limit, strict=True)]
-        return self.table("loads", (Column(20.0), *(Column(28.0) for _ in heads[1:])), (heads,), rows)
+        """What each bearing bears before and after."""
+        printed, words = self.case.printed, self.words["loads"]
+        columns = [(family, when) for when in (BEFORE, AFTER) for family in OF_BEARING]
+        ids = {place: [family(when, place) for family, when in columns] for place in BEARINGS}
+        rows = [((Text(place),), *(bare(printed.number(id)) for id in ids[place])) for place in BEARINGS]
+        heads = [(replace(printed.symbol(id), sub=""), printed.number(id).unit) for id in ids[BEARINGS[0]]]
+        return self._headed("loads", words["bearing"], heads, rows)
 
     # --- figures
 

@@ -220,7 +220,7 @@ class RotorSheet:
             return
         e = q.define(names.permitted("e"), q["rotor.grade"] / q["rotor.omega"])
         U = q.define(names.permitted("U"), q["rotor.M"] * e)
-        half = q.define(names.permitted("plane"), U / 2)
+        half = q.define(names.permitted("plane"), U / 2, optional=True)
         q.set_out("grade", e, U, half)
         share = half if RIGHT in given.planes_by_name else U
         for plane in given.planes_by_name if given.correction else ():
