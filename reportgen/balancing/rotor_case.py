@@ -54,6 +54,7 @@ class RotorPage(DesignPage[SolvedRotor]):
 
     def names(self) -> dict[str, Any]:
         case, written = self.case, self.case.printed
+        has_data = any(True for _ in self.given_rows())
         lines = {name: written.known(quantities) for name, quantities in written.lines.items()}
         for name in ("unbalances", "moments"):
             if len(case.masses) > WORKED:
@@ -69,8 +70,8 @@ class RotorPage(DesignPage[SolvedRotor]):
             "against": any(case.ledger[rotor_ids.moment(place)].values[0] < 0 for place in case.moments),
             "leaves_couple": not case.two_planes and case.given.has_couple,
             "grade_met": all(case.permitted or ()),
-            "has_data": bool(case.given_ids),
-            "data": self.data if case.given_ids else "",
+            "has_data": has_data,
+            "data": self.data if has_data else "",
             "masses_table": self.masses_table,
             "products": self.products,
             "components": self.components,
@@ -96,20 +97,6 @@ class RotorPage(DesignPage[SolvedRotor]):
         return Equation((Chain((total([*vectors, *corrections]), Number(0.0))),))
 
     # --- tables
-
-    @property
-    def data(self) -> Table:
-        """What is given but for the masses, which have a table of their own."""
-        return self.data_table(
-            ((Text(self.called(id)),), (InlineMath(self.case.printed.symbol(id)),), (self.value(id),))
-            for id in self.case.given_ids
-        )
-
-    def called(self, id: str) -> str:
-        """What a datum is called, with the place that it belongs to."""
-        name, words = self.case.words["given"], rotor_ids.station.read(id) or {"place": ""}
-        found: str = name.get(id) or name["rotor.z.plane" if words["place"] in "AB" else "rotor.z.bearing"]
-        return found.format(place=words["place"])
 
     @property
     def masses_table(self) -> Table:

@@ -75,8 +75,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(component.only(of="V"), "V", "moment of unbalance", _G, below=_AXIS),
     VocabularyRow(resultant.only(of="U"), "U", "unbalance", _G, below="{axis}", name="rotor resultant"),
     VocabularyRow(resultant.only(of="V"), "V", "moment of unbalance", _G, below="{axis}", name="rotor resultant"),
-    VocabularyRow(by_components.only(of="U"), "U", "unbalance", below="{place}", name="rotor correction"),
-    VocabularyRow(by_components.only(of="alpha"), "α", "angle", below="{place}", name="rotor direction"),
+    VocabularyRow(by_components.only(of="U"), "U", "unbalance", below="{place}", name="rotor computed"),
+    VocabularyRow(by_components.only(of="alpha"), "α", "angle", below="{place}", name="rotor computed direction"),
     VocabularyRow(share.only(when="after"), "U", "unbalance", _F, below=_AXIS, above="′"),
     VocabularyRow(share, "U", "unbalance", _F, below=_AXIS),
     VocabularyRow(

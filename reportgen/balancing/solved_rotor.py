@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,7 +10,6 @@ from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
 from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet, resultant
 from reportgen.formula import PI, Expression, Number, Ref, cis, heading
-from reportgen.formula.ids import Name
 from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.report.case import Misconceptions
 from reportgen.report.design import DesignCase
@@ -64,13 +63,6 @@ class SolvedRotor(DesignCase):
         return 0j if abs(complex(x, y)) <= ZERO * most else complex(x, y) * ω**2
 
     @property
-    def given_ids(self) -> Sequence[str]:
-        """What is given beside the masses."""
-        own = {family(place) for place in self.masses for family in OF_A_MASS}
-        ledger = self.ledger
-        return [id for id, family in ledger.families.items() if family.definition is None and is_datum(id, own)]
-
-    @property
     def permitted(self) -> tuple[bool, ...] | None:
         """Whether each bearing's unbalance after balancing, as the corrections are written, is within the grade."""
         if self.given.grade is None:
@@ -115,12 +107,13 @@ class SolvedRotor(DesignCase):
             for number in (1.0, 2.0):
                 yield from taken(plane, "rotor-static-only", static / number)
         for origin in self._origins():
-            z = {place: Ref(rotor_ids.station(place)) - origin for place in self.masses}
-            for place in self.masses:
-                yield rotor_ids.moment(place), "rotor-plane-z", U[place] * z[place]
-                yield rotor_ids.moment(place), "rotor-plane-z", -(U[place] * z[place])
-            moments = {place: U[place] * z[place] for place in self.masses}
-            yield from taken(RIGHT, "rotor-plane-z", -(resultant(moments, α) / L))
+            moments = {place: U[place] * (Ref(rotor_ids.station(place)) - origin) for place in self.masses}
+            for place, moment in moments.items():
+                yield rotor_ids.moment(place), "rotor-plane-z", moment
+                yield rotor_ids.moment(place), "rotor-plane-z", -moment
+            # Moments about plane B give the correction of plane A.
+            if origin != Ref(rotor_ids.station(RIGHT)):
+                yield from taken(RIGHT, "rotor-plane-z", -(resultant(moments, α) / L))
 
     def _origins(self) -> Iterator[Expression]:
         """From where z may be taken wrongly: the right plane, the origin of all z, a bearing."""
@@ -135,7 +128,7 @@ class SolvedRotor(DesignCase):
     def _of_sides(self) -> Changed:
         """The mass put where the unbalance is, not opposite to it."""
         for of, plane in (("V", RIGHT), ("U", LEFT)):
-            yield rotor_ids.direction(plane), "rotor-wrong-side", heading(-Ref(rotor_ids.drawn(of, plane)))
+            yield rotor_ids.direction(plane), "rotor-wrong-side", heading(Ref(rotor_ids.drawn(of, plane))) + PI
 
     def _of_degrees(self) -> Changed:
         """A calculator set to radians that is fed with degrees, for all masses."""
@@ -169,15 +162,6 @@ class SolvedRotor(DesignCase):
             for place in BEARINGS:
                 U = Ref(rotor_ids.at_bearing(when, place))
                 yield rotor_ids.bearing_force(when, place), "rotor-speed-once", U * Ref("rotor.omega")
-
-
-OF_A_MASS = rotor_ids.mass, rotor_ids.radius, rotor_ids.angle, rotor_ids.station
-DATA = (*OF_A_MASS, Name("rotor.n"), Name("rotor.grade"), Name("rotor.M"))
-
-
-def is_datum(id: str, of_masses: set[str]) -> bool:
-    """Whether an id is that of a datum that belongs to no mass."""
-    return id not in of_masses and any(id in name for name in DATA)
 
 
 def in_degrees(angle: Expression) -> Expression:
