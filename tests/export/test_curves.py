@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.api.figures import plot_files
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
 from reportgen.cases import open_case, opened
 from reportgen.export.curves import dense, diagrams, read_measured
@@ -66,6 +67,10 @@ def test_over_time_the_last_point_is_the_time_of_a_cycle() -> None:
     x = np.asarray(diagram.curves[0].x)
     with pytest.raises(NotOfferedError):
         diagrams([open_case(ASSIGNMENTS / "cam" / "knife-01.yaml")], ["cam.s"], "time")
+    # The speed of a crank that accelerates holds at each position by itself.
+    accelerated = open_case(ASSIGNMENTS / "four-bar-03.yaml")
+    with pytest.raises(NotOfferedError):
+        diagrams([accelerated], ["v.C"], "time")
     # Millimetres from the first position.
     assert (x[0], x[-1]) == (0.0, pytest.approx(abs(slide.analysis.machine.span) * 1e3))
     assert not diagram.turn
@@ -150,7 +155,7 @@ def test_all_charts_of_a_report_are_diagrams() -> None:
 
 def test_a_plot_is_a_file(caplog: pytest.LogCaptureFixture) -> None:
     """The same one each time, of which no library has anything to say."""
-    files = api.plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+    files = plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
     assert list(files) == ["v.E.svg", "v.E.eps", "M.eq.svg", "M.eq.eps"]
-    assert files == api.plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+    assert files == plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
     assert caplog.records == []
