@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.balancing import rotor_drawings, rotor_ids, rotor_motion
+from reportgen.balancing.places_page import PlacesPage, bare
 from reportgen.balancing.rotor_file import BEARINGS
 from reportgen.balancing.rotor_sheet import AFTER, BEFORE
 from reportgen.balancing.solved_rotor import SolvedRotor
@@ -19,7 +20,6 @@ from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.scales import IN_REPORT
 from reportgen.formula import Chain, Expression, Number, Symbol, total
 from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
-from reportgen.report.design import DesignPage
 from reportgen.report.result_entries import ResultEntries
 from reportgen.report.shafts import Shaft
 from reportgen.sheets.plates import drawn
@@ -28,12 +28,10 @@ OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force
 """What each bearing bears."""
 WORKED = 6
 """Products of so many masses are written out; of more masses the table has all of them, and a line is of the first."""
-FIRST_WIDTH, PAGE_WIDTH = 18.0, 165.0
-"""What its first column takes, and what a table may take of a page (mm)."""
 
 
 @dataclass(frozen=True)
-class RotorPage(DesignPage[SolvedRotor]):
+class RotorPage(PlacesPage[SolvedRotor]):
     """A rotor as templates name it."""
 
     NAME, TASK, SUMMARY = "rotor", "rotor-task", "rotor-summary"
@@ -103,7 +101,7 @@ class RotorPage(DesignPage[SolvedRotor]):
         """The masses as they are given."""
         columns = [rotor_ids.mass, rotor_ids.radius, rotor_ids.angle]
         columns += [rotor_ids.station] if self.case.given.has_couple else []
-        return self._by_place("masses", columns, self.case.masses)
+        return self.by_place("masses", columns, self.case.masses)
 
     @property
     def products(self) -> Table:
@@ -112,27 +110,7 @@ class RotorPage(DesignPage[SolvedRotor]):
         columns = [rotor_ids.unbalance, rotor_ids.moment, rotor_ids.angle]
         plans = [(of, rotor_ids.laid_off.only(of=of)) for of in ("V", "U") if rotor_ids.scale(of) in case.printed]
         columns = [name for name in columns if name(case.masses[0]) in case.printed]
-        return self._by_place("products", [*columns, *(name for _, name in plans)], case.masses)
-
-    def _by_place(self, name: str, families: Sequence[Any], places: Sequence[str]) -> Table:
-        """A row of values for each place."""
-        printed, first = self.case.printed, places[0]
-        symbols = (printed.symbol(family(first)) for family in families)
-        heads = [
-            (replace(symbol, sub=symbol.sub.removesuffix(first)), printed.number(family(first)).unit)
-            for symbol, family in zip(symbols, families, strict=True)
-        ]
-        rows = [((Text(place),), *(bare(printed.number(family(place))) for family in families)) for place in places]
-        return self._headed(name, self.words["heads"]["place"], heads, rows)
-
-    def _headed(
-        self, name: str, first: str, heads: Sequence[tuple[Symbol, str]], rows: Iterable[tuple[Inlines, ...]]
-    ) -> Table:
-        """A table whose head has symbols, and their units below them."""
-        symbols: list[Inlines] = [(Text(first),), *((InlineMath(symbol),) for symbol, _ in heads)]
-        units: list[Inlines] = [(Text(""),), *((Text(unit),) for _, unit in heads)]
-        width = min(30.0, (PAGE_WIDTH - FIRST_WIDTH) / len(heads))
-        return self.table(name, (Column(FIRST_WIDTH), *(Column(width) for _ in heads)), (symbols, units), rows)
+        return self.by_place("products", [*columns, *(name for _, name in plans)], case.masses)
 
     @property
     def components(self) -> Table:
@@ -146,7 +124,7 @@ class RotorPage(DesignPage[SolvedRotor]):
         ]
         rows.append(((Text("Σ"),), *(bare(printed.number(id)) for id in sums)))
         heads = [(printed.symbol(id), printed.number(id).unit) for id in sums]
-        return self._headed("components", self.words["heads"]["place"], heads, rows)
+        return self.headed("components", self.words["heads"]["place"], heads, rows)
 
     @property
     def compared(self) -> Table:
@@ -172,18 +150,13 @@ class RotorPage(DesignPage[SolvedRotor]):
         ids = {place: [family(when, place) for family, when in columns] for place in BEARINGS}
         rows = [((Text(place),), *(bare(printed.number(id)) for id in ids[place])) for place in BEARINGS]
         heads = [(replace(printed.symbol(id), sub=""), printed.number(id).unit) for id in ids[BEARINGS[0]]]
-        return self._headed("loads", words["bearing"], heads, rows)
+        return self.headed("loads", words["bearing"], heads, rows)
 
     # --- figures
 
     def scenes(self, name: str) -> Iterable[Scene]:
         _, draw = rotor_drawings.FIGURES[name]
         return (draw(self.case, IN_REPORT),)
-
-
-def bare(number: Number) -> Inlines:
-    """A number whose unit stands in the head of its column."""
-    return (Value(replace(number, unit="")),)
 
 
 # --- the case --------------------------------------------------------------------------------------
