@@ -40,6 +40,7 @@ SHOWN = {
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
     "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
     "rotor": ROOT / "assignments" / "rotor" / "rotor-two-planes.yaml",
+    "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"

@@ -1,1 +1,1 @@
-"""Balancing of rotors: correction masses in one plane or two, by plans true to scale and by components."""
+"""Balancing: rotors by correction masses in one plane or two, engines by orders and stars of cranks."""

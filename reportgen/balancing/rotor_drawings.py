@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -117,16 +117,17 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
         items += mass_on_arm(foot, at, mass)
         away = math.copysign(math.pi / 2, mass.at.imag)
         requests.append(label(at, mass.name, gap=DISC + 0.5, prefer=(away, 0.0, math.pi)))
-    ruler, numbers = _ruler(case, start, per, -high - 5, end)
-    return settle(Canvas((*items, *ruler), (*requests, *numbers))), size.note(Symbol("μ", "l"), usual)
+    held = [*places.values(), *(mass.z.si for mass in case.given.masses)]
+    marks, numbers = ruler(held, per, -high - 5)
+    return settle(Canvas((*items, *marks), (*requests, *numbers))), size.note(Symbol("μ", "l"), usual)
 
 
-def _ruler(case: SolvedRotor, start: float, per: float, height: float, end: float) -> tuple[list[Item], list[Request]]:
-    """The axis z with the places (mm) of all that stands on the shaft."""
+def ruler(places: Collection[float], per: float, height: float) -> tuple[list[Item], list[Request]]:
+    """The axis z below a shaft with the places (m) of what stands on it, the first of them at 0."""
+    start, end = min(places), (max(places) - min(places)) * per
     base, tip = complex(-BEYOND, height), complex(end + BEYOND + 5, height)
     items: list[Item] = [Line(base, tip, style.DIMENSION)]
     requests = [label(tip, Symbol("z"), ", mm", gap=0.8, prefer=(0.0,))]
-    places = [*stations(case).values(), *(mass.z.si for mass in case.given.masses)]
     for place in sorted(set(places)):
         at = complex((place - start) * per, height)
         items.append(Line(at - 1j, at + 1j, style.DIMENSION))
