@@ -47,7 +47,7 @@ def check(given: Parameters) -> Iterator[Finding]:
         yield Finding("rod-too-short", (*TOP, "l"), {"l": given.l.text, "r": given.r.text, "least": least})
     for key, further in (("m2", "s"), ("s", "m2")):
         if getattr(given, key) is not None and getattr(given, further) is None:
-            yield Finding("rotor-needs", (*TOP, key), {"key": key, "other": further}, at="key")
+            yield Finding("needs-besides", (*TOP, key), {"key": key, "other": further}, at="key")
     places: dict[tuple[float, float], int] = {}
     for number, cylinder in enumerate(given.cylinders):
         first = places.setdefault((cylinder.at.si, cylinder.bank.si), number)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.balancing import rotor_file
+from reportgen.balancing.rotor_file import LEFT, RIGHT
 from reportgen.base.errors import Finding
 
 if TYPE_CHECKING:
@@ -67,9 +68,12 @@ def check(given: Parameters) -> Iterator[Finding]:
     for key, others in NEEDS.items():
         for other in others if getattr(given, key) is not None else ():
             if getattr(given, other) is None:
-                yield Finding("rotor-needs", (*TOP, key), {"key": key, "other": other}, at="key")
+                yield Finding("needs-besides", (*TOP, key), {"key": key, "other": other}, at="key")
     if given.mass is not None and given.grade is None:
-        yield Finding("rotor-needs", (*TOP, "mass"), {"key": "mass", "other": "grade"}, at="key")
+        yield Finding("needs-besides", (*TOP, "mass"), {"key": "mass", "other": "grade"}, at="key")
+    own = [plane for plane in (LEFT, RIGHT) if given.correction and getattr(given.correction, plane)]
+    if own and own != [*given.planes_by_name]:
+        yield Finding("rotor-corrections", (*TOP, "correction"), {"planes": ", ".join(given.planes_by_name)}, at="key")
     if is_balanced(given):
         yield Finding("rotor-balanced", (*TOP, "masses"), at="key")
     elif planes.B is not None and not any(mass.z.si - planes.A.si for mass in given.masses):
@@ -86,4 +90,8 @@ def is_balanced(given: Parameters) -> bool:
     return small and abs(couple) <= BALANCED * sum(abs(U * z) for U, z in unbalances)
 
 
-CHECKS = (of_parameters(check), one_of("parameters.correction", "r", "m"))
+CHECKS = (
+    of_parameters(check),
+    one_of("parameters.correction", "r", "m", LEFT),
+    *(one_of(f"parameters.correction.{plane}", "r", "m") for plane in (LEFT, RIGHT)),
+)

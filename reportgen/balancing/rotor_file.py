@@ -37,11 +37,18 @@ class RotorMass(Part):
     z: Coordinate = AT_ORIGIN
 
 
-class KnownCorrection(Part):
-    """The radius of the correction masses, or their mass, in every plane."""
+class KnownMass(Part):
+    """The radius of a correction mass, or its mass."""
 
     r: Length | None = None
     m: PositiveMass | None = None
+
+
+class KnownCorrection(KnownMass):
+    """What is known of the correction masses: the same in every plane, or something in each."""
+
+    A: KnownMass | None = None
+    B: KnownMass | None = None
 
 
 @shown("correction", "bearings", "grade", "n")
@@ -63,17 +70,17 @@ class Parameters(Part):
         return {LEFT: self.planes.A, **far}
 
     @property
-    def with_radius(self) -> bool:
-        """Whether the radius of the correction masses is given, and their mass sought."""
-        return self.correction is not None and self.correction.r is not None
+    def known_masses(self) -> dict[str, KnownMass]:
+        """What is known of the correction mass in each plane; nothing where none is asked for."""
+        if self.correction is None:
+            return {}
+        own = {LEFT: self.correction.A, RIGHT: self.correction.B}
+        return {plane: own[plane] or self.correction for plane in self.planes_by_name}
 
     @property
-    def known_of_correction(self) -> float:
-        """The radius of the correction masses (m), or their mass (kg)."""
-        assert self.correction is not None, "asked only where it is given"
-        known = self.correction.r or self.correction.m
-        assert known is not None, "a check asks for one of them"
-        return known.si
+    def sought(self) -> frozenset[str]:
+        """What of the correction masses is sought: their mass `m`, their radius `r`, or one here and one there."""
+        return frozenset("r" if known.r is None else "m" for known in self.known_masses.values())
 
     @property
     def has_couple(self) -> bool:

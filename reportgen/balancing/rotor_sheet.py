@@ -59,8 +59,10 @@ class RotorSheet:
         stations = given.planes_by_name if given.has_couple or given.bearings else {}
         for place, station in (*stations.items(), *zip(BEARINGS, given.bearings or (), strict=False)):
             self.z[place] = q.give(names.station(place), station.si)
-        for plane in given.planes_by_name if given.correction else ():
-            q.give((names.radius if given.with_radius else names.mass)(plane), given.known_of_correction)
+        for plane, known in given.known_masses.items():
+            for family, datum in ((names.radius, known.r), (names.mass, known.m)):
+                if datum is not None:
+                    q.give(family(plane), datum.si)
         if given.n is not None:
             q.give("rotor.n", given.n.si * 30 / math.pi)
         for id, datum in (("rotor.grade", given.grade), ("rotor.M", given.mass)):
@@ -128,8 +130,8 @@ class RotorSheet:
         return self.q.define(names.direction(plane), heading(Ref(names.drawn(of, plane))), of=size.id)
 
     def _enter_masses(self) -> None:
-        q, correction = self.q, self.given.correction
-        for plane in self.given.planes_by_name if correction else ():
+        q = self.q
+        for plane in self.given.known_masses:
             U = q[names.unbalance(plane)]
             if names.radius(plane) in q:
                 q.set_out("corrections", q.define(names.mass(plane), U / q[names.radius(plane)]))
@@ -223,7 +225,7 @@ class RotorSheet:
         half = q.define(names.permitted("plane"), U / 2, optional=True)
         q.set_out("grade", e, U, half)
         share = half if RIGHT in given.planes_by_name else U
-        for plane in given.planes_by_name if given.correction else ():
+        for plane in given.known_masses:
             q.set_out("tolerances", q.define(names.tolerance(plane), share / q[names.radius(plane)]))
 
 

@@ -115,8 +115,8 @@ parameters:
 """
 FAULTS = [
     ("l: 160 mm", "l: 40 mm", ["4:6 rod-too-short"]),
-    ("  s: 0.35\n", "", ["7:3 rotor-needs"]),
-    ("  m2: 0.6 kg\n", "", ["7:3 rotor-needs"]),
+    ("  s: 0.35\n", "", ["7:3 needs-besides"]),
+    ("  m2: 0.6 kg\n", "", ["7:3 needs-besides"]),
     ("at: 100 mm", "at: 0 mm", ["11:7 cylinders-in-one-place"]),
     ("m3: 0.5 kg", "m3: 0 kg", ["6:7 out-of-range"]),
     ("at: 100 mm", "at: 0 mm, bank: 90 deg", []),

@@ -205,9 +205,13 @@ FAULTS = [
     ("B: 600 mm", "B: 0 mm", ["3:24 rotor-places"]),
     ("B: 600 mm", "B: -5 mm", ["3:24 rotor-places"]),
     ("700 mm]", "-80 mm]", ["4:22 rotor-places"]),
-    ("  n: 1500 rpm\n", "", ["4:3 rotor-needs"]),
+    ("  n: 1500 rpm\n", "", ["4:3 needs-besides"]),
     ("{r: 80 mm}", "{r: 80 mm, m: 1 kg}", ["6:26 both-given"]),
     ("{r: 80 mm}", "{}", ["6:3 missing-key"]),
+    ("{r: 80 mm}", "{A: {r: 80 mm}, B: {m: 1 kg}}", []),
+    ("{r: 80 mm}", "{A: {r: 80 mm}, B: {r: 60 mm, m: 1 kg}}", ["6:45 both-given"]),
+    ("{r: 80 mm}", "{A: {r: 80 mm}}", ["6:3 rotor-corrections"]),
+    ("{r: 80 mm}", "{r: 80 mm, A: {r: 80 mm}, B: {r: 60 mm}}", ["6:26 both-given"]),
     ("{r: 80 mm}", "{r: 0 mm}", ["6:19 out-of-range"]),
     ("r: 50 mm, angle: 0", "r: 0 mm, angle: 0", ["8:20 out-of-range"]),
     ("m: 2 kg, r: 50 mm, angle: 0", "m: 0 kg, r: 50 mm, angle: 0", ["8:11 out-of-range"]),
@@ -215,8 +219,8 @@ FAULTS = [
     ("angle: 90 deg, z: 300 mm", "angle: 180 deg, z: 100 mm", ["7:3 rotor-balanced"]),
     ("angle: 0 deg, z: 100 mm", "angle: 0 deg, z: 300 mm", []),
     ("A: 0 mm, B: 600 mm", "A: 150 mm, B: 160 mm", []),
-    ("  n: 1500 rpm\n", "  n: 1500 rpm\n  grade: 6.3 mm/s\n", ["6:3 rotor-needs"]),
-    ("  n: 1500 rpm\n", "  n: 1500 rpm\n  mass: 40 kg\n", ["6:3 rotor-needs"]),
+    ("  n: 1500 rpm\n", "  n: 1500 rpm\n  grade: 6.3 mm/s\n", ["6:3 needs-besides"]),
+    ("  n: 1500 rpm\n", "  n: 1500 rpm\n  mass: 40 kg\n", ["6:3 needs-besides"]),
 ]
 
 
@@ -261,3 +265,16 @@ def test_masses_in_the_first_plane_need_no_second(tmp_path: Path) -> None:
     file = tmp_path / "rotor.yaml"
     file.write_text(TEXT.replace("z: 100 mm", "z: 0 mm").replace("z: 300 mm", "z: 0 mm"), encoding="utf-8")
     assert [(one.code, one.mark.line) for one in api.check(file, "en")] == [("rotor-one-plane", 3)]
+
+
+def test_a_radius_in_one_plane_and_a_mass_in_the_other(tmp_path: Path) -> None:
+    file = tmp_path / "rotor.yaml"
+    file.write_text(TEXT.replace("{r: 80 mm}", "{A: {r: 80 mm}, B: {m: 1.5 kg}}"), encoding="utf-8")
+    for language in ("vi", "en"):
+        case = open_case(file, language)  # type: ignore[arg-type]
+        for plane, (r, m) in {"A": (0.08, None), "B": (None, 1.5)}.items():
+            U = case.ledger[rotor_ids.unbalance(plane)].at(1)
+            assert case.ledger[rotor_ids.radius(plane)].at(1) == pytest.approx(r or U / 1.5)
+            assert case.ledger[rotor_ids.mass(plane)].at(1) == pytest.approx(m or U / 0.08)
+        found = [recomputes(chain) for chain in chains(case.document().blocks)]
+        assert False not in found
