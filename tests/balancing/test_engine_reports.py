@@ -14,17 +14,20 @@ from reportgen.balancing.engine_drawings import UP, star
 from reportgen.balancing.engine_sheet import COUPLES, ORDERS
 from reportgen.cases import open_case
 from reportgen.catalogue import sample
+from reportgen.classes import assess
+from reportgen.classes.variants import make_variants
 from reportgen.drawing import Label
 from reportgen.formula import Chain
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
+from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.balancing.test_rotor_reports import ROUNDED, arrows, recomputes
 from tests.gears.test_train_reports import chains
-from tests.lanes import matrix
-from tests.marking import students
+from tests.lanes import matrix, proof
+from tests.marking import demo, students
 from tests.marking.designs import named
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "engine-balance"
@@ -184,3 +187,23 @@ def test_mistakes_have_words_in_both_languages(name: str) -> None:
         for mistake in names:
             assert "{symbol}" in case.words["mistakes"][mistake]
             assert case.words["mistake_names"][mistake]
+
+
+@proof
+def test_a_class_from_variants_to_marks(tmp_path: Path) -> None:
+    """Twelve engines by banks, cranks and speeds; whoever has everything right has all points."""
+    text = TEXT.replace("n: 3000 rpm", "n: {from: 2400 rpm, to: 3600 rpm, step: 100 rpm}")
+    text = text.replace("crank: 180 deg", "crank: {from: 60 deg, to: 180 deg, step: 15 deg}")
+    (tmp_path / "spec.yaml").write_text(text, encoding="utf-8")
+    rows = "".join(f"S{number:02d},Student {number}\n" for number in range(1, 13))
+    (tmp_path / "roster.csv").write_text(f"id,name\n{rows}", encoding="utf-8")
+    made = make_variants(tmp_path / "spec.yaml", tmp_path / "roster.csv", tmp_path / "variants", False, "en")
+    assert len(made.files) == 12
+    (tmp_path / "sheets").mkdir()
+    for path in sorted((tmp_path / "variants").glob("S*.yaml")):
+        scheme = marking_scheme(open_case(path))
+        filled = demo.workbook(scheme.key, students.written(scheme, students.worked_out(scheme)))
+        (tmp_path / "sheets" / f"{path.stem}.xlsx").write_bytes(filled)
+    graded = assess.grade([tmp_path / "sheets"], tmp_path / "variants", Policy())
+    assert graded.problems == ()
+    assert [marking.points for marking in graded.markings] == [marking.out_of for marking in graded.markings]
