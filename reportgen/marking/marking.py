@@ -88,6 +88,8 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:
         verdict = Verdict.unreadable
+    elif place in submission.unread:
+        verdict, worth = Verdict.unread, 0.0
     elif np.isnan(value):
         verdict = Verdict.blank
     elif scheme.distance(row.id, value, key) <= band:

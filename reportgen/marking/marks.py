@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Mark, Problem
@@ -29,6 +29,9 @@ class Submission:
 
     `notes` say what was found beside: rows and positions that the assignment does not ask for, values of
     formulas, numbers that could be read in two ways.  `rows` are the ids of all its rows, filled in or not.
+
+    Of the student's `own_files`, a report or a drawing in place of a sheet, `unread` is what stands there and was not
+    read beyond doubt: it neither earns nor costs anything until it is settled.
     """
 
     assignment: str
@@ -37,6 +40,14 @@ class Submission:
     problems: Mapping[Place, Problem]
     notes: tuple[Problem, ...] = ()
     rows: frozenset[str] = frozenset()
+    unread: Mapping[Place, Problem] = field(default_factory=dict)
+    own_files: bool = False
+
+    @property
+    def share_read(self) -> float:
+        """The share of what stands in the student's own files that was read, 1 where nothing stands there."""
+        count = len(self.values) + len(self.unread)
+        return len(self.values) / count if count else 1.0
 
 
 class Verdict(StrEnum):
@@ -48,6 +59,8 @@ class Verdict(StrEnum):
     unreadable = "unreadable"
     implausible = "implausible"
     """It follows, or is right by chance, but its marks were taken for a reason that the marking lists."""
+    unread = "unread"
+    """It stands in the student's own file, but was not read beyond doubt: it is not counted until it is settled."""
 
 
 @dataclass(frozen=True, slots=True)
