@@ -75,7 +75,7 @@ def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
 
 
 def _is_doubtful(text: str, marks: Marks) -> bool:
-    """Whether three figures behind a mark may be thousands: not in 0,125, nor where the whole text has it for decimals."""
+    """Whether three figures behind a mark may be thousands; not in 0,125, nor where the mark is that of decimals."""
     whole = re.match(r"[-+–]?\s*(\d+)([.,])", text)
     assert whole is not None
     return not whole[1].startswith("0") and (marks.mixed or whole[2] != marks.decimal)

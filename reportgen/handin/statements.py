@@ -114,7 +114,7 @@ def statements(text: str, symbols: Symbols) -> list[Statement]:
 
 
 def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[str] | None) -> str:
-    """ "yes" where a statement begins at a symbol, "" where it stands in another one, "doubt" where it may do either."""
+    """`yes` where a statement begins at a symbol, `doubt` where it may stand in another one, "" where it does."""
     start = match.start()
     front = text[:start]
     if not front.strip() or _BULLET.fullmatch(front):
