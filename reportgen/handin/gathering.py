@@ -14,7 +14,7 @@ from reportgen.handin import FileReading, agree, figures
 from reportgen.handin.numbers import Marks, read_value
 from reportgen.handin.statements import ANTICLOCKWISE, CLOCKWISE
 from reportgen.handin.symbols import Symbols, bare
-from reportgen.handin.word_text import Line, WordMark
+from reportgen.handin.word_text import TextLine, WordMark
 from reportgen.marking.marks import Answer, Place
 from reportgen.report.key import Key, KeyRow
 
@@ -82,7 +82,7 @@ class Gathering:
             self.clashes[place] = Fault("unread-two-values", mark, {"text": answer.text, "first": first.text})
 
     def number(
-        self, row: KeyRow, position: int, number: str, unit: str, mark: WordMark, words: str, barred: bool
+        self, row: KeyRow, position: int, number: str, unit: str, mark: WordMark, words: str, barred: bool = False
     ) -> None:
         """Read a number for a place, with the sense that is said in words beside it."""
         text = f"{number.strip()} {unit}".strip()
@@ -121,7 +121,7 @@ class Gathering:
         unread = {place: fault for place, fault in self.doubts.items() if place not in self.values}
         return FileReading(self.key.id, self.file, self.values, {**unread, **self.clashes}, tuple(self.notes))
 
-    def mark(self, line: Line, index: int) -> WordMark:
+    def mark(self, line: TextLine, index: int) -> WordMark:
         """Where a letter of a line stands."""
         node = line.nodes[min(max(index, 0), len(line.nodes) - 1)]
         return WordMark(self.file, line.number, index + 1, element=node.number)

@@ -76,7 +76,7 @@ class Statement:
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class StatedValue:
     """The number of a statement: its text and unit as written, its index in the line, the words behind it."""
 
     number: str
@@ -135,7 +135,7 @@ def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[
     return "doubt" if symbols.rows_of(match[2]) else ""
 
 
-def value_of(statement: Statement) -> Value | None:
+def value_of(statement: Statement) -> StatedValue | None:
     """The number behind the last “=” of a statement; None where no number ends it."""
     own = statement.clauses[0]
     relation = list(RELATION.finditer(own))
@@ -146,7 +146,7 @@ def value_of(statement: Statement) -> Value | None:
     if match is None:
         return None
     at = statement.at + start + match.start(1)
-    return Value(match[1], match[2] or match[3] or "", at, match[4] or "")
+    return StatedValue(match[1], match[2] or match[3] or "", at, match[4] or "")
 
 
 def is_worked(statement: Statement) -> bool:

@@ -13,8 +13,8 @@ from functools import cached_property
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.handin.word_nodes import Node, parse
-from reportgen.handin.word_text import Block, Reader, heading_levels
+from reportgen.handin.word_nodes import XmlNode, parse
+from reportgen.handin.word_text import Block, TextReader, heading_levels
 from reportgen.workbook.package import Bounds, Package, RefusedError
 
 LARGEST = 50_000_000
@@ -45,7 +45,7 @@ class WordFile:
     package: Package
     document: str
     content: bytes
-    tree: Node
+    tree: XmlNode
 
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
@@ -55,7 +55,7 @@ class WordFile:
         levels: dict[str, int] = {}
         if styles in self.package:
             levels = heading_levels(parse(self.package, styles, self.package.content(styles)))
-        return tuple(Reader(levels).blocks(body.children if body else ()))
+        return tuple(TextReader(levels).blocks(body.children if body else ()))
 
     @property
     def relations(self) -> str:

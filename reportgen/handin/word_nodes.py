@@ -31,7 +31,7 @@ _NAMES = {
 
 
 @dataclass(slots=True, eq=False)
-class Node:
+class XmlNode:
     """An element: its tag (`w:p`), attributes, what stands in it, and the bytes from `start` to `end` that it takes.
 
     `number` counts the elements of the part in their order, from 0.
@@ -41,9 +41,9 @@ class Node:
     attributes: dict[str, str]
     number: int
     start: int
-    parent: Node | None = None
+    parent: XmlNode | None = None
     end: int = 0
-    children: list[Node] = field(default_factory=list)
+    children: list[XmlNode] = field(default_factory=list)
     pieces: list[str] = field(default_factory=list)
 
     @property
@@ -55,25 +55,25 @@ class Node:
         """An attribute."""
         return self.attributes.get(name, otherwise)
 
-    def child(self, tag: str) -> Node | None:
+    def child(self, tag: str) -> XmlNode | None:
         """The first child of a tag."""
         return next((child for child in self.children if child.tag == tag), None)
 
-    def at(self, *tags: str) -> Node | None:
+    def at(self, *tags: str) -> XmlNode | None:
         """What stands in first children of these tags, one in the other."""
-        node: Node | None = self
+        node: XmlNode | None = self
         for tag in tags:
             node = node.child(tag) if node else None
         return node
 
-    def walk(self) -> Iterator[Node]:
+    def walk(self) -> Iterator[XmlNode]:
         """It and all that is in it, in order."""
         yield self
         for child in self.children:
             yield from child.walk()
 
     @property
-    def above(self) -> Iterator[Node]:
+    def above(self) -> Iterator[XmlNode]:
         """What it stands in, from the nearest on."""
         node = self.parent
         while node is not None:
@@ -86,14 +86,14 @@ def _named(name: str) -> str:
     return f"{_NAMES.get(space, '?')}:{local}" if space else local
 
 
-def parse(package: Package, name: str, content: bytes) -> Node:
+def parse(package: Package, name: str, content: bytes) -> XmlNode:
     """The tree of a part of XML in UTF-8; raises `RefusedError` for damage, a document type, too much in it."""
     parser: Any = expat.ParserCreate("utf-8", namespace_separator=" ")
     parser.buffer_text = False
     count = 0
-    top: Node | None = None
-    open_nodes: list[Node] = []
-    closed: list[Node] = []
+    top: XmlNode | None = None
+    open_nodes: list[XmlNode] = []
+    closed: list[XmlNode] = []
     """The one node whose end tag has been met; it ends where the next piece begins."""
 
     def settle() -> None:
@@ -107,7 +107,7 @@ def parse(package: Package, name: str, content: bytes) -> Node:
             raise package.refused("sheet-beyond-elements", text=name, largest=str(MOST_ELEMENTS))
         parent = open_nodes[-1] if open_nodes else None
         named = {_named(key): value for key, value in attributes.items()}
-        node = Node(_named(tag), named, count, parser.CurrentByteIndex, parent)
+        node = XmlNode(_named(tag), named, count, parser.CurrentByteIndex, parent)
         count += 1
         if parent is not None:
             parent.children.append(node)

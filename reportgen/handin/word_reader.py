@@ -12,7 +12,7 @@ from reportgen.handin.numbers import marks_of
 from reportgen.handin.statements import Statement
 from reportgen.handin.symbols import Symbols
 from reportgen.handin.word_tables import read_table
-from reportgen.handin.word_text import OBJECT, Block, Grid, Line, WordMark
+from reportgen.handin.word_text import OBJECT, Block, TextGrid, TextLine, WordMark
 from reportgen.report.key import Key, KeyRow
 
 FREE = 10
@@ -40,11 +40,11 @@ def read_report(blocks: Sequence[Block], key: Key, file: str) -> FileReading:
     return gathering.reading()
 
 
-def _lines(blocks: Sequence[Block]) -> list[Line]:
+def _lines(blocks: Sequence[Block]) -> list[TextLine]:
     """All lines, those of tables too."""
-    lines: list[Line] = []
+    lines: list[TextLine] = []
     for block in blocks:
-        if isinstance(block, Line):
+        if isinstance(block, TextLine):
             lines.append(block)
         else:
             for cell in dict.fromkeys(cell for row in block.rows for cell in row):
@@ -65,7 +65,7 @@ class _Reader:
         self.first_object: WordMark | None = None
 
     def block(self, block: Block) -> None:
-        if isinstance(block, Grid):
+        if isinstance(block, TextGrid):
             read_table(block, self.gathering, self.statement_line, self.hand.label)
             return
         text = block.text
@@ -79,7 +79,7 @@ class _Reader:
 
     # --- the position in hand ---------------------------------------------------------------------
 
-    def heading(self, line: Line) -> None:
+    def heading(self, line: TextLine) -> None:
         labels = said.labels_in(line.text)
         self.open = None
         if said.names_several(line.text):
@@ -89,7 +89,7 @@ class _Reader:
         elif line.level <= self.hand.level:
             self.hand = _Hand()
 
-    def sentence(self, line: Line) -> None:
+    def sentence(self, line: TextLine) -> None:
         """A line without “=”: it may name the position that the next ones are of, or begin something else."""
         text = line.text
         self.count_objects(line, self.hand.label)
@@ -118,7 +118,7 @@ class _Reader:
 
     # --- statements -------------------------------------------------------------------------------
 
-    def statement_line(self, line: Line, label: str | None) -> None:
+    def statement_line(self, line: TextLine, label: str | None) -> None:
         """All statements of a line; those without a position of their own are of the one with the `label`."""
         gathering, text = self.gathering, line.text
         self.count_objects(line, label)
@@ -178,7 +178,7 @@ class _Reader:
         # A line that is of another position than the heading leaves it open of which what has none is.
         return (label, False) if named <= {label} else (None, False)
 
-    def statement(self, line: Line, statement: Statement, row: KeyRow, label: str | None, last: bool) -> None:
+    def statement(self, line: TextLine, statement: Statement, row: KeyRow, label: str | None, last: bool) -> None:
         """Read the value of a statement of a row; without one it may go on in the next line."""
         gathering = self.gathering
         position = gathering.position(row, label)
@@ -195,13 +195,13 @@ class _Reader:
         if position is None:
             gathering.doubt(row, None, "unread-no-position", mark, shown)
             return
-        gathering.number(row, position, value.number, value.unit, mark, statement.text, statement.barred)
+        gathering.number(row, position, value.number, value.unit, mark, words=statement.text, barred=statement.barred)
         if at_end and not value.unit:
             self.open = row, label
 
     # --- equations that nothing opens --------------------------------------------------------------
 
-    def count_objects(self, line: Line, label: str | None) -> None:
+    def count_objects(self, line: TextLine, label: str | None) -> None:
         count = line.text.count(OBJECT)
         if count:
             self.hidden[label] = self.hidden.get(label, 0) + count

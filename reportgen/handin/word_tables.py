@@ -10,7 +10,7 @@ from reportgen.base.units import QuantityFault
 from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering
 from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value
-from reportgen.handin.word_text import OBJECT, Cell, Grid, Line
+from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
 from reportgen.marking.numbers import is_blank
 from reportgen.report.key import KeyRow
 
@@ -29,8 +29,8 @@ _NUMBER_CELL = re.compile(
 _NUMBERED = re.compile(r"\s*\(\d+(?:[.,]\d+)*\)\s*")
 """The number of an equation."""
 
-Statements = Callable[[Line, str | None], None]
-Cells = Sequence[Sequence[Cell]]
+Statements = Callable[[TextLine, str | None], None]
+TextCells = Sequence[Sequence[TextCell]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,15 +41,15 @@ class _Quantity:
     unit: str | None
 
 
-def read_table(grid: Grid, gathering: Gathering, line: Statements, label: str | None) -> None:
+def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: str | None) -> None:
     """Read a table that stands where the position with the `label` is in hand."""
     cells = list(dict.fromkeys(cell for row in grid.rows for cell in row))
-    nested = [block for cell in cells for block in cell.blocks if isinstance(block, Grid)]
+    nested = [block for cell in cells for block in cell.blocks if isinstance(block, TextGrid)]
     texts = {id(cell): cell.line.text for cell in cells}
     if any(said.RELATION.search(text) for text in texts.values()):
         _read_statements(grid.rows, gathering, line, label)
     elif grid.rows and len({len(row) for row in grid.rows}) == 1:
-        ways: list[Cells] = [grid.rows, [list(column) for column in zip(*grid.rows, strict=True)]]
+        ways: list[TextCells] = [grid.rows, [list(column) for column in zip(*grid.rows, strict=True)]]
         if not any(_read_positions(way, gathering) for way in ways):
             any(_read_single(way, gathering, label) for way in ways)
     else:
@@ -59,7 +59,7 @@ def read_table(grid: Grid, gathering: Gathering, line: Statements, label: str | 
         read_table(inner, gathering, line, label)
 
 
-def _leave(cell: Cell, gathering: Gathering) -> None:
+def _leave(cell: TextCell, gathering: Gathering) -> None:
     """The quantity of a cell whose place in the table is not certain."""
     quantity = _quantity(cell, gathering)
     for row in quantity.rows if quantity else ():
@@ -69,7 +69,7 @@ def _leave(cell: Cell, gathering: Gathering) -> None:
 # --- statements in cells ----------------------------------------------------------------------------
 
 
-def _read_statements(rows: Cells, gathering: Gathering, line: Statements, label: str | None) -> None:
+def _read_statements(rows: TextCells, gathering: Gathering, line: Statements, label: str | None) -> None:
     """Statements set out in a grid: cells side by side are a line, unless a head names the position of each."""
     heads = {column: text for column, cell in enumerate(rows[0]) if (text := _named_position(cell, gathering))}
     sides = {number: text for number, row in enumerate(rows) if row and (text := _named_position(row[0], gathering))}
@@ -82,7 +82,7 @@ def _read_statements(rows: Cells, gathering: Gathering, line: Statements, label:
                 if said.RELATION.search(cell.line.text):
                     line(cell.line, own.pop() if len(own) == 1 else None)
             continue
-        joined = Line(apart[0].line.number if apart else 0)
+        joined = TextLine(apart[0].line.number if apart else 0)
         for cell in apart:
             text = cell.line.text
             if not text.strip() or _NUMBERED.fullmatch(text):
@@ -97,7 +97,7 @@ def _read_statements(rows: Cells, gathering: Gathering, line: Statements, label:
             line(joined, label)
 
 
-def _named_position(cell: Cell, gathering: Gathering) -> str | None:
+def _named_position(cell: TextCell, gathering: Gathering) -> str | None:
     """The label of a cell that says by its word that it is a position."""
     text = cell.line.text
     return _label(text, gathering) if said.SAYS_POSITION.search(text) or "VT" in text else None
@@ -111,7 +111,7 @@ def _label(text: str, gathering: Gathering) -> str | None:
 # --- values in cells --------------------------------------------------------------------------------
 
 
-def _read_positions(rows: Cells, gathering: Gathering) -> bool:
+def _read_positions(rows: TextCells, gathering: Gathering) -> bool:
     """Read a table with positions across one of its first rows and quantities down its first columns."""
     for number, row in enumerate(rows[:HEADS]):
         labels = {column: text for column, cell in enumerate(row) if (text := _label(cell.line.text, gathering))}
@@ -127,7 +127,7 @@ def _read_positions(rows: Cells, gathering: Gathering) -> bool:
     return False
 
 
-def _read_row(cells: Sequence[Cell], labels: Mapping[int, str], gathering: Gathering) -> bool:
+def _read_row(cells: Sequence[TextCell], labels: Mapping[int, str], gathering: Gathering) -> bool:
     """Read the values of a quantity by positions; whether the row has one that is known."""
     beside = [cell for column, cell in enumerate(cells) if column not in labels]
     named = _named(beside, gathering)
@@ -143,7 +143,7 @@ def _read_row(cells: Sequence[Cell], labels: Mapping[int, str], gathering: Gathe
     return True
 
 
-def _read_single(rows: Cells, gathering: Gathering, label: str | None) -> bool:
+def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bool:
     """Read a table of quantities with one value each, at the position in hand or at all."""
     read = False
     for row in rows:
@@ -167,7 +167,9 @@ def _read_single(rows: Cells, gathering: Gathering, label: str | None) -> bool:
     return read
 
 
-def _read_cell(cell: Cell, row: KeyRow, position: int, unit: str | None, several: bool, gathering: Gathering) -> None:
+def _read_cell(
+    cell: TextCell, row: KeyRow, position: int, unit: str | None, several: bool, gathering: Gathering
+) -> None:
     """Read one cell for a place; `unit` is that of its row, None where it is not understood."""
     line = cell.line
     text = line.text
@@ -185,16 +187,16 @@ def _read_cell(cell: Cell, row: KeyRow, position: int, unit: str | None, several
         gathering.doubt(row, position, "unread-unit", mark, text, unit=row.unit)
     else:
         own = match[2] or match[3] or unit
-        gathering.number(row, position, match[1], own, mark, match[4] or "", barred=False)
+        gathering.number(row, position, match[1], own, mark, words=match[4] or "")
 
 
-def _named(cells: Sequence[Cell], gathering: Gathering) -> tuple[_Quantity, Cell] | None:
+def _named(cells: Sequence[TextCell], gathering: Gathering) -> tuple[_Quantity, TextCell] | None:
     """The one quantity that some cells name, and the cell; None where they name none or several."""
     named = [(quantity, cell) for cell in dict.fromkeys(cells) if (quantity := _quantity(cell, gathering))]
     return named[0] if len({tuple(row.id for row in quantity.rows) for quantity, _ in named}) == 1 else None
 
 
-def _quantity(cell: Cell, gathering: Gathering) -> _Quantity | None:
+def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
     """What a cell names: v_B, Velocity v_B (m/s), v_B, m/s."""
     text = cell.line.text.strip()
     if rows := gathering.rows_of(text):
@@ -213,7 +215,7 @@ def _asked(rows: Sequence[KeyRow]) -> tuple[KeyRow, ...]:
     return tuple(row for row in rows if row.positions)
 
 
-def _unit_of(quantity: _Quantity, beside: Sequence[Cell]) -> str | None:
+def _unit_of(quantity: _Quantity, beside: Sequence[TextCell]) -> str | None:
     """The unit of a row: said beside its symbol, or else in a cell of its own."""
     if quantity.unit != "":
         return quantity.unit

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Mark
-from reportgen.handin.word_nodes import Node
+from reportgen.handin.word_nodes import XmlNode
 
 OBJECT = "\ufffc"
 """In place of an equation that another program has made, which nothing here opens."""
@@ -32,7 +32,7 @@ class WordMark(Mark):
 
 
 @dataclass(slots=True)
-class Line:
+class TextLine:
     """A paragraph as text; `nodes` has the element of each letter.
 
     `level` is that of a heading, 0 for any other; `bold` says that all of it is.
@@ -42,42 +42,42 @@ class Line:
     level: int = 0
     bold: bool = False
     letters: list[str] = field(default_factory=list)
-    nodes: list[Node] = field(default_factory=list)
+    nodes: list[XmlNode] = field(default_factory=list)
 
     @property
     def text(self) -> str:
         return "".join(self.letters)
 
-    def put(self, text: str, node: Node) -> None:
+    def put(self, text: str, node: XmlNode) -> None:
         """Letters as they are read, those without width left out."""
         for letter in text:
             for plain in LETTERS.get(letter, letter):
                 self.letters.append(plain)
                 self.nodes.append(node)
 
-    def extend(self, other: Line) -> None:
+    def extend(self, other: TextLine) -> None:
         self.letters += other.letters
         self.nodes += other.nodes
 
 
 @dataclass(slots=True)
-class Grid:
+class TextGrid:
     """A table by rows of cells; a cell that goes over several columns or rows stands in each of them."""
 
-    rows: list[list[Cell]]
+    rows: list[list[TextCell]]
 
 
 @dataclass(slots=True, eq=False)
-class Cell:
+class TextCell:
     """A cell: its paragraphs, and the tables in it."""
 
-    lines: list[Line]
-    blocks: list[Line | Grid]
+    lines: list[TextLine]
+    blocks: list[TextLine | TextGrid]
 
     @property
-    def line(self) -> Line:
+    def line(self) -> TextLine:
         """All its paragraphs in one line, broken as they are."""
-        joined = Line(self.lines[0].number if self.lines else 0)
+        joined = TextLine(self.lines[0].number if self.lines else 0)
         for number, line in enumerate(self.lines):
             if number and line.nodes:
                 joined.put("\n", line.nodes[0])
@@ -85,7 +85,7 @@ class Cell:
         return joined
 
 
-Block = Line | Grid
+Block = TextLine | TextGrid
 
 
 def _letters() -> dict[str, str]:
@@ -130,7 +130,7 @@ _OFF = frozenset({"0", "false", "off", "none"})
 _EQUATIONS = re.compile(r"equation|mathtype", re.IGNORECASE)
 
 
-class Reader:
+class TextReader:
     """Reads the body of a document to blocks in their order."""
 
     def __init__(self, levels: Mapping[str, int]) -> None:
@@ -138,7 +138,7 @@ class Reader:
         """Levels of headings by the ids of styles."""
         self.paragraphs = 0
 
-    def blocks(self, nodes: Iterable[Node]) -> Iterator[Block]:
+    def blocks(self, nodes: Iterable[XmlNode]) -> Iterator[Block]:
         """Paragraphs and tables, also those in content controls and in boxes of text, which come behind their line."""
         for node in nodes:
             if node.tag == "w:p":
@@ -153,7 +153,7 @@ class Reader:
             elif node.tag == "mc:AlternateContent":
                 yield from self.blocks(node.children[:1])
 
-    def line(self, paragraph: Node) -> Line:
+    def line(self, paragraph: XmlNode) -> TextLine:
         """A paragraph as a line."""
         self.paragraphs += 1
         style = paragraph.at("w:pPr", "w:pStyle")
@@ -161,7 +161,7 @@ class Reader:
         level = self.levels.get(style.get("w:val"), 0) if style else 0
         if own is not None and own.get("w:val").isdecimal() and int(own.get("w:val")) < 9:
             level = int(own.get("w:val")) + 1
-        line = Line(self.paragraphs, level)
+        line = TextLine(self.paragraphs, level)
         runs = [node for node in _within(paragraph) if node.tag == "w:r" and any(c.tag == "w:t" for c in node.children)]
         line.bold = bool(runs) and all(_is_on(run, "w:b") for run in runs)
         _put(paragraph, line)
@@ -169,24 +169,24 @@ class Reader:
             del line.letters[LONGEST:], line.nodes[LONGEST:]
         return line
 
-    def grid(self, table: Node) -> Grid:
+    def grid(self, table: XmlNode) -> TextGrid:
         """A table with its merged cells in all their places."""
-        rows: list[list[Cell]] = []
+        rows: list[list[TextCell]] = []
         for tr in _through(table, "w:tr"):
-            row: list[Cell] = []
+            row: list[TextCell] = []
             for tc in _through(tr, "w:tc"):
                 span, merged = tc.at("w:tcPr", "w:gridSpan"), tc.at("w:tcPr", "w:vMerge")
                 width = int(span.get("w:val")) if span is not None and span.get("w:val").isdecimal() else 1
                 goes_on = merged is not None and merged.get("w:val", "continue") == "continue"
                 above = rows[-1][len(row)] if goes_on and rows and len(row) < len(rows[-1]) else None
                 inner = list(self.blocks(tc.children))
-                cell = above or Cell([one for one in inner if isinstance(one, Line)], inner)
+                cell = above or TextCell([one for one in inner if isinstance(one, TextLine)], inner)
                 row += [cell] * min(max(width, 1), 64)
             rows.append(row)
-        return Grid(rows)
+        return TextGrid(rows)
 
 
-def _through(node: Node, tag: str) -> Iterator[Node]:
+def _through(node: XmlNode, tag: str) -> Iterator[XmlNode]:
     """The rows of a table, or the cells of a row, also of content controls among them."""
     for child in node.children:
         if child.tag == tag:
@@ -195,7 +195,7 @@ def _through(node: Node, tag: str) -> Iterator[Node]:
             yield from _through(child, tag)
 
 
-def _within(node: Node) -> Iterator[Node]:
+def _within(node: XmlNode) -> Iterator[XmlNode]:
     """All in a paragraph that is seen, without what is in boxes."""
     for child in node.children:
         if child.tag not in _UNSEEN and child.tag not in ("w:drawing", "w:pict", "mc:AlternateContent"):
@@ -203,7 +203,7 @@ def _within(node: Node) -> Iterator[Node]:
             yield from _within(child)
 
 
-def _boxes(paragraph: Node) -> Iterator[Node]:
+def _boxes(paragraph: XmlNode) -> Iterator[XmlNode]:
     """The boxes of text that hang on a paragraph; of one that is there twice, for old and new programs, the new one."""
     pending = list(reversed(paragraph.children))
     while pending:
@@ -216,17 +216,17 @@ def _boxes(paragraph: Node) -> Iterator[Node]:
             pending += reversed(node.children)
 
 
-def _is_on(run: Node, name: str) -> bool:
+def _is_on(run: XmlNode, name: str) -> bool:
     switch = run.at("w:rPr", name)
     return switch is not None and switch.get("w:val", "1") not in _OFF
 
 
-def is_unseen(run: Node) -> bool:
+def is_unseen(run: XmlNode) -> bool:
     """Whether the text of a run is hidden or struck out."""
     return any(_is_on(run, name) for name in ("w:vanish", "w:strike", "w:dstrike"))
 
 
-def _put(node: Node, line: Line) -> None:
+def _put(node: XmlNode, line: TextLine) -> None:
     for child in node.children:
         if child.tag == "w:r":
             _put_run(child, line)
@@ -241,7 +241,7 @@ def _put(node: Node, line: Line) -> None:
             _put(child, line)
 
 
-def _put_run(run: Node, line: Line) -> None:
+def _put_run(run: XmlNode, line: TextLine) -> None:
     if is_unseen(run):
         return
     raised = _raised(run)
@@ -251,7 +251,7 @@ def _put_run(run: Node, line: Line) -> None:
     line.put(text, run)
 
 
-def _text_of(child: Node, run: Node) -> str:
+def _text_of(child: XmlNode, run: XmlNode) -> str:
     match child.tag:
         case "w:t":
             fonts = run.at("w:rPr", "w:rFonts")
@@ -271,7 +271,7 @@ def _text_of(child: Node, run: Node) -> str:
     return ""
 
 
-def _symbol(node: Node) -> str:
+def _symbol(node: XmlNode) -> str:
     """A letter of the font Symbol that was put in by itself."""
     code = node.get("w:char")
     if node.get("w:font").casefold() != "symbol" or not re.fullmatch("[0-9A-Fa-f]{4}", code):
@@ -280,7 +280,7 @@ def _symbol(node: Node) -> str:
     return _SYMBOL_FONT.get(letter, letter)
 
 
-def _raised(run: Node) -> str:
+def _raised(run: XmlNode) -> str:
     """ "_" or "^" of an index or an exponent, "" of what stands on the line."""
     align, position = run.at("w:rPr", "w:vertAlign"), run.at("w:rPr", "w:position")
     if align is not None:
@@ -292,12 +292,12 @@ def _raised(run: Node) -> str:
 # --- built formulas -------------------------------------------------------------------------------
 
 
-def _put_math(node: Node, line: Line) -> None:
+def _put_math(node: XmlNode, line: TextLine) -> None:
     for child in node.children:
         _put_built(child, line)
 
 
-def _put_built(node: Node, line: Line) -> None:
+def _put_built(node: XmlNode, line: TextLine) -> None:
     """A built formula in a line."""
 
     def part(name: str) -> None:
@@ -344,7 +344,7 @@ def _put_built(node: Node, line: Line) -> None:
             _put_math(node, line)
 
 
-def _put_fence(node: Node, line: Line) -> None:
+def _put_fence(node: XmlNode, line: TextLine) -> None:
     """Parentheses, bars and so on."""
 
     def sign(name: str, usual: str) -> str:
@@ -358,7 +358,7 @@ def _put_fence(node: Node, line: Line) -> None:
     line.put(sign("m:endChr", ")"), node)
 
 
-def heading_levels(styles: Node) -> dict[str, int]:
+def heading_levels(styles: XmlNode) -> dict[str, int]:
     """The levels of headings by the ids of the styles that are some, or stand on one that is."""
     based: dict[str, str] = {}
     levels: dict[str, int] = {}
