@@ -109,7 +109,7 @@ def statements(text: str, symbols: Symbols) -> list[Statement]:
         lead = "".join(_APART.split(made[-1].text, maxsplit=1)[1:]) if made else front
         body = text[match.end() : end]
         barred = bool(match[1] and match[3])
-        made.append(Statement(match[2], lead, front, body, match.end(), barred, run_on))
+        made.append(Statement(match[2], lead, front, body, match.end(), barred=barred, doubt=run_on))
     return made
 
 
