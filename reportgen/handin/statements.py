@@ -37,7 +37,7 @@ CLOCKWISE = re.compile(
 ANTICLOCKWISE = re.compile(r"ngược\s+chiều\s+kim|anti-?clockwise|counter-?clockwise|↺", re.IGNORECASE)
 
 _SYMBOL = r"[^\W\d_][\w′]*(?:[_^](?:\{(?:[^{}]|\{[^{}]*\})*\}|\([^()\s]{1,3}\)|[\w′]+))*′*"
-_HEAD = re.compile(rf"(?<![\w′_^{{}}])(\|\s*)?({_SYMBOL})(\s*\|)?\s*(?=[=≈])")
+_HEAD = re.compile(rf"(?<![\w′_^{{}}])(\|\s*)?({_SYMBOL})(\s*\|)?\s*(\([0-9]{{1,3}}[a-z]?′*\))?\s*(?=[=≈])")
 _OPERATORS = frozenset("+-–·*/×(√^_=≈{∑÷|<>≤≥[")
 _BULLET = re.compile(r"\s*(?:[-–+•*▪►✓]|\(?\w{1,3}[.)]|\(?\d{1,2}(?:\.\d{1,2})*[.)]?)\s+")
 _WORD = re.compile(r"[^\W\d_]{2,}$")
@@ -68,6 +68,8 @@ class Statement:
     at: int
     barred: bool = False
     doubt: bool = False
+    label: str = ""
+    """Of the position that stands right behind the symbol, v_B(3)."""
 
     @property
     def clauses(self) -> list[str]:
@@ -108,8 +110,14 @@ def statements(text: str, symbols: Symbols) -> list[Statement]:
         front = RELATION.split(made[-1].text)[-1] if made else text[: match.start()]
         lead = "".join(_APART.split(made[-1].text, maxsplit=1)[1:]) if made else front
         body = text[match.end() : end]
-        barred = bool(match[1] and match[3])
-        made.append(Statement(match[2], lead, front, body, match.end(), barred=barred, doubt=run_on))
+        barred, symbol, label = bool(match[1] and match[3]), match[2], ""
+        if match[4] and symbols.rows_of(symbol + match[4]):
+            # M_cb(1) is one symbol, v_B(3) a value at position 3.
+            symbol += match[4]
+        elif match[4]:
+            label = match[4].strip("()")
+        own = Statement(symbol, lead, front, body, match.end(), barred=barred, doubt=run_on, label=label)
+        made.append(own)
     return made
 
 

@@ -99,10 +99,12 @@ class _Reader:
             self.open = None
         labels = said.labels_in(text)
         compared = said.is_compared(text)
-        if said.names_several(text) or (labels and compared):
-            # It tells of positions; which is in hand stays, if a heading said so and this only compares.
+        if said.names_several(text):
+            # Which is in hand stays, if a heading said so and this only compares.
             if not compared or self.hand.level == FREE:
                 self.hand = _Hand(None, self.hand.level)
+        elif labels and compared:
+            return
         elif labels:
             self.hand = _Hand(labels[0], FREE)
         elif said.names_another(text) or (line.bold and len(text) < SHORT and not said.names_chapter(text)):
@@ -168,9 +170,11 @@ class _Reader:
         before, behind = said.labels_in(statement.lead), said.labels_in(statement.clauses[0])
         if said.names_several(statement.lead) or said.names_several(statement.clauses[0]):
             return None, True
-        own = before[0] if before else None
+        own = statement.label or (before[0] if before else None)
         if behind:
-            if (own or carried or label) not in (None, behind[0]):
+            # What only an earlier sentence says goes behind what this one says itself.
+            firm = own or carried or (label if label != self.hand.label or self.hand.level < FREE else None)
+            if firm not in (None, behind[0]):
                 return None, True
             return behind[0], False
         if own or carried:

@@ -20,7 +20,7 @@ _POSITION = re.compile(
     r"(?:vị\s*trí|position|pos\.|VT)?[\s(]*(?:thứ|số|no\.?)?[\s:(]*([0-9]{1,3}[a-z]?′*)[\s)]*", re.IGNORECASE
 )
 _QUANTITY = re.compile(
-    r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?)\s*"
+    r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?(?:\(\d\)\}?)?)\s*"
     r"(?:,\s*(?P<comma>[^\s,]+(?:\s[^\s,]+)?)|[(\[]\s*(?P<round>[^()]*(?:\([^()]*\))?[^()]*?)\s*[)\]])?"
 )
 _NUMBER_CELL = re.compile(
@@ -193,7 +193,13 @@ def _read_cell(
 def _named(cells: Sequence[TextCell], gathering: Gathering) -> tuple[_Quantity, TextCell] | None:
     """The one quantity that some cells name, and the cell; None where they name none or several."""
     named = [(quantity, cell) for cell in dict.fromkeys(cells) if (quantity := _quantity(cell, gathering))]
+    # The newton beside a force is not the power N.
+    named = [pair for pair in named if not _says_unit(pair[1])] or named
     return named[0] if len({tuple(row.id for row in quantity.rows) for quantity, _ in named}) == 1 else None
+
+
+def _says_unit(cell: TextCell) -> bool:
+    return bool(re.fullmatch(UNIT, cell.line.text.strip().strip("()[]").strip()))
 
 
 def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
