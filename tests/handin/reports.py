@@ -352,15 +352,9 @@ def many_in_a_line(report: Report) -> None:
         rows = report.at(k)
         for start in range(0, len(rows), 3):
             joint = report.chance.choice((", ", "; ", report.say(" và ", " and "), ". "))
+            worded = joint.strip().isalpha()
             parts = [
-                report.line(
-                    row,
-                    k,
-                    unit=joint != report.say(" và ", " and ")
-                    and report.chance.random() < 0.8
-                    or joint == report.say(" và ", " and "),
-                )
-                for row in rows[start : start + 3]
+                report.line(row, k, unit=worded or report.chance.random() < 0.8) for row in rows[start : start + 3]
             ]
             report.put(docx.run(joint).join(parts) + docx.run("."))
 
@@ -411,6 +405,125 @@ def unsaid(report: Report) -> None:
             report.put(docx.run(lead) + report.symbol(row) + docx.run(f" = {report.any_number()}{report.unit(row)}"))
 
 
+def _traps(report: Report, row: KeyRow, other: KeyRow, k: int) -> list[Callable[[], str]]:
+    """Lines with a number that is no value of the row at the position, whatever it looks like."""
+    number, unit, symbol = report.any_number, report.unit(row), report.symbol
+    away = report.chance.choice([one for one in POSITIONS if one != k])
+    text = docx.run
+    say = report.say
+
+    return [
+        lambda: symbol(row) + text(f" = {report.draw(row, k)}{unit} > ") + symbol(other) + text(" = x"),
+        lambda: text("sin ") + symbol(row) + text(f" = {number()}"),
+        lambda: text("2 ") + symbol(row) + text(f" = {number()}{unit}"),
+        lambda: symbol(row) + text(" : ") + symbol(other) + text(" = 3 : 2"),
+        lambda: (
+            text(say("Giá trị lớn nhất của ", "The largest value of ")) + symbol(row) + text(f" = {number()}{unit}")
+        ),
+        lambda: (
+            symbol(row) + text(f" = {number()}; {number()}; {number()}{unit} ({say('vị trí', 'positions')} 2, 5, 7)")
+        ),
+        lambda: (
+            text(say(f"Ở {report.position(away)} và 9, ", f"At {report.position(away)} and 9, "))
+            + symbol(row)
+            + text(f" = {number()}{unit}")
+        ),
+        lambda: symbol(row) + text(f" = {number()} ÷ {number()}{unit}"),
+        lambda: symbol(row) + text(f" = {number()}{unit} {say('hoặc', 'or')} {number()}{unit}"),
+        lambda: symbol(row) + text(f" = {number()}{unit} ({say('sai', 'wrong')})"),
+        lambda: symbol(row) + docx.run("2", docx.HIGH) + text(f" = {number()}"),
+        lambda: (
+            text(say("Nếu ", "If ")) + symbol(row) + text(f" = {number()}{unit} {say('thì', 'then')} x = {number()}")
+        ),
+        lambda: text("k = ") + symbol(row) + text("/") + symbol(other) + text(f" = {number()}"),
+        lambda: text("F = x + ") + symbol(row) + text(f" = {number()}"),
+        lambda: symbol(row) + text(" + ") + symbol(other) + text(f" = {number()}{unit}"),
+        lambda: symbol(row) + text(f" = {number()} kWh"),
+        lambda: (
+            symbol(row)
+            + text(
+                f" = {report.chance.randrange(2, 9)}.{report.chance.randrange(100, 999)},{report.chance.randrange(10, 99)}{unit}"
+            )
+        ),
+        lambda: text("X ") + symbol(row) + text(f" = {number()}{unit}"),
+        lambda: text("z = k ") + symbol(row) + text(f" = {number()}{unit}"),
+        lambda: (
+            text(say("Theo sách, tại điểm chết ", "By the book, at the dead centre "))
+            + symbol(row)
+            + text(f" = {number()}{unit}")
+        ),
+        lambda: text("Δ") + symbol(row, "linear") + text(f" = {number()}{unit}"),
+        lambda: docx.formula(
+            docx.math_run("|")
+            + docx.scripts(row.symbol.base, row.symbol.sub, row.symbol.sup)
+            + docx.math_run("|")
+            + docx.math_run("·k = 3")
+        ),
+    ]
+
+
+def traps(report: Report) -> None:
+    """Between the values lines that only look like values; where such a line stands, its row has no other."""
+    report.look = report.chance.choice(("runs", "linear", "lost", "built"))
+    _given(report, lambda row: report.put(report.line(row, 0)))
+    for k in POSITIONS:
+        report.heading(report.position(k).capitalize(), 2)
+        rows = report.at(k)
+        for row in rows:
+            other = report.chance.choice([one for one in rows if one is not row])
+            if report.chance.random() < 0.4:
+                report.put(report.chance.choice(_traps(report, row, other, k))())
+            else:
+                report.put(report.line(row, k))
+
+
+def mixed(report: Report) -> None:
+    """Everything at once: lines, formulas, sentences, traps, other letters, remarks, in any order."""
+    _given(report, lambda row: report.put(report.line(row, 0)))
+    for k in POSITIONS:
+        report.chance.choice(
+            (
+                lambda k=k: report.heading(report.position(k).capitalize(), 2),
+                lambda k=k: report.put(docx.run(report.position(k).capitalize() + ":", docx.BOLD)),
+            )
+        )()
+        rows = report.at(k)
+        report.chance.shuffle(rows)
+        while rows:
+            row = rows.pop()
+            report.look = report.chance.choice(("runs", "runs", "built", "linear", "lost", "loose"))
+            way = report.chance.randrange(8)
+            if way == 0 and rows:
+                other = report.chance.choice(rows)
+                report.put(report.chance.choice(_traps(report, row, other, k))())
+            elif way == 1 and rows:
+                other = rows.pop()
+                joint = report.chance.choice(("; ", ", ", "\t", report.say(" còn ", " and ")))
+                report.put(report.line(row, k) + docx.run(joint) + report.line(other, k))
+            elif way == 2:
+                report.put(
+                    docx.run(report.say(f"Ở {report.position(k)}: ", f"In {report.position(k)}: "))
+                    + report.line(row, k)
+                )
+            elif way == 3:
+                # A product without a sign between its factors.
+                report.put(
+                    report.symbol(row) + docx.run(" = ω l = ") + docx.run(report.draw(row, k) + report.unit(row))
+                )
+            elif way == 4:
+                report.put(
+                    report.symbol(row)
+                    + docx.run(f" [{row.unit}] = " if row.unit else " = ")
+                    + docx.run(report.draw(row, k))
+                )
+            elif way == 5:
+                report.put(report.line(row, k) + docx.run(f"\t(2.{len(rows)})"))
+            elif way == 6:
+                report.put(report.symbol(row) + docx.run(f": {report.draw(row, k)}{report.unit(row)}"))
+            else:
+                report.put(report.line(row, k))
+
+
 WELL_KEPT: Sequence[Callable[[Report], None]] = (
     built_by_position,
     runs_by_chapter,
@@ -422,7 +535,7 @@ WELL_KEPT: Sequence[Callable[[Report], None]] = (
     corrected,
     furniture,
 )
-CARELESS: Sequence[Callable[[Report], None]] = (many_in_a_line, loose_letters, unsaid)
+CARELESS: Sequence[Callable[[Report], None]] = (many_in_a_line, loose_letters, unsaid, traps, mixed)
 MANNERS = {manner.__name__: manner for manner in (*WELL_KEPT, *CARELESS)}
 
 
