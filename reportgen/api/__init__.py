@@ -19,7 +19,7 @@ from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs, placed
 from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
-from reportgen.base.files import contents, reported, scratch, version
+from reportgen.base.files import contents, put_files, reported, scratch, version
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
@@ -415,15 +415,33 @@ def policy(path: Path | None, language: Language | None) -> Policy:
 
 
 def compare(
-    path: Path, sheet: Path, hint: bool = False, language: Language | None = None
+    path: Path, files: Sequence[Path], hint: bool = False, language: Language | None = None
 ) -> tuple[tuple[str, ...], bool]:
-    """What a student is told of a filled answer sheet, and whether it agrees with the assignment as far as it goes.
+    """What a student is told of a filled answer sheet, or of a report and drawings, and whether they agree so far.
 
     Raises `AssignmentError`.
     """
-    from reportgen.marking import marking
+    from reportgen.handin import checking
 
-    return marking.compare(open_case(path, language), sheet, hint)
+    return checking.compare(open_case(path, language), files, hint)
+
+
+def read(
+    path: Path, files: Sequence[Path], out: Path, ask: Ask | None = None, language: Language | None = None
+) -> tuple[Path, str]:
+    """Write what was read of a report and drawings to `out`/<id>/reading.xlsx; gives the path and a line about it.
+
+    Raises `AssignmentError` also where somebody has completed the sheet that stands there, and `OutputError`.
+    """
+    from reportgen.handin import checking, reading_book
+    from reportgen.marking.key import Ask
+
+    case = open_case(path, language)
+    key, own = checking.read(case, files, ask or Ask(), language)
+    folder = out / case.assignment.id
+    book = checking.reading(key, own, folder / reading_book.NAME, language)
+    (written,) = put_files(folder, {reading_book.NAME: book})
+    return written, checking.summary(own, case.assignment.language)
 
 
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:

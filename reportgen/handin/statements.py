@@ -26,13 +26,19 @@ _SEVERAL = re.compile(
 _COMPARED = re.compile(r"so với|khác|giống|như|bằng|hơn|\bthan\b|\bsame as\b|\bunlike\b|\bcompared\b", re.IGNORECASE)
 SAYS_POSITION = re.compile(r"vị\s*trí|\bposition|điểm chết|\bdead cent", re.IGNORECASE)
 _THIS = re.compile(r"vị\s*trí\s*(?:này|đó|trên|đang xét|đã cho|xét)|\b(?:this|that) position", re.IGNORECASE)
+_EXTREME = (
+    r"(?:lớn|nhỏ|bé|cao|thấp) nhất|cực đại|cực tiểu|trung bình|"
+    r"\b(?:max|min|maximum|minimum|largest|smallest|mean|average)\b"
+)
+"""What is of all positions together."""
 _SUPPOSED = re.compile(
-    r"\b(?:nếu|giả sử|giả thiết|giả định|if|suppose|supposing|assume|assuming|khi lấy|thử|trial)\b|"
-    r"(?:lớn|nhỏ|bé|cao|thấp) nhất|cực đại|cực tiểu|trung bình|\b(?:max|min|maximum|minimum|largest|smallest|mean|average)\b",
+    r"\b(?:nếu|giả sử|giả thiết|giả định|if|suppose|supposing|assume|assuming|khi lấy|thử|trial)\b|" + _EXTREME,
     re.IGNORECASE,
 )
 """Words before a symbol: what is tried, or is of no position, as a greatest value."""
-_WITHDRAWN = re.compile(r"\b(?:hoặc|hay|or|sai|không|wrong|not|nếu|if|cũ|bỏ|nhầm|old|instead|rather)\b", re.IGNORECASE)
+_WITHDRAWN = re.compile(
+    r"\b(?:hoặc|hay|or|sai|không|wrong|not|nếu|if|cũ|bỏ|nhầm|old|instead|rather)\b|" + _EXTREME, re.IGNORECASE
+)
 """Words behind a number that take it back, or leave another one open."""
 CLOCKWISE = re.compile(
     r"(?:cùng|thuận)\s+chiều\s+kim|(?<!anti)(?<!counter)(?<!counter-)(?<!anti-)clockwise|↻", re.IGNORECASE
@@ -50,7 +56,7 @@ _FUNCTION = re.compile(
 _LOOSE_NUMBER = re.compile(r"(?:[\d})²³]|(?<![^\W\d_])[^\W\d_])$")
 """A number or a letter alone, which may be a factor of the symbol behind it."""
 _COLON = re.compile(
-    rf"(?<![\w′_^{{}}])({_SYMBOL})\s*(?::|\blà|\bbằng|\bis\b|\bequals|\bgives)\s*({NUMBER})(?![\w′]*\s*[=≈])"
+    rf"(?<![\w′_^{{}}])({_SYMBOL}(?:\(\d\))?)\s*(?::|\blà|\bbằng|\bis\b|\bequals|\bgives)\s*({NUMBER})(?![\w′]*\s*[=≈])"
 )
 _SEPARATORS = frozenset(".,;:⇒→<>≤≥!?")
 _BULLET = re.compile(r"\s*(?:[-–+•*▪►✓]|\(?\w{1,3}[.)]|\(?\d{1,2}(?:\.\d{1,2})*[.)])\s+")

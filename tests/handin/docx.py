@@ -62,7 +62,8 @@ def table(rows: Sequence[Sequence[str]], columns: int) -> str:
     """Rows of cells that are written already."""
     grid = '<w:gridCol w:w="1500"/>' * columns
     body = "".join(f"<w:tr>{''.join(row)}</w:tr>" for row in rows)
-    return f'<w:tbl><w:tblPr><w:tblW w:w="0" w:type="auto"/></w:tblPr><w:tblGrid>{grid}</w:tblGrid>{body}</w:tbl>{paragraph("")}'
+    properties = '<w:tblPr><w:tblW w:w="0" w:type="auto"/></w:tblPr>'
+    return f"<w:tbl>{properties}<w:tblGrid>{grid}</w:tblGrid>{body}</w:tbl>{paragraph('')}"
 
 
 STYLES = f'<w:styles xmlns:w="{W}">' + "".join(
@@ -75,7 +76,8 @@ STYLES += "</w:styles>"
 def package(body: str, parts: dict[str, str] | None = None, relations: str = "", types: str = "") -> bytes:
     """A file of a body; further parts by name, with what the text refers to and what they are."""
     document = (
-        f'<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n<w:document xmlns:w="{W}" xmlns:m="{M}" xmlns:r="{R}" '
+        '<?xml version="1.0" encoding="UTF-8" standalone="yes"?>\n'
+        f'<w:document xmlns:w="{W}" xmlns:m="{M}" xmlns:r="{R}" '
         'xmlns:o="urn:schemas-microsoft-com:office:office" xmlns:v="urn:schemas-microsoft-com:vml">'
         f'<w:body>{body}<w:sectPr><w:pgSz w:w="11906" w:h="16838"/></w:sectPr></w:body></w:document>'
     )

@@ -131,7 +131,8 @@ class Report:
         if step < 0.3:
             middle = f" = {self.any_number()}·{self.any_number()}"
         elif step < 0.5:
-            middle = f" = {self.chance.choice('μωk')}·{self.chance.choice(('pb', 'xy', 'l'))} = {self.any_number()}.{self.any_number()}"
+            factor, length = self.chance.choice("μωk"), self.chance.choice(("pb", "xy", "l"))
+            middle = f" = {factor}·{length} = {self.any_number()}.{self.any_number()}"
         shown = self.draw(row, position) + (self.unit(row) if unit else "")
         return self.symbol(row) + docx.run(f"{middle} = {shown}")
 
@@ -303,7 +304,8 @@ def corrected(report: Report) -> None:
                 report.put(
                     report.symbol(row)
                     + docx.run(" = ")
-                    + f'<w:del w:id="1" w:author="x">{deleted}</w:del><w:ins w:id="2" w:author="x">{docx.run(report.draw(row, k) + report.unit(row))}</w:ins>'
+                    + f'<w:del w:id="1" w:author="x">{deleted}</w:del>'
+                    + f'<w:ins w:id="2" w:author="x">{docx.run(report.draw(row, k) + report.unit(row))}</w:ins>'
                 )
                 continue
             if way < 0.5:
@@ -442,7 +444,8 @@ def _traps(report: Report, row: KeyRow, other: KeyRow, k: int) -> list[Callable[
         lambda: (
             symbol(row)
             + text(
-                f" = {report.chance.randrange(2, 9)}.{report.chance.randrange(100, 999)},{report.chance.randrange(10, 99)}{unit}"
+                f" = {report.chance.randrange(2, 9)}.{report.chance.randrange(100, 999)}"
+                f",{report.chance.randrange(10, 99)}{unit}"
             )
         ),
         lambda: text("X ") + symbol(row) + text(f" = {number()}{unit}"),
