@@ -25,6 +25,7 @@ from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import RosterEntry, assignment_files, comparable, read_roster
 from reportgen.marking.grades import person
 from reportgen.marking.guard import Classmate
+from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Submission, Unmarked
 from reportgen.marking.parts import check_shares
@@ -66,6 +67,11 @@ class Classroom:
                 # Nobody's sheet can come from an assignment that cannot be worked out.
                 continue
         return tuple(keys)
+
+    def handed_out(self, key: Key) -> Key:
+        """What is asked for by the symbols of the papers, which are in the assignment's own language."""
+        own = key if self.language is None else key_of(open_case(self.files[comparable(key.id)], None))
+        return self.policy.ask.of(own)
 
     def participant(self, key: Key, owner: Owner | None = None) -> Participant:
         """What a platform may know the student of a key by."""
@@ -135,8 +141,10 @@ def grade(
     came = chain(handed_in(submissions, faults), completed(out, submissions))
     handed = read_sheets(without_own(came, own), language)
     collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
-    asked = {comparable(key.id): policy.ask.of(key) for key in room.keys} if own else {}
-    works = own_works(own, asked, lambda file: _student_of(file, room, gradebook), policy.twice, language)
+    keys = {comparable(key.id): key for key in room.keys} if own else {}
+    works = own_works(
+        own, keys, lambda file: _student_of(file, room, gradebook), room.handed_out, policy.twice, language
+    )
     collected = with_own(collected, works, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.

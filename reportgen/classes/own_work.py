@@ -58,12 +58,14 @@ def own_works(
     handed: Sequence[Handed],
     keys: Mapping[str, Key],
     student_of: Callable[[Handed], Key | None],
+    asked: Callable[[Key], Key],
     twice: Twice,
     language: Language | None,
 ) -> OwnWorks:
     """The own files of a class laid to its students and read; `keys` are those of the assignments by comparable stem.
 
-    `student_of` says whose a file is by its name or its platform.
+    `student_of` says whose a file is by its name or its platform, `asked` what of a key is looked for, by the symbols
+    of the student's own papers.
     """
     gathered = OwnWorks()
     of_assignment: dict[str, list[Handed]] = {}
@@ -80,7 +82,7 @@ def own_works(
     known = {key.id: key for key in keys.values()}
     read: dict[str, list[tuple[Handed, FileReading]]] = {}
     assignments = iter([assignment for assignment, _ in chosen])
-    for file, reading in read_own(((file, known[assignment]) for assignment, file in chosen), language):
+    for file, reading in read_own(((file, asked(known[assignment])) for assignment, file in chosen), language):
         assignment = next(assignments)
         if isinstance(reading, list):
             gathered.refuse(file, reading)

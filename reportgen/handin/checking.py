@@ -24,13 +24,16 @@ from reportgen.report.case import Case
 from reportgen.report.key import Key
 
 
-def read(case: Case, files: Sequence[Path], ask: Ask, language: Language | None) -> tuple[Key, Submission]:
-    """What reports and drawings say of what is asked for; raises `AssignmentError` for a file that is refused."""
-    key = ask.of(key_of(case))
-    spoken = language or key.language
+def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:
+    """What reports and drawings say of what is asked for, and its key; raises `AssignmentError` for what is refused.
+
+    `papers` are the case in the language of the student's own papers, whose symbols are looked for.
+    """
+    spoken = case.assignment.language
     refuse(files, spoken)
-    readings = [read_file(path, content(path, None, spoken), key, spoken) for path in files]
-    return key, submission(readings, spoken)
+    asked = ask.of(key_of(papers))
+    readings = [read_file(path, content(path, None, spoken), asked, spoken) for path in files]
+    return ask.of(key_of(case)), submission(readings, spoken)
 
 
 def refuse(files: Sequence[Path], language: Language) -> None:
@@ -40,7 +43,7 @@ def refuse(files: Sequence[Path], language: Language) -> None:
         raise as_error([Fault("own-not-read", Mark(str(path))) for path in strangers], language)
 
 
-def compare(case: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
+def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
     """Lines that say where a sheet, or else a report and drawings, leave their assignment, and whether they agree.
 
     What was not read does not disagree, and is told.  Raises `AssignmentError` for what cannot be read.
@@ -50,14 +53,14 @@ def compare(case: Case, files: Sequence[Path], hint: bool = False) -> tuple[tupl
         # Beside a sheet, the sheet counts; of several the last, as where they are handed in.
         return compare_sheet(case, sheets[-1], hint)
     scheme = marking_scheme(case, Policy(guard=False))
-    key, own = read(case, files, Ask(), None)
+    key, own = read(case, papers, files, Ask())
     rows = frozenset(row.id for row in key.asked)
     return compared(scheme, replace(own, rows=rows), hint)
 
 
-def reading(key: Key, own: Submission, target: Path, language: Language | None) -> bytes:
+def reading(key: Key, own: Submission, target: Path) -> bytes:
     """The sheet of what was read, for `target`; raises `AssignmentError` where somebody has completed it there."""
-    spoken = language or key.language
+    spoken = key.language
     if target.exists():
         try:
             standing = read_submission(target, key, spoken)
