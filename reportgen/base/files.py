@@ -23,6 +23,7 @@ SETS = {
     "task": r"task\.pdf|answers\.xlsx|assignment\.yaml",
     "report": r"report\.(pdf|html|docx|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
+    "frame": r"frame\.docx",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
     "plots": r".+\.(svg|png|pdf|eps)",
