@@ -28,7 +28,7 @@ SETS = {
     "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
     "plots": r".+\.(svg|png|pdf|eps)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
-    "feedback": r"feedback\.(pdf|xlsx|txt)",
+    "feedback": r"feedback\.(pdf|xlsx|txt)|marked\.docx",
     "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns."""
