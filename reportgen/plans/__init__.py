@@ -21,6 +21,7 @@ from reportgen.machine.true_motion import TrueMotion, true_motion
 from reportgen.plans.cycle import enter_flywheel
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
+from reportgen.plans.joint_friction import enter_friction, enter_friction_of_cycle
 from reportgen.plans.loads import Polygon
 from reportgen.plans.running import enter_running
 from reportgen.plans.scales import no_scales, own_scales
@@ -54,8 +55,12 @@ def write_ledger(
     regulated: flywheel.RegulatedCycle | None = None
     moved: TrueMotion | None = None
     if analysis.loads:
+        if analysis.with_friction is not None:
+            enter_friction(q, analysis, analysis.with_friction, worked)
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
+            if machine.friction is not None and machine.cyclic:
+                enter_friction_of_cycle(q, machine, machine.friction)
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 enter_flywheel(q, analysis, regulated)

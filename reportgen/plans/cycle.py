@@ -10,6 +10,7 @@ from reportgen.machine import Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
+from reportgen.plans.rests import with_rest
 from reportgen.plans.scales import DIAGRAM, fitting_axis
 
 TERMS = 4
@@ -96,21 +97,6 @@ def _constant_group(q: Sheet, regulated: RegulatedCycle, speed: float) -> None:
     ΔT = with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
     J_I = q.define("J.I", ΔT / (q["unevenness"] * q["omega.1"] ** 2))
     q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", residue=True)
-
-
-def with_rest(
-    q: Sheet,
-    id: str,
-    values: np.ndarray | float,
-    by_rule: Expression,
-    symbol: Symbol | str,
-    kind: str = "",
-    scale: float = 0.0,
-) -> Ref:
-    """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
-    by_rule_alone = q.construct(ids.rule(id), by_rule)
-    rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)
-    return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

@@ -17,7 +17,8 @@ from reportgen.machine.analysis import Analysis
 from reportgen.machine.drives import ConstantDrive
 from reportgen.machine.true_motion import State, TrueMotion, at_positions
 from reportgen.plans import run_ids
-from reportgen.plans.cycle import TERMS, enter_reduced, with_rest
+from reportgen.plans.cycle import TERMS, enter_reduced
+from reportgen.plans.rests import with_rest
 from reportgen.plans.sides import image
 
 GIVEN = ("M0", "k", "Mk", "sk", "n0", "i", "J0", "brake")

@@ -18,7 +18,7 @@ from reportgen.base.words import SECTION, load_words, sections
 from reportgen.cases import opened
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
-from reportgen.report import Block
+from reportgen.report import Block, named_tables
 from reportgen.report import outline as namespace
 from reportgen.report.prose import GLOBALS, Prose, _environment
 
@@ -30,6 +30,8 @@ OTHERS = {
     "cam/roller-01.yaml": {"cam.md"},
     "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
     "gears/train-motor.yaml": {"planetary-train.md"},
+    "rotor/rotor-two-planes.yaml": {"rotor.md"},
+    "engine-balance/v-six.yaml": {"engine-balance.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
@@ -134,7 +136,7 @@ def test_the_templates_of_other_work_use_the_names_that_they_get_and_all_of_them
 def test_figures_and_tables_are_those_that_templates_name(kind: str) -> None:
     """A table of quantities by their ids has words of its own and no row."""
     named = set(called(kind))
-    rows = set(namespace.FIGURES if kind == "figure" else namespace.TABLES)
+    rows = set(namespace.FIGURES if kind == "figure" else named_tables.TABLES)
     assert rows - named == set()
     words = {name for path in search_paths() for name in load_words(path)["tables"]} if kind == "table" else set()
     assert named - rows <= words
