@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, given_springs, wide_sliders
+from reportgen.catalogue import declared_loads, given_balancing, given_springs, wide_sliders
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -25,6 +25,7 @@ def outline(
     loads: bool,
     flywheel: Flywheel | None,
     *,
+    balancing: bool = False,
     curves: bool = True,
     further: bool = False,
     springs: bool = False,
@@ -39,7 +40,7 @@ def outline(
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, and sliders may have `faces`.
+    be `springs`, and sliders may have `faces`.  The chapter on `balancing` is asked for, or not.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
@@ -48,8 +49,9 @@ def outline(
     inertia = ("loads",) if masses else ()
     wheel = () if flywheel is None else ("flywheel",)
     beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
+    shaking = ("balancing/chapter",) if balancing else ()
     wide = ("faces",) if faces else ()
-    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *wheel, *CLOSING)
+    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *shaking, *wheel, *CLOSING)
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
@@ -100,6 +102,7 @@ def driven(
     of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    balancing = given_balancing.entered(given.balancing, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in of_springs)}
     # What a kind sets out by its name is its own load.
@@ -112,6 +115,7 @@ def driven(
     parts |= {
         "springs": bool(springs),
         "faces": bool(faces),
+        "balancing": balancing is not None,
         "curves": not positions.at,
         "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
     }
@@ -133,6 +137,7 @@ def driven(
         faces=faces,
         sheet=q,
         unevenness=given.unevenness,
+        balancing=balancing,
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

@@ -13,6 +13,7 @@ import numpy as np
 from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
+from reportgen.machine.counterweights import Balancing
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import (
     Forces,
@@ -275,6 +276,8 @@ class Machine:
     """Equations by name that the words of its analytic method show."""
     unevenness: float | None = None
     """δ of the speed that a flywheel is to keep to, if the report has its chapter."""
+    balancing: Balancing | None = None
+    """What the report says of balancing, if it has its chapter."""
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()

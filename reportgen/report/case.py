@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
+    from reportgen.machine.balance import BalancedTurn
     from reportgen.machine.flywheel import RegulatedCycle
     from reportgen.plans import PlannedLedger
     from reportgen.plans.loads import Polygon
@@ -422,3 +423,8 @@ class MachineAnalysis(LoadedAssignment):
     def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
+
+    @property
+    def balanced(self) -> BalancedTurn | None:
+        """What balances it, if the assignment asks for it."""
+        return self.written.balanced

@@ -28,6 +28,7 @@ from reportgen.report import (
     Section,
     Table,
     Text,
+    balancing,
     chapters,
     comments,
     curves,
@@ -158,6 +159,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "speed_limits": chapters.speed_limits,
     "tabled_forces": chapters.tabled_forces,
     "tangent_lines": chapters.tangent_lines,
+    **balancing.VALUES,
     "uniform_rods": chapters.uniform_rods,
     "without_mass": chapters.without_mass,
     "work_lines": chapters.work_lines,
@@ -210,6 +212,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "flywheel-work": ("fig.Jr", curves.flywheel_work),
     "flywheel-speed": ("fig.speed", curves.flywheel_speed),
     "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
+    **balancing.FIGURES,
 }
 """What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
 
@@ -333,6 +336,10 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
     "M": QuantityTable(result_tables.balance, "all_positions"),
     "flywheel": result_tables.flywheel,
+    "shaking": QuantityTable(balancing.shaking_lines, "all_positions"),
+    "rules": RowTable(balancing.rules_table, (58.0, 26.0, 22.0, 26.0, 26.0)),
+    "balanced": QuantityTable(balancing.balanced_table, "all_positions"),
+    "costs": RowTable(balancing.cost_table, (78.0, 28.0, 28.0, 22.0)),
     "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
 }
 """Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
@@ -441,6 +448,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "slider_rates": comments.slider_rates,
     "top_reactions": comments.top_reactions,
     "work_range": comments.work_range,
+    **balancing.FUNCTIONS,
 }
 """Functions of a report and of what a template puts between the parentheses."""
 

@@ -15,10 +15,11 @@ import numpy as np
 from reportgen.assignment import Assignment
 from reportgen.base.units import MM
 from reportgen.drawing.charts import Area
-from reportgen.formula import Symbol, ids, vocabulary
+from reportgen.formula import Symbol, balance_ids, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
+from reportgen.machine.balance import BalancedTurn
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
@@ -80,6 +81,10 @@ class Report:
     @property
     def flywheel(self) -> RegulatedCycle | None:
         return self.case.flywheel
+
+    @property
+    def balanced(self) -> BalancedTurn | None:
+        return self.case.balanced
 
     @cached_property
     def groups(self) -> tuple[GroupView, ...]:
@@ -273,7 +278,9 @@ class Report:
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
-        return {**declared, "unevenness": words["unevenness"]}
+        shared = self.words["given_of_crank"]
+        balancing = {id: shared[id] for id in (balance_ids.RADIUS, balance_ids.SHARE)}
+        return {**declared, "unevenness": words["unevenness"], **balancing}
 
     @property
     def mobility(self) -> Mobility:
