@@ -23,6 +23,7 @@ from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.laws import FULL_TURN, STEPS
 from reportgen.report import Block, Document, Paragraph, Strong, Text
+from reportgen.report.balancing_mistakes import mistaken
 from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.report.key import Span
 from reportgen.report.shafts import Shaft
@@ -163,6 +164,7 @@ class MachineCase(MachineAnalysis):
             tuple(load.name for load in analysis.loads),
             _wrong_readings(analysis),
             _whole_rods(analysis.machine, tuple(self.ledger.families)),
+            mistaken(self.ledger),
         )
 
     def fault(self) -> str:

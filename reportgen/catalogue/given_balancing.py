@@ -15,8 +15,7 @@ from reportgen.catalogue.declared_loads import Link, listed
 from reportgen.formula import Symbol, balance_ids
 from reportgen.machine import DRIVER, Crank
 from reportgen.machine.analysis import Machine
-from reportgen.machine.counterweights import Balancing as Asked
-from reportgen.machine.counterweights import Rule, crank_rods, four_bar
+from reportgen.machine.counterweights import Balancing, Rule, crank_rods, four_bar
 
 MOST_RULES = 4
 RODS = ("rotating", "share")
@@ -34,7 +33,7 @@ class CrankCounterweight(Part):
     radius: Length
 
 
-class Balancing(Part):
+class BalancingTask(Part):
     """The chapter on balancing, with a counterweight on the crank or with counterweights on the links of a four-bar."""
 
     counterweight: CrankCounterweight | None = None
@@ -42,15 +41,15 @@ class Balancing(Part):
     radius: Length | None = None
 
     @property
-    def asked(self) -> Asked:
+    def asked(self) -> Balancing:
         """The same as the machine has it."""
         if (weight := self.counterweight) is not None:
             share = 0.0 if weight.share is None else weight.share.si
-            return Asked(weight.rules, share, radius=weight.radius.si)
-        return Asked(links=self.links or (), radius=0.0 if self.radius is None else self.radius.si)
+            return Balancing(weight.rules, share, radius=weight.radius.si)
+        return Balancing(links=self.links or (), radius=0.0 if self.radius is None else self.radius.si)
 
 
-def entered(given: Balancing | None, datum: Datum) -> Asked | None:
+def entered(given: BalancingTask | None, datum: Datum) -> Balancing | None:
     """What is asked for, whose data are entered."""
     if given is None:
         return None
@@ -66,7 +65,7 @@ def entered(given: Balancing | None, datum: Datum) -> Asked | None:
 # --- faults -----------------------------------------------------------------------------------------
 
 
-def faults(given: Balancing | None, machine: Machine) -> Iterator[Finding]:
+def faults(given: BalancingTask | None, machine: Machine) -> Iterator[Finding]:
     """There are masses to balance and a crank that turns evenly; what is asked for is said once, and can be had."""
     if given is None:
         return
@@ -102,7 +101,7 @@ def _of_rules(given: CrankCounterweight, machine: Machine) -> Iterator[Finding]:
         yield Finding("share-without-rule", (*where, "share"), at="key")
 
 
-def _of_links(given: Balancing, machine: Machine) -> Iterator[Finding]:
+def _of_links(given: BalancingTask, machine: Machine) -> Iterator[Finding]:
     """Counterweights on crank and rocker of a four-bar, at a distance from their centres."""
     where = ("parameters", "balancing")
     if given.links is None:

@@ -29,7 +29,7 @@ from reportgen.assignment.fields import (
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
-from reportgen.catalogue.given_balancing import Balancing
+from reportgen.catalogue.given_balancing import BalancingTask
 from reportgen.catalogue.given_springs import Spring
 from reportgen.catalogue.wide_sliders import Face
 from reportgen.machine import DRIVER
@@ -62,7 +62,7 @@ class UnderGravity(Part):
     plane: Literal["horizontal"] | None = None
     springs: Annotated[tuple[Spring, ...], Field(max_length=MOST_LOADS)] = ()
     faces: Annotated[dict[Link, Face], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
-    balancing: Balancing | None = None
+    balancing: BalancingTask | None = None
 
     @property
     def gravity(self) -> float:

@@ -246,7 +246,10 @@ class Animation:
     """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
 
 
-LAYERS = ("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions")
+LAYERS = (
+    *("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions"),
+    *("shaking", "balanced"),
+)
 """What can be drawn on the machine; the first is shown from the start."""
 
 

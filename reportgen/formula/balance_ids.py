@@ -20,6 +20,7 @@ mean = Name("balance.mean.{axis}")  # of what is seen
 # --- counterweights, by their links or by the rules that they are compared by
 
 touching = Name("balance.touch.{number}.{axis}")
+beside = Name("balance.beside.{number}")  # which position is next to a point of touch
 point_mass = Name("balance.rod.{link}.{point}")  # of a rod, at one of its pins
 pin_turn = Name("balance.delta.{link}")  # of a pin from the crank
 on_link = Name("balance.on.{link}.{axis}")  # the mass centre of a link in the link's frame
@@ -61,7 +62,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(moment_of_link, "M", "torque", _B, below="{link}", name="balance moment of link"),
     VocabularyRow(place, "{axis}", "length", _B, below="{point}", name="balance place"),
     VocabularyRow(seen, "u", "unbalance", _B, below="{axis}", name="balance seen"),
-    VocabularyRow(mean, "u", "unbalance", Chapter.cycle, below="m,{axis}", name="balance mean"),
+    VocabularyRow(mean, "u", "unbalance", _B, below="m,{axis}", name="balance mean"),
     VocabularyRow(touching, "u", "unbalance", below="{axis},{number}", name="balance touching"),
     VocabularyRow(point_mass, "m", "mass", _B, below="{link}{point}", name="balance point mass"),
     VocabularyRow(pin_turn, "δ", "angle", _B, name="balance pin turn"),
@@ -79,13 +80,11 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(weight, "G", "weight", below="c{link}", name="balance weight"),
     VocabularyRow(centrifugal, "P", "force", below="c{link}", name="balance centrifugal"),
     VocabularyRow(hold, "M", "torque", _B, below="c{link}", name="balance hold"),
-    VocabularyRow(greatest.only(quantity="F"), "F", "force", Chapter.cycle, below="max,{state}", name="balance top F"),
-    VocabularyRow(greatest.only(quantity="M"), "M", "torque", Chapter.cycle, below="qt,{state}", name="balance top M"),
-    VocabularyRow(
-        greatest.only(quantity="cb"), "M", "torque", Chapter.cycle, below="cb,{state}", name="balance top cb"
-    ),
-    VocabularyRow(rms, "F", "force", Chapter.cycle, below="rms,{state}", name="balance rms"),
-    VocabularyRow(whole_mass, "m", "mass", Chapter.cycle, below="{state}", name="balance whole mass"),
+    VocabularyRow(greatest.only(quantity="F"), "F", "force", _B, below="max,{state}", name="balance top F"),
+    VocabularyRow(greatest.only(quantity="M"), "M", "torque", _B, below="qt,{state}", name="balance top M"),
+    VocabularyRow(greatest.only(quantity="cb"), "M", "torque", _B, below="cb,{state}", name="balance top cb"),
+    VocabularyRow(rms, "F", "force", _B, below="rms,{state}", name="balance rms"),
+    VocabularyRow(whole_mass, "m", "mass", _B, below="{state}", name="balance whole mass"),
     VocabularyRow(Name(AFTER_FORCE), "F", "force", _B, below="qt", above="′"),
     VocabularyRow(after_component, "F", "force", _B, below="qt,{axis}", above="′", name="balance after component"),
     VocabularyRow(Name(AFTER_MOMENT), "M", "torque", _B, below="qt", above="′"),

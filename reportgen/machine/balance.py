@@ -31,14 +31,16 @@ from reportgen.machine.forces import inertia_loads, reaction_name, solve_forces
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Complexes, Floats, Motion, cross, unit
 
-SAMPLES = 1440
-"""Places of a turn, a quarter degree apart, of which the curve is made."""
-PLACES: Floats = np.asarray(np.arange(SAMPLES) * (FULL_TURN / SAMPLES), dtype=np.float64)
-"""Those places, as angles from position 1."""
+SAMPLES, MOST_SAMPLES = 1440, 46080
+"""Places of a turn, a quarter degree apart, of which the curve is made; twice and again as many of one with corners."""
+FADED = 1e-13
+"""The share of the greatest harmonic below which the last eighth of them shows that there are enough."""
 ROUNDING = 1e-15
 """A harmonic below this share of the greatest is rounding."""
 ON_THE_CIRCLE = 1e-12
 """How far outside a circle, as a share of its radius, a point may lie that counts as on it."""
+NEIGHBOURS = 1.5
+"""Places of the curve within so many steps belong to one point of touch."""
 REFINEMENTS = 40
 SETTLED = 1e-12
 """A step (rad) below which a point of touch is found."""
@@ -92,26 +94,38 @@ def _crank(linkage: Linkage) -> Crank:
 class CrankCurve:
     """The curve F e^{−iφ}/ω² (kg·m) over a turn as the sum of its harmonics, Σ c_k e^{ikθ}.
 
-    θ is the crank's way in its direction of rotation from position 1; `harmonics` c_k [SAMPLES] stand in the order
-    of the discrete Fourier transform.
+    θ is the crank's way in its direction of rotation from position 1; `harmonics` c_k [N] stand in the order of the
+    discrete Fourier transform.
     """
 
     harmonics: Complexes
 
+    @property
+    def step(self) -> float:
+        """The way (rad) from one of the N even places of the curve to the next."""
+        return FULL_TURN / len(self.harmonics)
+
+    @cached_property
+    def places(self) -> Floats:
+        """The even places θ (rad) [N]."""
+        return np.asarray(np.arange(len(self.harmonics)) * self.step, dtype=np.float64)
+
     @cached_property
     def samples(self) -> Complexes:
-        """The curve at `SAMPLES` even places of the turn."""
-        return np.asarray(np.fft.ifft(self.harmonics) * SAMPLES)
+        """The curve at its even places [N]."""
+        return np.asarray(np.fft.ifft(self.harmonics) * len(self.harmonics))
 
     @cached_property
     def orders(self) -> Floats:
         """The order k of each harmonic."""
-        return np.asarray(np.fft.fftfreq(SAMPLES, 1 / SAMPLES), dtype=np.float64)
+        return np.asarray(np.fft.fftfreq(len(self.harmonics), 1 / len(self.harmonics)), dtype=np.float64)
 
     def at(self, angle: Floats | float, derivative: int = 0) -> Complexes:
         """The curve, or a derivative by θ, at angles θ [N] (rad)."""
-        waves = np.exp(1j * np.multiply.outer(np.asarray(angle), self.orders))
-        return np.asarray(waves @ (self.harmonics * (1j * self.orders) ** derivative))
+        told = self.harmonics != 0
+        orders = self.orders[told]
+        waves = np.exp(1j * np.multiply.outer(np.asarray(angle), orders))
+        return np.asarray(waves @ (self.harmonics[told] * (1j * orders) ** derivative))
 
     @property
     def mean(self) -> complex:
@@ -130,18 +144,20 @@ class CrankCurve:
         """
         away = np.abs(self.samples - centre)
         peaks = (away >= np.roll(away, 1)) & (away >= np.roll(away, -1)) & (away >= away.max() * (1 - 1e-3))
-        angle = PLACES[peaks]
-        if angle.size > SAMPLES // 4:
+        angle = self.places[peaks]
+        if angle.size > len(away) // 4:
             # A circle about this point is everywhere as far from it.
             return float(away.max()), angle[:1]
+        low, high = angle - self.step, angle + self.step
         for _ in range(REFINEMENTS):
             arm, rate, rate2 = self.at(angle) - centre, self.at(angle, 1), self.at(angle, 2)
             slope = np.real(np.conj(arm) * rate)
             bend = np.real(np.conj(arm) * rate2) + np.abs(rate) ** 2
-            step = np.where(bend < 0, -slope / np.where(bend < 0, bend, 1.0), 0.0)
-            step = np.clip(step, -FULL_TURN / SAMPLES, FULL_TURN / SAMPLES)
-            angle = angle + step
-            if np.all(np.abs(step) < SETTLED):
+            low, high = np.where(slope > 0, angle, low), np.where(slope < 0, angle, high)
+            newton = angle - slope / np.where(bend < 0, bend, 1.0)
+            inside = (bend < 0) & (newton > low) & (newton < high)
+            before, angle = angle, np.where(slope == 0, angle, np.where(inside, newton, (low + high) / 2))
+            if np.all(np.abs(angle - before) < SETTLED):
                 break
         return float(np.abs(self.at(angle) - centre).max()), angle
 
@@ -158,12 +174,17 @@ class CrankCurve:
 
 
 def seen_from_crank(machine: Machine) -> CrankCurve:
-    """The curve F e^{−iφ}/ω² of a machine whose crank turns evenly, by its motion at `SAMPLES` places of a turn."""
-    motion = motion_at(machine, PLACES)
-    curve = shaking_force(machine.linkage, motion) * unit(-motion.driver) / machine.speed**2
-    harmonics = np.fft.fft(curve) / SAMPLES
-    greatest = float(np.abs(harmonics).max())
-    return CrankCurve(np.where(np.abs(harmonics) > ROUNDING * greatest, harmonics, 0j))
+    """The curve F e^{−iφ}/ω² of a machine whose crank turns evenly, at so many places that its harmonics fade away."""
+    count = SAMPLES
+    while True:
+        motion = motion_at(machine, np.arange(count) * (FULL_TURN / count))
+        curve = shaking_force(machine.linkage, motion) * unit(-motion.driver) / machine.speed**2
+        harmonics = np.fft.fft(curve) / count
+        sizes = np.abs(harmonics)
+        last = sizes[count // 2 - count // 16 : count // 2 + count // 16]
+        if count >= MOST_SAMPLES or last.max() <= FADED * sizes.max():
+            return CrankCurve(np.where(sizes > ROUNDING * sizes.max(), harmonics, 0j))
+        count *= 2
 
 
 # --- the smallest circle ----------------------------------------------------------------------------
@@ -225,14 +246,14 @@ def smallest_round(curve: CrankCurve) -> SmallestCircle:
 
     Where the curve leaves the circle between the samples, the places where it is farthest are taken among them.
     """
-    points, angles = curve.samples, PLACES
+    points, angles = curve.samples, curve.places
     for _ in range(REFINEMENTS):
         centre, radius, support = round_points(points)
-        touching = _refined(curve, angles[list(support)])
+        touching = _refined(curve, _merged(angles[list(support)], NEIGHBOURS * curve.step))
         if len(touching) > 1:
             found = curve.at(touching)
             finer = through(found)
-            if abs(finer - centre) <= FULL_TURN / SAMPLES * radius:
+            if abs(finer - centre) <= curve.step * radius:
                 centre, radius = finer, float(np.abs(found - finer).max())
             else:
                 touching = angles[list(support)]
@@ -241,6 +262,20 @@ def smallest_round(curve: CrankCurve) -> SmallestCircle:
             break
         points, angles = np.append(points, curve.at(places)), np.append(angles, places)
     return SmallestCircle(centre, radius, tuple(float(angle) for angle in np.sort(np.mod(touching, FULL_TURN))))
+
+
+def _merged(touching: Floats, near: float) -> Floats:
+    """Places θ (rad), those on both sides of one point of touch, which are `near` each other (rad), taken as one."""
+    kept: list[float] = []
+    for angle in np.sort(np.mod(touching, FULL_TURN)):
+        if kept and angle - kept[-1] < near:
+            kept[-1] = (kept[-1] + angle) / 2
+        else:
+            kept.append(float(angle))
+    if len(kept) > 1 and kept[0] + FULL_TURN - kept[-1] < near:
+        last = kept.pop()
+        kept[0] = (kept[0] + last - FULL_TURN) / 2
+    return np.array(kept)
 
 
 def _refined(curve: CrankCurve, touching: Floats) -> Floats:
@@ -262,7 +297,7 @@ def _refined(curve: CrankCurve, touching: Floats) -> Floats:
             return touching
         # A curve that is itself a circle touches everywhere: the least step will do.
         step = -np.linalg.lstsq(rates, slopes(angle), rcond=1e-9)[0]
-        angle = angle + np.clip(step, -FULL_TURN / SAMPLES, FULL_TURN / SAMPLES)
+        angle = angle + np.clip(step, -curve.step, curve.step)
         if np.all(np.abs(step) < SETTLED):
             break
     return angle

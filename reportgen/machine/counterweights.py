@@ -100,7 +100,18 @@ def crank_rods(linkage: Linkage) -> tuple[CrankRod, ...]:
         mass, share = (rod.mass if rod else 0.0), centre.real / dyad.lengths[0]
         to_and_fro = mass * share + (slider.mass if slider else 0.0)
         called = rod.centre if rod else ""
-        rods.append(CrankRod(i, j, pin, dyad.middle, called, pins[pin], mass * (1 - share), to_and_fro))
+        rods.append(
+            CrankRod(
+                rod=i,
+                slider=j,
+                crank_pin=pin,
+                end=dyad.middle,
+                centre=called,
+                pin=pins[pin],
+                turning=mass * (1 - share),
+                reciprocating=to_and_fro,
+            )
+        )
     return tuple(rods)
 
 

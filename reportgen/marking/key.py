@@ -179,6 +179,9 @@ DEFAULT = (
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-psi.*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
+    # The parts of what balances a machine, and the rules that are only compared.
+    *("-balance.[PMr].*", "-balance.rod.*", "-balance.*.x", "-balance.*.y", "-balance.*.[a-z]*[a-z]"),
+    *("balance.F.?", "balance.F.dir", "balance.after.*"),
 )
 """What is asked for unless a policy says otherwise: what a quantity comes to, not how it was drawn or checked."""
 

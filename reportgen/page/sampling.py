@@ -50,6 +50,7 @@ from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motio
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
+from reportgen.page import shaking
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
@@ -228,6 +229,7 @@ class Samples:
         forces, per = self._forces(scale)
         items += forces
         scales += [BarScale(per, "force", FORCES)] if forces else []
+        shaken, bars = shaking.shown(report, motion, scale, ARROW, self.chosen)
         spots = tuple(
             Spot(
                 name,
@@ -242,10 +244,10 @@ class Samples:
         return Pane(
             "machine",
             report.words["page"]["machine"],
-            items=tuple(items),
+            items=(*items, *shaken),
             low=low,
             high=high,
-            scales=tuple(scales),
+            scales=(*scales, *bars),
             spots=spots,
         )
 
@@ -439,6 +441,7 @@ class Samples:
         for name in self._reactions:
             yield _value(_scalar(self._force_symbol(name)), "force", np.abs(analysis.forces.reactions[name].force))
         yield _value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
+        yield from (_value(*shown) for shown in shaking.values(self.report, motion))
 
     # --- what interpolation costs
 

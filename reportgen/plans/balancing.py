@@ -45,6 +45,7 @@ from reportgen.machine import DRIVER, Crank, Inertia
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.balance import BalancedTurn, seen_from_crank, shaking_moment
 from reportgen.machine.counterweights import CrankRod, Rule, crank_rods, four_bar, place_on_link
+from reportgen.machine.motion import unit as unit_vector
 from reportgen.plans.integrals import with_rest
 from reportgen.plans.sides import image
 
@@ -57,23 +58,16 @@ ON_ITS_LINK = 1e-12
 
 
 def enter_balancing(q: Sheet, analysis: Analysis, turn: BalancedTurn) -> None:
-    """Enter force and moment on the frame, and the counterweights that are asked for with what they change.
-
-    What follows from a mean or an extreme of the turn belongs to the chapter of the cycle.
-    """
+    """Enter force and moment on the frame, and the counterweights that are asked for with what they change."""
     entry = _Entry(q, analysis, turn)
     with q.within(Chapter.balancing):
         entry.shaking()
-    if turn.products:
-        entry.rules()
-    elif turn.weights:
-        with q.within(Chapter.balancing):
+        if turn.products:
+            entry.rules()
+        elif turn.weights:
             entry.whole_balance()
-    if turn.weights:
-        first = next(iter(turn.products), "share")
-        with q.within(Chapter.cycle if first in ("rms", "max") else Chapter.balancing):
+        if turn.weights:
             entry.carried_out()
-    with q.within(Chapter.cycle):
         entry.over_the_turn()
 
 
@@ -161,9 +155,8 @@ class _Entry:
         """U and its angle by each rule; what the crank sees of F at the positions."""
         q, φ, ω = self.q, self.q["phi.1"], self.q["omega.1"]
         F_x, F_y = (q[balance_ids.component(axis)] for axis in AXES)
-        with q.within(Chapter.balancing):
-            q.define(balance_ids.seen("x"), (F_x * cos(φ) + F_y * sin(φ)) / ω**2, scale=self.unbalance)
-            q.define(balance_ids.seen("y"), (F_y * cos(φ) - F_x * sin(φ)) / ω**2, scale=self.unbalance)
+        q.define(balance_ids.seen("x"), (F_x * cos(φ) + F_y * sin(φ)) / ω**2, scale=self.unbalance)
+        q.define(balance_ids.seen("y"), (F_y * cos(φ) - F_x * sin(φ)) / ω**2, scale=self.unbalance)
         enter: Mapping[Rule, Callable[[], Sequence[Expression]]] = {
             "rms": self._mean,
             "max": self._circle,
@@ -171,8 +164,7 @@ class _Entry:
             "share": lambda: self._shares(q[balance_ids.SHARE]),
         }
         for rule in self.turn.products:
-            with q.within(Chapter.cycle if rule in ("rms", "max") else Chapter.balancing):
-                self._product(rule, LETTERS[rule], enter[rule]())
+            self._product(rule, LETTERS[rule], enter[rule]())
 
     def _product(self, name: str, letters: str, parts: Sequence[Expression]) -> None:
         """U with its angle from its components; one that is nothing by itself is not entered."""
@@ -215,16 +207,26 @@ class _Entry:
         return [-mean for mean in means]
 
     def _circle(self) -> Sequence[Expression]:
-        """Minus the centre of the circle through the two or three points where it touches the curve."""
-        q, curve = self.q, self.turn.curve
+        """Minus the centre of the circle through the two or three points where it touches the curve.
+
+        Each of them follows the position next to it.
+        """
+        q, curve, own = self.q, self.turn.curve, self.analysis.machine.cycle_angles
         points = []
-        for number, place in enumerate(map(complex, curve.at(np.array(curve.circle.touching))), 1):
+        for number, angle in enumerate(curve.circle.touching, 1):
+            place = complex(curve.at(angle))
+            nearest = np.abs(unit_vector(own) - unit_vector(angle)).argmin()
+            beside = q.give(
+                balance_ids.beside(number), np.arange(own.size) == nearest, Symbol("T"), "ratio", hidden=True
+            )
             x, y = (
-                q.give(
+                with_rest(
+                    q,
                     balance_ids.touching(number, axis),
-                    value,
-                    Symbol("u", f"{axis},{number}"),
-                    exact=False,
+                    values=value,
+                    by_rule=call("mean", q[balance_ids.seen(axis)], beside),
+                    symbol=Symbol("u", f"{axis},{number}"),
+                    kind="unbalance",
                     scale=self.unbalance,
                 )
                 for axis, value in zip(AXES, (place.real, place.imag), strict=True)

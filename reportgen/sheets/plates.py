@@ -23,7 +23,7 @@ from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
@@ -50,7 +50,7 @@ from reportgen.report.result_tables import (
     velocity_segments,
 )
 
-Set = Literal["kinematics", "forces"]
+Set = Literal["kinematics", "forces", "balancing"]
 WIDEST, MOST_ROWS = 180.0, 24
 """A table is so wide (mm) and has so many positions at most; then another stands beside it."""
 SEGMENT = 2
@@ -285,6 +285,22 @@ def _flywheel_speed(sources: Sources) -> Iterator[Drawn]:
         yield Drawn("flywheel-speed", "curves", curves.flywheel_speed(sources.small).scenes)
 
 
+def _balancing(sources: Sources) -> Iterator[Drawn]:
+    """The hodographs of the force on the frame, and what the crank sees of it."""
+    small = sources.small
+    if small.balanced is None:
+        return
+    yield Drawn("hodograph", "curves", balancing.hodograph(small).scenes)
+    if small.balanced.products:
+        yield Drawn("seen", "curves", balancing.seen_curve(small).scenes)
+        yield Drawn("balanced", "curves", balancing.balanced_hodograph(small).scenes)
+
+
+def _balancing_table(sources: Sources) -> Iterator[Drawn]:
+    if sources.report.balanced is not None:
+        yield from _table(sources, "balancing", (balancing.shaking_lines, balancing.balanced_table), cycle=True)
+
+
 def _velocity_table(sources: Sources) -> Iterator[Drawn]:
     yield from _table(sources, "velocities", (velocity_segments, velocities))
 
@@ -399,6 +415,7 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
         *(_indicator, _worked_forces, _force_plates, _torque, _polar, _flywheel, _flywheel_speed),
         *(_reaction_table, _load_table),
     ),
+    "balancing": (_balancing, _balancing_table),
 }
 """What each set shows, in the order of the work."""
 FURTHER = frozenset({_centres, _force_plates, _polar, _flywheel_speed})
