@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from reportgen.report.report import Report
 
 
-GENERAL, HEIGHT = "vasntωεφα", "y"
-"""Letters without an index that stand for any point, link or angle, or count links and joints; that of a diagram."""
+GENERAL, HEIGHT, SEEN = "vasntωεφα", "y", "uUψT"
+"""Letters without an index that stand for any point, link or angle, or count links and joints; those of diagrams."""
 
 
 def opened(assignment: Assignment) -> Case:
@@ -90,6 +90,7 @@ class MachineCase(MachineAnalysis):
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
         images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}
+        balancing = SEEN if self.balanced else ""
         corners = {corner for polygon in self.polygons for edge in polygon.edges for corner in (edge.start, edge.end)}
         return frozenset(
             {family.symbol for family in self.printed.families.values()}
@@ -100,7 +101,7 @@ class MachineCase(MachineAnalysis):
             | {Symbol(axis, name) for axis in "xy" for name in names}
             | {
                 Symbol(letter)
-                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""))
+                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""), *balancing)
             }
         )
 
