@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
-from reportgen.assignment import Assignment, parts
+from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs, placed
 from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
-from reportgen.base.files import contents, reported, scratch, version
+from reportgen.base.files import reported, scratch, version
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
@@ -308,10 +308,11 @@ def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
-    """The student's handout, the answer sheet of what is to be asked, and the assignment to check oneself by.
+    """The student's handout, the answer sheet of what is to be asked, and the data to check oneself by, if wanted.
 
-    No answer is in them.  The files of a coursework's parts keep their names.
+    No answer is in them.
     """
+    from reportgen.assignment.handed_out import handed_out
     from reportgen.marking.key import Ask, key_of
     from reportgen.marking.paper import task_of
     from reportgen.marking.sheet import answer_book
@@ -321,11 +322,10 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     chosen = ask or Ask()
     key = chosen.on_paper(key_of(case))
     letter = letter_of(case.assignment, engine)
-    task = task_of(case, key, chosen.by_section)
+    task = task_of(case, key, chosen.by_section, chosen.self_check)
     files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}
-    files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section))
-    own = {part.name: contents(part) for part in parts.files(read_source(path), path) if part.parent == path.parent}
-    return {**files, **own, "assignment.yaml": contents(path)}
+    files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section, chosen.self_check))
+    return files | ({"assignment.yaml": handed_out(path).encode()} if chosen.self_check else {})
 
 
 def key_files(

@@ -92,6 +92,8 @@ class DesignCase(LoadedAssignment):
         names = {
             **page.names(),
             "answer_tables": asked.answers,
+            "sheet_apart": asked.by_section,
+            "self_check": asked.self_check,
             "is_part": self.assignment.is_part,
             **page.asked(asked),
         }
