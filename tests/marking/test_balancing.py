@@ -56,7 +56,7 @@ def test_a_class_of_twelve_that_draws_by_hand() -> None:
         ("four-bar-04", balance_ids.angle(3), "counterweight-on-pin-side"),
         ("slider-crank-03", balance_ids.centrifugal(1), "omega-not-squared"),
         ("balancing/twin-270", balance_ids.rule_component("share", "x"), "share-of-turning-part"),
-        ("four-bar-04", balance_ids.force_of_link(2, "x"), "degrees-for-radians"),
+        ("four-bar-04", balance_ids.force_of_link(2, "y"), "degrees-for-radians"),
     ],
 )
 def test_mistakes_of_the_chapter_have_names(name: str, id: str, mistake: str) -> None:
