@@ -34,29 +34,30 @@ TERMS = 4
 
 @dataclass(frozen=True, slots=True)
 class PlannedLedger:
-    """What stands of an analysis: its ledger, the force plans that are laid out in it, its flywheel and its balancing.
+    """What stands of an analysis: its ledger, the force plans that are laid out in it, and its flywheel if it has one.
 
-    There is a plan for each group, the driver's is the last; none without loads.  Flywheel and balancing are None
-    unless they are asked for.
+    There is a plan for each group, the driver's is the last; none without loads.
     """
 
     ledger: Ledger
     polygons: tuple[Polygon, ...] = ()
     flywheel: flywheel.RegulatedCycle | None = None
-    balanced: BalancedTurn | None = None
 
 
 def write_ledger(
-    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()
+    analysis: Analysis,
+    units: Mapping[str, str] | None = None,
+    worked: Sequence[int] = (),
+    balanced: BalancedTurn | None = None,
 ) -> PlannedLedger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.  What balances the machine
+    is taken as `balanced` if it is known.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
     regulated: flywheel.RegulatedCycle | None = None
-    balance: BalancedTurn | None = None
     if analysis.loads:
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
@@ -64,10 +65,9 @@ def write_ledger(
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
         if machine.balancing is not None:
-            balance = balanced_turn(machine)
-            enter_balancing(q, analysis, balance)
+            enter_balancing(q, analysis, balanced or balanced_turn(machine))
     ledger = Ledger(q.families, machine.positions, units=units or {}, same=ONE_QUANTITY, lines=q.lines)
-    return PlannedLedger(ledger, polygons, regulated, balance)
+    return PlannedLedger(ledger, polygons, regulated)
 
 
 def enter_plans(

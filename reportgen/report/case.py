@@ -398,7 +398,7 @@ class MachineAnalysis(LoadedAssignment):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.plans import write_ledger
 
-        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
+        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, self.balanced)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
     @property
@@ -414,7 +414,7 @@ class MachineAnalysis(LoadedAssignment):
     @cached_property
     def entries(self) -> ResultEntries:
         """What holds at each of its positions."""
-        return entries_of(self.analysis)
+        return entries_of(self.analysis, self.balanced)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -426,7 +426,9 @@ class MachineAnalysis(LoadedAssignment):
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
 
-    @property
+    @cached_property
     def balanced(self) -> BalancedTurn | None:
         """What balances it, if the assignment asks for it."""
-        return self.written.balanced
+        from reportgen.machine.balance import balanced_turn
+
+        return balanced_turn(self.analysis.machine) if self.analysis.machine.balancing else None

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from reportgen.formula import ids
 from reportgen.machine import Crank
-from reportgen.machine.analysis import Analysis
+from reportgen.machine.analysis import Analysis, analyse
+from reportgen.machine.balance import BalancedTurn, shaking_force, shaking_moment
 from reportgen.machine.forces import Load
 
 Entries = Mapping[str, Any]
@@ -23,10 +24,48 @@ class ResultEntries:
     besides: Entries = field(default_factory=dict)
 
 
-def entries_of(analysis: Analysis) -> ResultEntries:
-    """The entries of a machine."""
+def entries_of(analysis: Analysis, turn: BalancedTurn | None = None) -> ResultEntries:
+    """The entries of a machine, with those of its balancing if that is asked for."""
     signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
-    return ResultEntries([_position(analysis, k) for k in range(len(analysis.cycle_angle))], {"dyad_signs": signs})
+    positions = [_position(analysis, k) for k in range(len(analysis.cycle_angle))]
+    if turn is None:
+        return ResultEntries(positions, {"dyad_signs": signs})
+    shaken = _shaken(analysis, turn)
+    both = [None if entry is None else {**entry, **on_frame} for entry, on_frame in zip(positions, shaken, strict=True)]
+    return ResultEntries(both, {"dyad_signs": signs, "balancing": _balancing(turn)})
+
+
+def _shaken(analysis: Analysis, turn: BalancedTurn) -> Iterator[Entries]:
+    """Force and moment on the frame at each position; with counterweights, what these change."""
+    states = {"shaking": analysis} | ({"balanced": analyse(turn.balanced)} if turn.weights else {})
+    arrays = {
+        name: {
+            "force": shaking_force(one.machine.linkage, one.motion),
+            "moment": shaking_moment(one.machine.linkage, one.motion),
+            **({} if name == "shaking" else {"R01": one.forces.reactions["R01"].force, "balancing_torque": one.torque}),
+        }
+        for name, one in states.items()
+    }
+    for k in range(len(analysis.cycle_angle)):
+        yield {name: {what: values[k] for what, values in of.items()} for name, of in arrays.items()}
+
+
+def _balancing(turn: BalancedTurn) -> Entries:
+    """The force over the turn without a counterweight and by each rule, and the counterweights that are carried out."""
+    speed2 = turn.machine.speed**2
+
+    def over_the_turn(product: complex) -> Entries:
+        greatest, angle = turn.curve.greatest(product)
+        return {"greatest": greatest * speed2, "cycle_angle": angle, "rms": turn.curve.rms(product) * speed2}
+
+    return {
+        "unbalanced": over_the_turn(0j),
+        "rules": {rule: {"product": product, **over_the_turn(product)} for rule, product in turn.products.items()},
+        "counterweights": {
+            str(weight.link): {"product": weight.product, "radius": weight.radius, "mass": weight.mass}
+            for weight in turn.weights
+        },
+    }
 
 
 def _position(analysis: Analysis, k: int) -> Entries | None:
