@@ -10,6 +10,7 @@ import numpy as np
 
 from reportgen.base.shown import view
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
+from reportgen.drawing.counterweights import CounterweightDisc, with_discs
 from reportgen.formula import Chain, Symbol, balance_ids, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
@@ -18,7 +19,7 @@ from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import unit
 from reportgen.plans.balancing import AFTER, AXES, BEFORE, LETTERS
 from reportgen.report import Value
-from reportgen.report.figures import FigureScenes
+from reportgen.report.figures import FigureScenes, drawing_scale, looks, reduction, shown_at
 from reportgen.report.report import Report
 from reportgen.report.tables import bare
 
@@ -249,6 +250,21 @@ def balanced_hodograph(report: Report) -> FigureScenes:
     return FigureScenes((_polar(report, curves, balance_ids.component),))
 
 
+def discs(report: Report) -> FigureScenes:
+    """The scheme with the counterweights that are carried out."""
+    factor, index, motion = reduction(report), shown_at(report), report.analysis.motion
+    scale = drawing_scale(report) * factor
+    shown = []
+    for weight in _turn(report).weights:
+        pivot = complex(motion.origins[weight.link].p[index])
+        arm = weight.place * complex(unit(motion.links[weight.link].angle[index]))
+        shown.append(
+            CounterweightDisc(pivot + arm, pivot, weight.mass, report.ledger.symbol(balance_ids.mass(weight.link)))
+        )
+    linkage = report.machine.linkage
+    return FigureScenes((with_discs(linkage, motion, index, scale, looks(report, scale, factor), shown),))
+
+
 def seen_curve(report: Report) -> FigureScenes:
     """What the crank sees of F, the smallest circle round it with its points of touch, the origin by each rule."""
     turn = _turn(report)
@@ -302,5 +318,6 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
 FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "hodograph": ("fig.hodograph", hodograph),
     "seen": ("fig.seen", seen_curve),
+    "counterweights": ("fig.counterweights", discs),
     "balanced": ("fig.balanced", balanced_hodograph),
 }
