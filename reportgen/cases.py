@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from reportgen.report.report import Report
 
 
-GENERAL, HEIGHT, SEEN = "vasntωεφα", "y", "uUψT"
+GENERAL, HEIGHT, SEEN = "vasntωεφα", "y", "uUψTθrγβ"
 """Letters without an index that stand for any point, link or angle, or count links and joints; those of diagrams."""
 
 

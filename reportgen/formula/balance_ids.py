@@ -43,13 +43,30 @@ greatest = Name("balance.top.{quantity}.{state}")
 rms = Name("balance.rms.{state}")
 whole_mass = Name("balance.mass.{state}")
 
+# --- the orders of an engine
+
+RATIO, TO_AND_FRO = "balance.lambda", "balance.reciprocating"
+factor = Name("balance.A.{number}")
+series = Name("balance.series.{number}")
+series_error = Name("balance.off.{number}")
+bank = Name("balance.bank.{slider}")
+pin_from_bank = Name("balance.gamma.{slider}")
+star = Name("balance.star.{number}.{sense}.{axis}")
+star_size = Name("balance.star.{number}.{sense}")
+order_force = Name("balance.order.{number}")
+couple = Name("balance.couple.{number}")
+
 # --- with the counterweights that are carried out
 
 AFTER_FORCE, AFTER_MOMENT = "balance.after.F", "balance.after.M"
 AFTER_REACTION, AFTER_TORQUE = "balance.after.R01", "balance.after.cb"
 after_component = Name("balance.after.F.{axis}")
 
-KINDS: Mapping[str, QuantityKind] = {"unbalance": QuantityKind("kg·m")}
+KINDS: Mapping[str, QuantityKind] = {
+    "unbalance": QuantityKind("kg·m"),
+    # The error of a series wants more figures than a measured value has.
+    "order factor": QuantityKind("", digits=8),
+}
 
 _B = Chapter.balancing
 
@@ -85,6 +102,23 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(greatest.only(quantity="cb"), "M", "torque", _B, below="cb,{state}", name="balance top cb {state}"),
     VocabularyRow(rms, "F", "force", _B, below="rms,{state}", name="balance rms {state}"),
     VocabularyRow(whole_mass, "m", "mass", _B, below="{state}", name="balance whole mass {state}"),
+    VocabularyRow(Name(RATIO), "λ", "ratio", _B),
+    VocabularyRow(Name(TO_AND_FRO), "m", "mass", _B, below="p"),
+    VocabularyRow(factor, "A", "order factor", _B, name="balance factor"),
+    VocabularyRow(series, "A", "order factor", _B, above="λ", name="balance series"),
+    VocabularyRow(series_error, "δ", "share", _B, below="A{number}", name="balance series error"),
+    VocabularyRow(bank, "β", "angle", _B, name="balance bank"),
+    VocabularyRow(pin_from_bank, "γ", "angle", _B, name="balance pin from bank"),
+    VocabularyRow(star.only(sense="forward"), "s", "ratio", _B, below="{number},{axis}", name="balance star"),
+    VocabularyRow(
+        star.only(sense="backward"), "s", "ratio", _B, below="{number},{axis}", above="′", name="balance star"
+    ),
+    VocabularyRow(star_size.only(sense="forward"), "s", "ratio", _B, below="{number}", name="balance star size"),
+    VocabularyRow(
+        star_size.only(sense="backward"), "s", "ratio", _B, below="{number}", above="′", name="balance star size"
+    ),
+    VocabularyRow(order_force, "F", "force", _B, below="({number})", name="balance order"),
+    VocabularyRow(couple, "k", "ratio", _B, below="{number}", name="balance couple"),
     VocabularyRow(Name(AFTER_FORCE), "F", "force", _B, below="qt", above="′"),
     VocabularyRow(after_component, "F", "force", _B, below="qt,{axis}", above="′", name="balance after component"),
     VocabularyRow(Name(AFTER_MOMENT), "M", "torque", _B, below="qt", above="′"),

@@ -122,10 +122,10 @@ class CrankCurve:
 
     def at(self, angle: Floats | float, derivative: int = 0) -> Complexes:
         """The curve, or a derivative by θ, at angles θ [N] (rad)."""
-        told = self.harmonics != 0
-        orders = self.orders[told]
+        kept = self.harmonics != 0
+        orders = self.orders[kept]
         waves = np.exp(1j * np.multiply.outer(np.asarray(angle), orders))
-        return np.asarray(waves @ (self.harmonics[told] * (1j * orders) ** derivative))
+        return np.asarray(waves @ (self.harmonics[kept] * (1j * orders) ** derivative))
 
     @property
     def mean(self) -> complex:
@@ -251,10 +251,10 @@ def smallest_round(curve: CrankCurve) -> SmallestCircle:
         centre, radius, support = round_points(points)
         touching = _refined(curve, _merged(angles[list(support)], NEIGHBOURS * curve.step))
         if len(touching) > 1:
-            found = curve.at(touching)
-            finer = through(found)
+            met = curve.at(touching)
+            finer = through(met)
             if abs(finer - centre) <= curve.step * radius:
-                centre, radius = finer, float(np.abs(found - finer).max())
+                centre, radius = finer, float(np.abs(met - finer).max())
             else:
                 touching = angles[list(support)]
         greatest, places = curve.farthest(centre)

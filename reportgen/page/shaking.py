@@ -25,12 +25,12 @@ DISC = 2.4
 def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes]]:
     """Layer, id and values (N) [N] of F without counterweights, and of F with the one on the crank."""
     before = shaking_force(turn.machine.linkage, motion)
-    found = [(LAYERS[0], balance_ids.FORCE, before)]
+    layers = [(LAYERS[0], balance_ids.FORCE, before)]
     if turn.products:
         (weight,) = turn.weights
         after = before + weight.product * turn.machine.speed**2 * unit(motion.driver)
-        found.append((LAYERS[1], balance_ids.AFTER_FORCE, after))
-    return found
+        layers.append((LAYERS[1], balance_ids.AFTER_FORCE, after))
+    return layers
 
 
 def shown(

@@ -47,6 +47,7 @@ from reportgen.machine.balance import BalancedTurn, seen_from_crank, shaking_mom
 from reportgen.machine.counterweights import CrankRod, Rule, crank_rods, four_bar, place_on_link
 from reportgen.machine.motion import unit as unit_vector
 from reportgen.plans.integrals import with_rest
+from reportgen.plans.orders import enter_orders
 from reportgen.plans.sides import image
 
 AXES = ("x", "y")
@@ -68,6 +69,7 @@ def enter_balancing(q: Sheet, analysis: Analysis, turn: BalancedTurn) -> None:
             entry.whole_balance()
         if turn.weights:
             entry.carried_out()
+        enter_orders(q, analysis, turn.curve, entry.force, entry.point_masses)
         entry.over_the_turn()
 
 
@@ -129,12 +131,15 @@ class _Entry:
 
     def _force_of(self, body: Inertia) -> tuple[Ref, Ref]:
         """The components of a link's inertia force, against the acceleration of its mass centre."""
-        q, way = self.q, ids.direction("a", body.centre)
-        if way not in q:
+        q, direction = self.q, ids.direction("a", body.centre)
+        if direction not in q:
             q.define(
-                way, heading(q[ids.plan_point("a", image(body.centre))]), scale=1.0, of=ids.acceleration(body.centre)
+                direction,
+                heading(q[ids.plan_point("a", image(body.centre))]),
+                scale=1.0,
+                of=ids.acceleration(body.centre),
             )
-        P, α = q[ids.inertia_force(body.link)], q[way]
+        P, α = q[ids.inertia_force(body.link)], q[direction]
         along, up = (
             q.define(balance_ids.force_of_link(body.link, axis), -(P * of(α)), scale=self.force)
             for axis, of in zip(AXES, (cos, sin), strict=True)
@@ -255,7 +260,7 @@ class _Entry:
             if body.mass > 0 and arm:
                 lay(q[ids.mass(DRIVER)], *self._arm(DRIVER, body.centre, arm))
         for rod in crank_rods(self.analysis.machine.linkage):
-            turning, reciprocating = self._point_masses(rod)
+            turning, reciprocating = self.point_masses(rod)
             balanced = turning if share == 0.0 else plus(turning, share * reciprocating)
             if balanced != NOTHING:
                 lay(balanced, *self._arm(rod.rod, rod.crank_pin, rod.pin))
@@ -270,7 +275,7 @@ class _Entry:
         id = balance_ids.pin_turn(link)
         return arm, q.find(id) or q.give(id, float(np.angle(place)))
 
-    def _point_masses(self, rod: CrankRod) -> tuple[Expression, Expression]:
+    def point_masses(self, rod: CrankRod) -> tuple[Expression, Expression]:
         """m_A and what goes to and fro: m_B and the slider's mass; each entered once."""
         q, m, slider = self.q, self.q.find(ids.mass(rod.rod)), self.q.find(ids.mass(rod.slider)) or NOTHING
         if m is None:
@@ -372,17 +377,19 @@ class _Entry:
         torque: list[Expression] = [q["M.eq"]]
         moment: list[Expression] = [q[balance_ids.MOMENT]]
         for link in self.links:
-            way, G, m = q[balance_ids.way(link)], q.find(balance_ids.weight(link)), q[balance_ids.mass(link)]
+            direction, G, m = q[balance_ids.way(link)], q.find(balance_ids.weight(link)), q[balance_ids.mass(link)]
             hold: list[Expression] = []
             if link != DRIVER:
                 ω, ε = (q[ids.signed(rate, link)] for rate in ("omega", "eps"))
                 hold.append(m * radius**2 * ε)
-                force = -(m * radius * way * (turned(ε) - ω**2))
+                force = -(m * radius * direction * (turned(ε) - ω**2))
                 pivot = next(dyad.end for dyad in machine.linkage.dyads if dyad.links[1] == link)
-                arm = q[ids.place(str(pivot))] - q[ids.place(self.crank.centre)] + radius * way
+                arm = q[ids.place(str(pivot))] - q[ids.place(self.crank.centre)] + radius * direction
                 moment.append(cross(arm, force))
             if G is not None:
-                x = q.define(balance_ids.place(f"W{link}", "x"), call("re", radius * way), scale=self.crank.length)
+                x = q.define(
+                    balance_ids.place(f"W{link}", "x"), call("re", radius * direction), scale=self.crank.length
+                )
                 hold.append(G * x)
             if link == DRIVER:
                 torque += hold

@@ -18,10 +18,13 @@ from reportgen.machine.balance import BalancedTurn, frame_reactions, seen_from_c
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import unit
 from reportgen.plans.balancing import AFTER, AXES, BEFORE, LETTERS
-from reportgen.report import Value
+from reportgen.report import Value, orders
 from reportgen.report.figures import FigureScenes, drawing_scale, looks, reduction, shown_at
+from reportgen.report.orders import factors_table
 from reportgen.report.report import Report
 from reportgen.report.tables import bare
+
+__all__ = ["FIGURES", "FUNCTIONS", "VALUES", "factors_table"]
 
 ROUND = 181
 """Points of a circle that is drawn among curves."""
@@ -63,14 +66,14 @@ class BalancingRule:
 
 def shaken(report: Report) -> tuple[ShakenLink, ...]:
     """The links with a part in force or moment on the frame, in the order of the file."""
-    found = []
+    entered = []
     for body in report.machine.linkage.inertias:
         parts = report.known(balance_ids.force_of_link(body.link, axis) for axis in AXES)
         arms = report.known(balance_ids.place(body.centre, axis) for axis in AXES)
         moment = report.known([balance_ids.moment_of_link(body.link)])
         if parts or moment:
-            found.append(ShakenLink(body.link, parts, [*arms, *moment]))
-    return tuple(found)
+            entered.append(ShakenLink(body.link, parts, [*arms, *moment]))
+    return tuple(entered)
 
 
 def shaking_lines(report: Report) -> list[str]:
@@ -86,12 +89,12 @@ def seen_lines(report: Report) -> list[str]:
 
 def balance_rules(report: Report) -> tuple[BalancingRule, ...]:
     """The rules asked for, in their order, the first of them the one that is carried out."""
-    told: set[str] = set()
+    shown_before: set[str] = set()
     rules = []
     for rule in _turn(report).products:
         masses = [id for id in report.ledger.families if id in balance_ids.point_mass] if rule in RODS else []
-        own = [id for id in masses if id not in told]
-        told.update(own)
+        own = [id for id in masses if id not in shown_before]
+        shown_before.update(own)
         before = {
             "rms": [balance_ids.mean(axis) for axis in AXES],
             "max": [id for id in report.ledger.families if id in balance_ids.touching],
@@ -211,11 +214,11 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
     analysis, turn = report.analysis, report.balanced
     linkage, motion = analysis.machine.linkage, analysis.motion
     off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
-    found = {"balance": (float(off), "N")}
+    entered = {"balance": (float(off), "N")}
     if balancing_state(report) == "links":
         left = seen_from_crank(turn.balanced).greatest()[0] / turn.curve.greatest()[0]
-        found["rest"] = (left, "")
-    return found
+        entered["rest"] = (left, "")
+    return entered
 
 
 # --- figures ------------------------------------------------------------------------------------------
@@ -307,6 +310,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "seen_lines": seen_lines,
     "shaken": shaken,
     "shaking_lines": shaking_lines,
+    **orders.VALUES,
 }
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "balance_rules": balance_rules,
@@ -320,4 +324,5 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "seen": ("fig.seen", seen_curve),
     "counterweights": ("fig.counterweights", discs),
     "balanced": ("fig.balanced", balanced_hodograph),
+    **orders.FIGURES,
 }

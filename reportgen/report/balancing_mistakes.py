@@ -30,6 +30,9 @@ def mistaken(ledger: Ledger) -> Changed:
         elif id in balance_ids.centrifugal or id in balance_ids.seen:
             ω = Ref("omega.1")
             changed[id] = [("omega-not-squared", definition / ω if id in balance_ids.centrifugal else definition * ω)]
+        elif (names := balance_ids.star.read(id)) is not None and names["number"] != "1":
+            first = ledger[balance_ids.star(1, names["sense"], names["axis"])].definition
+            changed[id] = [] if first is None else [("order-with-single-angle", first)]
         elif id in balance_ids.rule_component and balance_ids.SHARE in ledger.inputs[id]:
             changed[id] = [("share-of-turning-part", _of_all(ledger, definition))]
     return changed

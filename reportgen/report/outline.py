@@ -338,6 +338,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "flywheel": result_tables.flywheel,
     "shaking": QuantityTable(balancing.shaking_lines, "all_positions"),
     "rules": RowTable(balancing.rules_table, (58.0, 26.0, 22.0, 26.0, 26.0)),
+    "factors": RowTable(balancing.factors_table, (20.0, 36.0, 36.0, 30.0)),
     "balanced": QuantityTable(balancing.balanced_table, "all_positions"),
     "costs": RowTable(balancing.cost_table, (78.0, 28.0, 28.0, 22.0)),
     "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),

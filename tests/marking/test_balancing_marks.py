@@ -57,6 +57,8 @@ def test_a_class_of_twelve_that_draws_by_hand() -> None:
         ("slider-crank-03", balance_ids.centrifugal(1), "omega-not-squared"),
         ("balancing/twin-270", balance_ids.rule_component("share", "x"), "share-of-turning-part"),
         ("four-bar-04", balance_ids.force_of_link(2, "y"), "degrees-for-radians"),
+        ("balancing/twin-270", balance_ids.star(2, "forward", "y"), "order-with-single-angle"),
+        ("slider-crank-03", balance_ids.series(2), "ratio-inverted"),
     ],
 )
 def test_mistakes_of_the_chapter_have_names(name: str, id: str, mistake: str) -> None:
@@ -72,6 +74,11 @@ def test_mistakes_of_the_chapter_have_names(name: str, id: str, mistake: str) ->
 def test_every_mistake_of_the_chapter_has_words() -> None:
     for language in ("vi", "en"):
         words = load_words(search_path(language))
-        for name in ("counterweight-on-pin-side", "omega-not-squared", "share-of-turning-part"):
+        for name in (
+            "counterweight-on-pin-side",
+            "omega-not-squared",
+            "share-of-turning-part",
+            "order-with-single-angle",
+        ):
             assert words["mistakes"][name]
             assert words["mistake_names"][name]
