@@ -305,6 +305,8 @@ def _refined(curve: CrankCurve, touching: Floats) -> Floats:
 
 # --- a turn with what balances it -------------------------------------------------------------------
 
+NOTHING = 1e-9
+"""A counterweight below this share of all masses at the crank's pin is none."""
 FINE = 720
 """Places of a cycle's turn at which torques and moments with and without counterweights are compared."""
 
@@ -313,7 +315,7 @@ FINE = 720
 class BalancedTurn:
     """The curve that the crank sees, U (kg·m) by each rule asked for, and the counterweights that are carried out.
 
-    These are that of the first rule, or those of the whole balance of a four-bar.
+    These are that of the first rule, or those of the whole balance of a four-bar; none where they come to nothing.
     """
 
     machine: Machine
@@ -353,5 +355,11 @@ def balanced_turn(machine: Machine) -> BalancedTurn:
     carried_out = force_balance(machine.linkage) if asked.links else {}
     if products:
         carried_out = {DRIVER: products[asked.rules[0]]}
-    weights = (Counterweight(link, product, asked.radius) for link, product in carried_out.items())
+    # What counts as one: all masses at the crank's pin.
+    whole = _crank(machine.linkage).length * sum(body.mass for body in machine.linkage.inertias)
+    weights = (
+        Counterweight(link, product, asked.radius)
+        for link, product in carried_out.items()
+        if abs(product) > NOTHING * whole
+    )
     return BalancedTurn(machine, curve, products, tuple(weights))

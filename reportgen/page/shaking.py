@@ -26,7 +26,7 @@ def forces(turn: BalancedTurn, motion: Motion) -> list[tuple[str, str, Complexes
     """Layer, id and values (N) [N] of F without counterweights, and of F with the one on the crank."""
     before = shaking_force(turn.machine.linkage, motion)
     layers = [(LAYERS[0], balance_ids.FORCE, before)]
-    if turn.products:
+    if turn.products and turn.weights:
         (weight,) = turn.weights
         after = before + weight.product * turn.machine.speed**2 * unit(motion.driver)
         layers.append((LAYERS[1], balance_ids.AFTER_FORCE, after))

@@ -113,13 +113,14 @@ RODS = ("rotating", "share")
 
 
 def balancing_state(report: Report) -> str:
-    """What is asked for: "none", what shakes the "frame", a counterweight on the "crank", or the whole balance by
-    counterweights on the "links" of a four-bar."""
-    if report.balanced is None:
+    """What is asked for: "none", what shakes the "frame", a counterweight on the "crank", one in "vain" that comes to
+    nothing, or the whole balance by counterweights on the "links" of a four-bar."""
+    turn = report.balanced
+    if turn is None:
         return "none"
-    if not report.balanced.weights:
-        return "frame"
-    return "crank" if report.balanced.products else "links"
+    if turn.products:
+        return "crank" if turn.weights else "vain"
+    return "links" if turn.weights else "frame"
 
 
 def counterweight_lines(report: Report) -> list[str]:

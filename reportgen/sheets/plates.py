@@ -301,10 +301,11 @@ def _balancing(sources: Sources) -> Iterator[Drawn]:
     if small.balanced is None:
         return
     yield Drawn("hodograph", "curves", balancing.hodograph(small).scenes)
-    if small.balanced.weights:
-        yield Drawn("counterweights", "scheme", balancing.discs(small).scenes)
     if small.balanced.products:
         yield Drawn("seen", "curves", balancing.seen_curve(small).scenes)
+    if small.balanced.weights:
+        yield Drawn("counterweights", "scheme", balancing.discs(small).scenes)
+    if small.balanced.products and small.balanced.weights:
         yield Drawn("balanced", "curves", balancing.balanced_hodograph(small).scenes)
 
 
