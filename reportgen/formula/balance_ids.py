@@ -62,11 +62,7 @@ AFTER_FORCE, AFTER_MOMENT = "balance.after.F", "balance.after.M"
 AFTER_REACTION, AFTER_TORQUE = "balance.after.R01", "balance.after.cb"
 after_component = Name("balance.after.F.{axis}")
 
-KINDS: Mapping[str, QuantityKind] = {
-    "unbalance": QuantityKind("kg·m"),
-    # The error of a series wants more figures than a measured value has.
-    "order factor": QuantityKind("", digits=8),
-}
+KINDS: Mapping[str, QuantityKind] = {"unbalance": QuantityKind("kg·m")}
 
 _B = Chapter.balancing
 
@@ -104,8 +100,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(whole_mass, "m", "mass", _B, below="{state}", name="balance whole mass {state}"),
     VocabularyRow(Name(RATIO), "λ", "ratio", _B),
     VocabularyRow(Name(TO_AND_FRO), "m", "mass", _B, below="p"),
-    VocabularyRow(factor, "A", "order factor", _B, name="balance factor"),
-    VocabularyRow(series, "A", "order factor", _B, above="λ", name="balance series"),
+    VocabularyRow(factor, "A", "ratio", _B, name="balance factor"),
+    VocabularyRow(series, "A", "ratio", _B, above="λ", name="balance series"),
     VocabularyRow(series_error, "δ", "share", _B, below="A{number}", name="balance series error"),
     VocabularyRow(bank, "β", "angle", _B, name="balance bank"),
     VocabularyRow(pin_from_bank, "γ", "angle", _B, name="balance pin from bank"),
