@@ -177,6 +177,7 @@ DEFAULT = (
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
     # Second ways to the same result.
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-psi.*"),
+    *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
     # The parts of what balances a machine, and the rules that are only compared.

@@ -40,7 +40,7 @@ def shown(
 
     The greatest force is an arrow `longest` mm long, to a scale that is `chosen` once.
     """
-    if (turn := report.balanced) is None:
+    if (turn := report.case.balanced) is None:
         return [], []
     greatest = max(float(np.abs(force).max()) for *_, force in forces(turn, motion))
     per = float(chosen("arrows of shaking", lambda: greatest / longest))
@@ -67,7 +67,7 @@ def _items(report: Report, turn: BalancedTurn, motion: Motion, scale: float, per
 
 def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
     """The sizes of these forces and the moment on the frame: symbol, kind, values [N]; none if not asked for."""
-    turn, ledger = report.balanced, report.ledger
+    turn, ledger = report.case.balanced, report.ledger
     if turn is None:
         return
     for _, id, force in forces(turn, motion):

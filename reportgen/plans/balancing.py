@@ -435,7 +435,7 @@ class _Entry:
             balance_ids.rms(state),
             values=rms,
             by_rule=sqrt(call("mean", size_of**2, self.q["even"])),
-            symbol=Symbol("F", f"tb,{letters}"),
+            symbol=Symbol("F", f"hd,{letters}"),
             kind="force",
             scale=self.force,
         )

@@ -31,8 +31,8 @@ ROUND = 181
 
 
 def _turn(report: Report) -> BalancedTurn:
-    assert report.balanced is not None
-    return report.balanced
+    assert report.case.balanced is not None
+    return report.case.balanced
 
 
 # --- views and lines ----------------------------------------------------------------------------------
@@ -115,7 +115,7 @@ RODS = ("rotating", "share")
 def balancing_state(report: Report) -> str:
     """What is asked for: "none", what shakes the "frame", a counterweight on the "crank", one in "vain" that comes to
     nothing, or the whole balance by counterweights on the "links" of a four-bar."""
-    turn = report.balanced
+    turn = report.case.balanced
     if turn is None:
         return "none"
     if turn.products:
@@ -137,7 +137,7 @@ def counterweight_lines(report: Report) -> list[str]:
 
 def after_lines(report: Report) -> list[str]:
     """What is left at a position with the counterweights: force, reaction, moments."""
-    weights = () if report.balanced is None else report.balanced.weights
+    weights = () if report.case.balanced is None else report.case.balanced.weights
     arms = [balance_ids.place(f"W{weight.link}", "x") for weight in weights]
     components = [balance_ids.after_component(axis) for axis in AXES]
     holds = [balance_ids.hold(weight.link) for weight in weights]
@@ -210,9 +210,9 @@ def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object
 
 def residuals(report: Report) -> dict[str, tuple[float, str]]:
     """How far F is from the reactions on the frame when inertia alone acts (N), and a balanced four-bar's from 0."""
-    if report.balanced is None:
+    if report.case.balanced is None:
         return {}
-    analysis, turn = report.analysis, report.balanced
+    analysis, turn = report.analysis, report.case.balanced
     linkage, motion = analysis.machine.linkage, analysis.motion
     off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
     entered = {"balance": (float(off), "N")}

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from reportgen.machine.analysis import Analysis
     from reportgen.machine.balance import BalancedTurn
     from reportgen.machine.flywheel import RegulatedCycle
+    from reportgen.machine.true_motion import TrueMotion
     from reportgen.plans import PlannedLedger
     from reportgen.plans.loads import Polygon
     from reportgen.report.shafts import Shaft
@@ -414,7 +415,8 @@ class MachineAnalysis(LoadedAssignment):
     @cached_property
     def entries(self) -> ResultEntries:
         """What holds at each of its positions."""
-        return entries_of(self.analysis, self.balanced)
+        asked = self.analysis.machine.true_motion
+        return entries_of(self.analysis, None if asked is None else self.true_motion, self.balanced)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -432,3 +434,8 @@ class MachineAnalysis(LoadedAssignment):
         from reportgen.machine.balance import balanced_turn
 
         return balanced_turn(self.analysis.machine) if self.analysis.machine.balancing else None
+
+    @property
+    def true_motion(self) -> TrueMotion | None:
+        """The motion under a drive, if the assignment asks for it."""
+        return self.written.true_motion

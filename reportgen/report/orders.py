@@ -16,13 +16,13 @@ from reportgen.report.tables import bare
 
 
 def _engine(report: Report) -> Engine | None:
-    return None if report.balanced is None else engine(report.machine.linkage)
+    return None if report.case.balanced is None else engine(report.machine.linkage)
 
 
 def orders_state(report: Report) -> str:
     """Whether the report tells orders: "none", of a "single" cylinder, of several in a "line" or in a "vee", or of the
     "whole" force alone."""
-    if report.balanced is None or balance_ids.order_force(1) not in report.ledger:
+    if report.case.balanced is None or balance_ids.order_force(1) not in report.ledger:
         return "none"
     layout = _engine(report)
     if layout is None:
@@ -42,7 +42,7 @@ def factor_lines(report: Report) -> list[str]:
 
 def _told_later(report: Report) -> bool:
     """Whether a rule sets out the masses of the rods."""
-    return report.balanced is not None and bool({"rotating", "share"} & report.balanced.products.keys())
+    return report.case.balanced is not None and bool({"rotating", "share"} & report.case.balanced.products.keys())
 
 
 def star_lines(report: Report) -> list[str]:

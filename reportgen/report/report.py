@@ -15,11 +15,10 @@ import numpy as np
 from reportgen.assignment import Assignment
 from reportgen.base.units import MM
 from reportgen.drawing.charts import Area
-from reportgen.formula import Symbol, balance_ids, ids, vocabulary
+from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.machine import GROUND, Crank, Mobility, mobility
 from reportgen.machine.analysis import Analysis, Machine, Position, analyse
-from reportgen.machine.balance import BalancedTurn
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
@@ -81,10 +80,6 @@ class Report:
     @property
     def flywheel(self) -> RegulatedCycle | None:
         return self.case.flywheel
-
-    @property
-    def balanced(self) -> BalancedTurn | None:
-        return self.case.balanced
 
     @cached_property
     def groups(self) -> tuple[GroupView, ...]:
@@ -278,9 +273,9 @@ class Report:
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
-        shared = self.words["given_of_crank"]
-        balancing = {id: shared[id] for id in (balance_ids.RADIUS, balance_ids.SHARE)}
-        return {**declared, "unevenness": words["unevenness"], **balancing}
+        heads = ("run.", "balance.")
+        further = {id: name for id, name in self.words["given_of_crank"].items() if id.startswith(heads)}
+        return {**declared, "unevenness": words["unevenness"], **further}
 
     @property
     def mobility(self) -> Mobility:
@@ -352,9 +347,20 @@ class Report:
         return "synthesis" in self.machine.outline
 
     @property
+    def further(self) -> frozenset[str]:
+        """The loads that the file gives beside those of its kind: declared ones, springs."""
+        declared, springs = self.own.get("declared", ()), self.own.get("springs", ())
+        return frozenset((*(row.id for row in declared), *(name for row in springs for name in row.loads)))
+
+    @property
+    def has_own_load(self) -> bool:
+        """Whether a force or a torque of the kind acts, beside which others are further ones."""
+        return any(load.name not in self.further for load in self.loads)
+
+    @property
     def has_force(self) -> bool:
-        """Whether a working force acts, be it constant or not."""
-        return bool(self.machine.applied)
+        """Whether a working force of the kind acts, be it constant or not."""
+        return any(force.name not in self.further for force in self.machine.applied)
 
     @property
     def has_forces(self) -> bool:

@@ -24,6 +24,7 @@ from reportgen.report import (
     Text,
     Value,
     balancing,
+    running,
 )
 from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
@@ -297,8 +298,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
         largest["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
         if analysis.machine.cyclic:
             largest["energy"] = (analysis.summary.energy_error, "")
-        largest |= balancing.residuals(report)
-    return largest
+    return largest | running.residuals(report) | balancing.residuals(report)
 
 
 def _closure(report: Report) -> float:

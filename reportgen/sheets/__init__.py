@@ -58,7 +58,7 @@ def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool
     """The plates of some sets, all if none is named; without those of which there are none."""
     sources = Sources.of(case, every)
     offered: tuple[Set, ...] = ("kinematics", *(("forces",) if sources.report.has_forces else ()))
-    offered += ("balancing",) if sources.report.balanced is not None else ()
+    offered += ("balancing",) if sources.report.case.balanced is not None else ()
     return {name: list(plates_of(sources, name)) for name in offered if not sets or name in sets}
 
 

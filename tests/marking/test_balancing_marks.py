@@ -18,7 +18,7 @@ from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from tests.lanes import proof
 from tests.marking import students
 
-NAMES = {"slider-crank-03": "max", "four-bar-04": "", "balancing/twin-270": "share"}
+NAMES = {"slider-crank-04": "max", "four-bar-04": "", "balancing/twin-270": "share"}
 CLASS = 12
 
 
@@ -43,7 +43,7 @@ def test_a_class_of_twelve_that_draws_by_hand() -> None:
     """Twelve variants, each drawn with errors of half a millimetre and written with three figures: all is right."""
     for number in range(CLASS):
         rng = np.random.default_rng(number)
-        scheme = marking_scheme(opened(students.varied("slider-crank-03", rng, worked=(2,))))
+        scheme = marking_scheme(opened(students.varied("slider-crank-04", rng, worked=(2,))))
         found = mark(scheme, students.written(scheme, students.worked_out(scheme, drawn=rng)))
         wrong = [cell.id for cell in found.cells if cell.verdict is Verdict.wrong]
         assert wrong == [], (number, wrong)
@@ -52,13 +52,13 @@ def test_a_class_of_twelve_that_draws_by_hand() -> None:
 @pytest.mark.parametrize(
     ("name", "id", "mistake"),
     [
-        ("slider-crank-03", balance_ids.angle(1), "counterweight-on-pin-side"),
+        ("slider-crank-04", balance_ids.angle(1), "counterweight-on-pin-side"),
         ("four-bar-04", balance_ids.angle(3), "counterweight-on-pin-side"),
-        ("slider-crank-03", balance_ids.centrifugal(1), "omega-not-squared"),
+        ("slider-crank-04", balance_ids.centrifugal(1), "omega-not-squared"),
         ("balancing/twin-270", balance_ids.rule_component("share", "x"), "share-of-turning-part"),
         ("four-bar-04", balance_ids.force_of_link(2, "y"), "degrees-for-radians"),
         ("balancing/twin-270", balance_ids.star(2, "forward", "y"), "order-with-single-angle"),
-        ("slider-crank-03", balance_ids.series(2), "ratio-inverted"),
+        ("slider-crank-04", balance_ids.series(2), "ratio-inverted"),
     ],
 )
 def test_mistakes_of_the_chapter_have_names(name: str, id: str, mistake: str) -> None:
