@@ -320,9 +320,7 @@ def made_at_random(seed: int) -> tuple[Machine, float, Drive]:
     table = AngleLaw(knots, (*map(float, sizes[:5]), float(sizes[0])))
     spring = SpringLaw(1, (Anchor("S2"), Anchor(place=0.2 + 0.4j)), rng.uniform(200.0, 900.0), 0.2)
     applied = [
-        Applied(
-            "P3", 3, "B", fixed(np.exp(1j * rng.uniform(0, 6))), AngleLaw(knots, (*map(float, sizes[:5]), sizes[0]))
-        ),
+        Applied("P3", 3, "B", fixed(np.exp(1j * rng.uniform(0, 6))), table),
         Applied("P2", 2, "S2", spring.towards(0), spring),
     ]
     if slides:

@@ -98,7 +98,7 @@ def file_of(kind: str, text: str) -> File:
     if "δ_ω" in data:
         parameters["flywheel"] = {"delta": data["δ_ω"]}
     parameters |= _motion(task, data)
-    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data)
+    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data) | _balancing(task, data)
     file["parameters"] = parameters
     if rows := task.table("Indicator diagram"):
         file["indicator"] = _diagram(rows)
@@ -167,6 +167,35 @@ def _motion(task: Task, data: Mapping[str, str]) -> File:
 
 
 # --- what every kind may have -------------------------------------------------------------------------
+
+RULES = {
+    "rms": ("so that the mean square", "the one of least mean square"),
+    "max": ("so that the maximum", "the one of least maximum"),
+    "rotating": ("so that it balances the part that turns,", "the one that balances the part that turns"),
+    "share": ("so that it balances the part that turns and", "the one that also balances a share"),
+}
+"""How the rule for a counterweight is told that is carried out, and one that is compared."""
+
+
+def _balancing(task: Task, data: Mapping[str, str]) -> File:
+    """What is to be balanced, and how."""
+    text = task.find(r"(Find the force and the moment that the inertia.*)")
+    if text is None:
+        return {}
+    if "force whole" in text:
+        return {"balancing": {"links": [1, 3], "radius": data["r_c"]}}
+    if "counterweight" not in text:
+        return {"balancing": {}}
+    first, _, others = text.partition("Compare it with")
+    # They are compared in the order of the file.
+    compared = {others.find(told): rule for rule, (_, told) in RULES.items() if told in others}
+    rules = [
+        *(rule for rule, (chosen, _) in RULES.items() if chosen in first),
+        *(compared[at] for at in sorted(compared)),
+    ]
+    share = {"share": data["κ"]} if "κ" in data else {}
+    return {"balancing": {"counterweight": {"rules": rules, "radius": data["r_c"], **share}}}
+
 
 HUNG = r"from (?P<at>\w+) on link (?P<link>\d+) to "
 SIZES = r", stiffness (?P<c>.*?), free length (?P<free>.*)"
