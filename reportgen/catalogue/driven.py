@@ -7,7 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, given_springs, wide_sliders
+from reportgen.catalogue import (
+    declared_loads,
+    given_balancing,
+    given_friction,
+    given_motion,
+    given_springs,
+    wide_sliders,
+)
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -25,10 +32,13 @@ def outline(
     loads: bool,
     flywheel: Flywheel | None,
     *,
+    balancing: bool = False,
+    motion: bool = False,
     curves: bool = True,
     further: bool = False,
     springs: bool = False,
     faces: bool = False,
+    friction: bool = False,
     sizes: str = "dimensions",
     load: str = "working",
     summary: tuple[str, ...] = (),
@@ -39,17 +49,21 @@ def outline(
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, and sliders may have `faces`.
+    be `springs`, sliders may have `faces` and joints `friction`.  The chapter on `balancing` follows the driver,
+    the true `motion` the flywheel.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()
-    wheel = () if flywheel is None else ("flywheel",)
+    wheel = (*(() if flywheel is None else ("flywheel",)), *(("true-motion",) if motion else ()))
     beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
+    shaking = ("balancing/chapter",) if balancing else ()
     wide = ("faces",) if faces else ()
-    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *wheel, *CLOSING)
+    rubbing = ("friction",) if friction else ()
+    behind = (*rubbing, *shaking, *wheel)
+    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *behind, *CLOSING)
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
@@ -61,7 +75,8 @@ def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
     if placed or not isinstance(driver, Crank) or not any(q.of_link(letter, DRIVER) for letter in "GmJs"):
         return linkage
     share = q.of_link("s", DRIVER)
-    if given.crank_on_axis if share is None else share.si == 0:
+    weightless = not any(q.of_link(letter, DRIVER) for letter in "Gm")
+    if (given.crank_on_axis or weightless) if share is None else share.si == 0:
         # A body on its own axis is no rod: its moment of inertia is given, or none.
         q.mass(DRIVER)
         q.moment(DRIVER, None)
@@ -100,6 +115,9 @@ def driven(
     of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    balancing = given_balancing.entered(given.balancing, q.datum)
+    friction = given_friction.entered(given.friction, linkage, faces, q.datum)
+    given_motion.entered(given.motion, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in of_springs)}
     # What a kind sets out by its name is its own load.
@@ -112,7 +130,10 @@ def driven(
     parts |= {
         "springs": bool(springs),
         "faces": bool(faces),
+        "balancing": balancing is not None,
+        "friction": friction is not None,
         "curves": not positions.at,
+        "motion": given.motion is not None,
         "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
     }
     fields: dict[str, Any] = {
@@ -131,8 +152,11 @@ def driven(
         speed=given.speed,
         acceleration=given.acceleration,
         faces=faces,
+        friction=friction,
         sheet=q,
         unevenness=given.unevenness,
+        balancing=balancing,
+        true_motion=None if given.motion is None else given.motion.asked,
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

@@ -139,7 +139,9 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
     if no value is finite.
     """
     series, turn, levels = diagram.curves, diagram.turn, diagram.levels
-    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area, height)
+    window, x_ticks, y_ticks = _window(
+        series, [level for level, _ in levels], turn, half, area, height, zero=diagram.zero
+    )
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
     for level, name in levels:
@@ -173,12 +175,14 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
 
 
 def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = None) -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
+    """Hodographs of vectors (x, y) about the pole with equal scales, their marks and the axes named.
 
     Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
     """
-    (series,) = diagram.curves
-    x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
+    x, y = (
+        np.concatenate([np.asarray(getattr(curve, axis), dtype=np.float64) for curve in diagram.curves])
+        for axis in "xy"
+    )
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
     x_ticks, y_ticks = (_around(min(0.0, float(np.nanmin(of))), max(0.0, float(np.nanmax(of))), step) for of in (x, y))
     (x0, *_, x1), (y0, *_, y1) = x_ticks, y_ticks
@@ -188,9 +192,13 @@ def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = Non
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items = _frame(window, x_ticks, y_ticks, "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
-    vertices = window.vertices(x, y)
-    items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
-    requests = _marked(series, vertices, PENS[0], items)
+    requests: list[Request] = []
+    for n, curve in enumerate(diagram.curves):
+        vertices, pen = window.vertices(curve.x, curve.y), PENS[n % len(PENS)]
+        items += [] if curve.dots else [Polyline(points, pen) for points in _paths(vertices)]
+        requests += _marked(curve, vertices, pen, items)
+        if curve.label and len(diagram.curves) > 1:
+            requests.append(label(_places(vertices), curve.label))
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, diagram.x, diagram.y, items, area is not None)
     notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged),)
@@ -208,13 +216,15 @@ def _window(
     half: bool,
     area: Area | None,
     height: float = HEIGHT,
+    *,
+    zero: bool = True,
 ) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, of a round step upwards."""
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
     values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
     if not (np.isfinite(x).any() and np.isfinite(values).any()):
         raise ValueError("a chart needs finite values")
-    y = np.concatenate((values, [0.0, *levels]))
+    y = np.concatenate((values, [0.0] if zero else [], levels))
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
     y_ticks = _ticks(float(np.nanmin(y)), float(np.nanmax(y)), 6 if half else 7)
     if turn:

@@ -72,6 +72,11 @@ def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
     return np.where((place < least) | (place > most), value, np.nan)
 
 
+def where_positive(value: Value, place: Value) -> Value:
+    """The value where another one is above 0, nan elsewhere."""
+    return np.where(np.asarray(place) > 0, value, np.nan)
+
+
 def mean(values: Value, weights: Value = 1.0) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
@@ -89,6 +94,32 @@ def excess(value: Value, steps: Value) -> Value:
     above = np.asarray(value) - level(value, steps)
     parts = (above + np.roll(above, -1, axis=-1)) / 2 * steps
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
+
+
+def along(a: Value, v: Value) -> Value:
+    """The component of a along v; 0 where v is nothing beside the greatest of all positions."""
+    size = np.abs(v)
+    moves = size > EDGE * np.max(size, axis=-1, keepdims=True)
+    return np.where(moves, constructions.dot(a, v) / np.where(moves, size, 1.0), 0.0)
+
+
+def summed(value: Value, steps: Value) -> Value:
+    """The integral from the first position to each, by the trapezoid rule."""
+    parts = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2 * steps
+    return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) * (np.arange(parts.shape[-1]) > 0)
+
+
+def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
+    """The speed of a crank from position to position, from that at the first, with what acts and moves at each.
+
+    ω′ = M Δφ/(J ω) + (3J − J′)ω/(2J): the equation of energy, ΔT = M Δφ, with Δ(J ω²)/2 to the first order.
+    """
+    speed, torque, inertia, steps = np.broadcast_arrays(speed, torque, inertia, steps)
+    at = [np.asarray(speed)[..., 0]]
+    for k in range(speed.shape[-1] - 1):
+        J, ω = inertia[..., k], at[-1]
+        at.append(torque[..., k] * steps[..., k] / (J * ω) + (3 * J - inertia[..., k + 1]) * ω / (2 * J))
+    return np.stack(at, axis=-1)
 
 
 def heading(vector: Value) -> Value:
@@ -142,12 +173,16 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "mean": mean,
     "level": level,
     "excess": excess,
+    "along": along,
+    "summed": summed,
+    "stepped": stepped,
     "highest": lambda value: np.max(value, axis=-1, keepdims=True),
     "lowest": lambda value: np.min(value, axis=-1, keepdims=True),
     "quotient": quotient,
     "if_zero": if_zero,
     "within": within,
     "beyond": beyond,
+    "where_positive": where_positive,
     "branch": branch,
     "around": around,
     "amid": amid,

@@ -14,6 +14,8 @@ from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.coils import Coil
+from reportgen.machine.counterweights import Balancing
+from reportgen.machine.drives import MotionAsked
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import (
     Forces,
@@ -25,6 +27,7 @@ from reportgen.machine.forces import (
     weights,
 )
 from reportgen.machine.gas import indicated_work, stroke_at
+from reportgen.machine.joint_friction import Friction, FrictionForces, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque, carriers
 from reportgen.machine.motion import Motion, cross, solve_motion
@@ -72,6 +75,14 @@ class Analysis:
         tilts = faces.tilts(normal, reaction.moment)
         first, last = faces.ends(normal, reaction.moment)
         return name, tilts, np.where(tilts, first, np.nan), np.where(tilts, last, np.nan)
+
+    @cached_property
+    def with_friction(self) -> FrictionForces | None:
+        """Reactions and torque with the friction of the joints, None where nothing rubs."""
+        friction = self.machine.friction
+        if friction is None:
+            return None
+        return solve_with_friction(friction, self.machine.linkage, self.motion, self.loads, self.forces)
 
     @cached_property
     def summary(self) -> Summary:
@@ -276,6 +287,10 @@ class Machine:
     """Equations by name that the words of its analytic method show."""
     unevenness: float | None = None
     """δ of the speed that a flywheel is to keep to, if the report has its chapter."""
+    balancing: Balancing | None = None
+    """What the report says of balancing, if it has its chapter."""
+    true_motion: MotionAsked | None = None
+    """What is asked of its motion under a drive, if the report has that chapter."""
     places: tuple[float, ...] = ()
     """Cycle angles of the positions of one turn; empty: evenly spaced from 0."""
     labels: tuple[str, ...] = ()
@@ -286,6 +301,8 @@ class Machine:
     """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
     faces: Mapping[int, Faces] = field(default_factory=dict)
     """How wide sliders are, by their links."""
+    friction: Friction | None = None
+    """What joints rub."""
     instants: bool = False
     """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
     essential: tuple[str, ...] = ()

@@ -18,6 +18,7 @@ import numpy as np
 from reportgen.formula import Call, Ref, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
+from reportgen.marking.balancing import errors_of_positions
 
 PAPER_ERROR = 0.5e-3
 """How far off a drawn point may lie (m on paper), at each end of a measured length."""
@@ -29,6 +30,9 @@ WHOLE_DEGREE = np.pi / 180
 
 REACH = 3 / np.sqrt(3)
 """Three standard deviations of errors that are spread evenly over ±1."""
+
+ON_DRAWING = frozenset({"abs", "re", "im"})
+"""What a length on the drawing of the mechanism is of: of a vector its size or a component."""
 
 DIAGRAM = 0.1
 """How high an indicator diagram is plotted (m on paper)."""
@@ -88,14 +92,16 @@ def measuring_errors(
         if family.kind == "segment":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
         elif is_direction(id):
+            if not _is_drawn(family):
+                continue
             side = _on_paper(ledger, id)
             length = np.abs(side.values) / drawn_at.get(vocabulary.plan(side.id), 1.0)
             with np.errstate(all="ignore"):
                 errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
         elif family.kind == "angle":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
-        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name == "abs":
-            # Measured on the drawing of the mechanism, as a slider's way is.
+        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name in ON_DRAWING:
+            # Measured on the drawing of the mechanism, as a slider's way is, or a coordinate.
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
     for link, slope in _pressure_slopes(ledger).items():
@@ -216,6 +222,11 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
     return bands
 
 
+def _is_drawn(direction: Family) -> bool:
+    """Whether a direction is that of a vector on paper, rather than one that its components give."""
+    return isinstance(direction.definition, Call) and isinstance(direction.definition.arguments[0], Ref)
+
+
 def _on_paper(ledger: Ledger, id: str) -> Family:
     """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
     definition = ledger[id].definition
@@ -233,12 +244,48 @@ def _on_paper(ledger: Ledger, id: str) -> Family:
 # The report integrates continuously. With some ten positions a student cannot, so the difference belongs to the
 # tolerance; where it is large, the quantity cannot be worked out from the positions and is not asked for.
 
+TRUE_MOTION = "run."
+OF_CURVE = frozenset({"max", "min", "mean", "delta"})
 LARGE = 0.1
 """The share of a quantity's largest value that the rule may miss it by."""
 
 
 def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI)."""
+    """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI).
+
+    And all that is found of the true motion, which the same rule integrates; counterweights by the positions alone.
+    """
+    return {**_of_flywheel(ledger), **_of_true_motion(ledger), **errors_of_positions(ledger)}
+
+
+def _of_true_motion(ledger: Ledger) -> Mapping[str, np.ndarray]:
+    """How far what stands on integrals of the true motion is from what the rule makes of the positions.
+
+    The bounds of the speed are those of its curve, wherever the positions lie.
+    """
+    rests = [id for id in ledger.families if (names := ids.rest.read(id)) and names["id"].startswith(TRUE_MOTION)]
+    if not rests:
+        return {}
+    following = [
+        id
+        for id, family in ledger.families.items()
+        if id.startswith(TRUE_MOTION) and not (family.residue or id.split(".")[1] in OF_CURVE)
+    ]
+    values = ledger.evaluate(dict.fromkeys(rests, 0.0))
+    errors = {id: np.abs(np.real(values[id]) - ledger[id].values.real) for id in following}
+    for id in following:
+        speed = id.replace(".Md", ".omega")
+        if ledger[id].definition is None and speed != id and speed in ledger:
+            # A torque is read off its characteristic at a speed that has so many figures.
+            read, at = ledger[id].values.real, ledger[speed].values.real
+            with np.errstate(all="ignore"):
+                slopes = np.abs(np.diff(read, append=read[:1]) / np.diff(at, append=at[:1]))
+            steepest = float(np.max(slopes, initial=0.0, where=np.isfinite(slopes)))
+            errors[id] = steepest * half_unit(at, DIGITS)
+    return {id: error for id, error in errors.items() if error.max() > 0}
+
+
+def _of_flywheel(ledger: Ledger) -> Mapping[str, np.ndarray]:
     if "J.d" not in ledger:
         return {}
     torque = ledger["M.r"].values.real
@@ -263,4 +310,7 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
     """Whether a quantity can be worked out from the positions alone; speed only where excess work can (errors SI)."""
     id = "A.excess" if id == "omega.of" else id
+    if id.startswith(TRUE_MOTION) and id in errors and ledger[id].definition is not None:
+        # What stands on the work of all torques is found where that is.
+        id = f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

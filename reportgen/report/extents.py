@@ -21,7 +21,9 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
-            *("polar", "flywheel-work", "flywheel-speed"),
+            *("polar", "flywheel-work", "flywheel-speed", "balancing/hodograph"),
+            *("motion-reduced", "motion-equation", "motion-acceleration", "motion-diagrams", "motion-by-steps"),
+            *("motion-start", "motion-stop", "motion-forces"),
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),
             # tables that the work goes on without, and what is said of them
@@ -33,7 +35,7 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             # in tables relative velocities and accelerations, and loads at other than worked positions
             *("relative", "loads-everywhere"),
             # positions as large as they are measured by, links and directions that another figure shows as well
-            *("true-size", "links-together", "mechanism-beside-forces", "high-curves"),
+            *("true-size", "links-together", "mechanism-beside-forces", "high-curves", "friction-plans"),
             # the usual size of type, pages of their own for the contents
             *("usual-type", "contents-page"),
         )

@@ -8,7 +8,7 @@ their figure and table in tables of their own.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -26,8 +26,8 @@ from reportgen.report import (
     Plate,
     Reference,
     Section,
-    Table,
     Text,
+    balancing,
     chapters,
     comments,
     curves,
@@ -36,17 +36,20 @@ from reportgen.report import (
     force_figures,
     phrases,
     plans,
-    result_tables,
+    running,
+    running_curves,
     tables,
     wide_sliders,
 )
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
+from reportgen.report import joint_friction as friction
 from reportgen.report import phrases as steps
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.layout import contents
+from reportgen.report.named_tables import table
 from reportgen.report.numbering import finished
 from reportgen.report.report import Report
 from reportgen.report.used_symbols import used_symbols
@@ -93,6 +96,7 @@ PROPERTIES = (
     "has_flywheel",
     "has_force",
     "has_forces",
+    "has_own_load",
     "has_formulas",
     "has_gas",
     "has_turning_links",
@@ -151,6 +155,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "spring_lines": chapters.spring_lines,
     "spring_loads": chapters.spring_loads,
     "wide_sliders": wide_sliders.wide_sliders,
+    **friction.VALUES,
     "gas_forces": chapters.gas_forces,
     "inertia_parts": chapters.inertia_parts,
     "lever_couples": chapters.lever_couples,
@@ -158,6 +163,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "speed_limits": chapters.speed_limits,
     "tabled_forces": chapters.tabled_forces,
     "tangent_lines": chapters.tangent_lines,
+    **balancing.VALUES,
     "uniform_rods": chapters.uniform_rods,
     "without_mass": chapters.without_mass,
     "work_lines": chapters.work_lines,
@@ -165,6 +171,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "has_chosen_scale": chapters.has_chosen_scale,
     "plan_in_text": figures.plan_in_text,
     "shares_pins": chapters.shares_pins,
+    **running.VALUES,
 }
 """What functions make of a report."""
 
@@ -205,11 +212,14 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "polar": ("fig.polar", curves.polar),
     "torque": ("fig.M", curves.torque),
     "springs": ("fig.springs", curves.springs),
+    **friction.FIGURES,
     # the flywheel
     "flywheel-torque": ("fig.Mr", curves.flywheel_torque),
     "flywheel-work": ("fig.Jr", curves.flywheel_work),
     "flywheel-speed": ("fig.speed", curves.flywheel_speed),
     "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
+    **balancing.FIGURES,
+    **running_curves.FIGURES,
 }
 """What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
 
@@ -268,99 +278,6 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
     yield from plates
 
 
-# --- tables -----------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class QuantityTable:
-    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report."""
-
-    ids: Callable[[Report], Sequence[str]]
-    at: str = "positions"
-
-    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-        return tables.tables(report, key, caption, self.ids(report), getattr(report, self.at))
-
-
-@dataclass(frozen=True, slots=True)
-class RowTable:
-    """A table of the rows that a function gives, in columns of these widths (mm)."""
-
-    rows: Callable[..., Iterable[Sequence[object]]]
-    widths: tuple[float, ...]
-
-    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
-        return tables.list_table(report, key, caption, head, self.rows(report, *shown), self.widths)
-
-
-TABLES: Mapping[str, Callable[..., Any]] = {
-    # results at the front, symbols
-    "extremes": overview.extremes,
-    "main.figures": RowTable(overview.main_figures, (74.0, 22.0, 36.0, 28.0)),
-    "symbols": RowTable(overview.symbols, (40.0, 92.0, 28.0)),
-    # given data
-    "given": tables.given_data,
-    "indicator": tables.indicator,
-    "force": tables.working_force,
-    "gas.law": tables.gas_law,
-    "law": tables.load_law,
-    # the machine
-    "joints": RowTable(tables.joints, (20.0, 30.0, 40.0, 50.0)),
-    "lengths": tables.lengths,
-    "positions": result_tables.coordinates,
-    "dead": RowTable(result_tables.dead_centres, (20.0, 46.0, 44.0, 46.0)),
-    "labels": RowTable(result_tables.labels, (24.0, 50.0, 50.0)),
-    # a declared linkage
-    "frame": RowTable(tables.frame, (30.0, 50.0, 50.0)),
-    "groups": RowTable(tables.groups, (20.0, 20.0, 30.0, 85.0)),
-    "guides": RowTable(tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
-    "points": RowTable(tables.further_points, (18.0, 18.0, 28.0, 32.0, 32.0, 32.0)),
-    # motion
-    "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
-    "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
-    "summary": RowTable(result_tables.summary, (46.0, 46.0, 46.0)),
-    "v.segments": QuantityTable(result_tables.velocity_segments),
-    "v": QuantityTable(result_tables.velocities),
-    "a.segments": QuantityTable(result_tables.acceleration_segments),
-    "a": QuantityTable(result_tables.accelerations),
-    # forces
-    "strokes": result_tables.strokes,
-    "gas": QuantityTable(result_tables.gas, "load_positions"),
-    "inertia": QuantityTable(result_tables.inertia, "all_positions"),
-    "R": QuantityTable(result_tables.reactions, "all_positions"),
-    "faces": RowTable(wide_sliders.rows, (20.0, 28.0, 28.0, 46.0, 28.0, 28.0)),
-    "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),
-    "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
-    "M": QuantityTable(result_tables.balance, "all_positions"),
-    "flywheel": result_tables.flywheel,
-    "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
-}
-"""Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
-
-
-def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
-    """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
-
-    A name that is not in `TABLES` is a table of the loads whose ids are given, or of other quantities at positions.
-    """
-    texts = report.words["tables"][words or name]
-    position = next((k for k in arguments if isinstance(k, Position)), None)
-    caption = texts["caption"] if position is None else texts["caption"].format(k=position)
-    key = ".".join(["tab", name, *(str(one) for one in arguments if isinstance(one, (Position, str)))])
-    return TABLES.get(name, _of_ids)(report, key, caption, texts.get("head", ()), *arguments)
-
-
-def _of_ids(
-    report: Report,
-    key: str,
-    caption: str,
-    head: Sequence[str],
-    ids: Sequence[str],
-    positions: Iterable[int] | None = None,
-) -> tuple[Table | Paragraph, ...]:
-    return tables.tables(report, key, caption, ids, positions or report.load_positions)
-
-
 # --- names with parentheses -------------------------------------------------------------------------
 
 FUNCTIONS: Mapping[str, Callable[..., Any]] = {
@@ -407,6 +324,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "centre_state": centres.centre_state,
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
+    "drives": friction.drives,
     "face_state": wide_sliders.face_state,
     "first_turn": Report.first_turn,
     "parts": Report.parts,
@@ -441,6 +359,8 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "slider_rates": comments.slider_rates,
     "top_reactions": comments.top_reactions,
     "work_range": comments.work_range,
+    **balancing.FUNCTIONS,
+    **running.FUNCTIONS,
 }
 """Functions of a report and of what a template puts between the parentheses."""
 

@@ -23,7 +23,8 @@ from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves, running_curves
+from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
@@ -51,7 +52,7 @@ from reportgen.report.result_tables import (
     velocity_segments,
 )
 
-Set = Literal["kinematics", "forces"]
+Set = Literal["kinematics", "forces", "balancing"]
 WIDEST, MOST_ROWS = 180.0, 24
 """A table is so wide (mm) and has so many positions at most; then another stands beside it."""
 SEGMENT = 2
@@ -252,6 +253,27 @@ def _on_one_line(drawing: Plan) -> bool:
     return all(abs((way * ways[0].conjugate()).imag) < ONE_LINE for way in ways)
 
 
+def _friction(sources: Sources) -> Iterator[Drawn]:
+    """At the worked positions the machine with its friction circles, and each of them enlarged."""
+    report, small = sources.report, sources.small
+    if not friction.rubbing(report):
+        return
+    for k in report.worked_forces:
+        scenes = (friction.scheme_scene(small, k), *friction.joints(small, k).scenes)
+        yield Drawn("friction", "forces", scenes, (sources.place(k),))
+
+
+def _friction_plans(sources: Sources) -> Iterator[Drawn]:
+    """The force plans with friction of the worked positions."""
+    report, small = sources.report, sources.small
+    for k in report.worked_forces if friction.rubbing(report) else ():
+        polygons = [(sources.called(group), group.polygon) for group in reversed(report.groups)]
+        for called, polygon in (*polygons, (str(report.words["figure"]["driver"]), report.driver_polygon)):
+            if polygon is not None:
+                scene = plan(friction.force_plan_with_friction(small, polygon, k))
+                yield Drawn("friction-plan", "forces", (scene,), (sources.place(k, called),))
+
+
 def _force_plates(sources: Sources) -> Iterator[Drawn]:
     """The force plans of each group at all positions, as the report has them."""
     for group in reversed(sources.report.groups if sources.report.parts("force-plates") else ()):
@@ -293,6 +315,32 @@ def _flywheel_speed(sources: Sources) -> Iterator[Drawn]:
     report = sources.report
     if report.flywheel is not None and report.needs_flywheel and report.parts("flywheel-speed"):
         yield Drawn("flywheel-speed", "curves", curves.flywheel_speed(sources.small).scenes)
+
+
+def _balancing(sources: Sources) -> Iterator[Drawn]:
+    """The hodographs of the force on the frame, and what the crank sees of it."""
+    small = sources.small
+    if small.case.balanced is None:
+        return
+    yield Drawn("hodograph", "curves", balancing.hodograph(small).scenes)
+    if small.case.balanced.products:
+        yield Drawn("seen", "curves", balancing.seen_curve(small).scenes)
+    if small.case.balanced.weights:
+        yield Drawn("counterweights", "scheme", balancing.discs(small).scenes)
+    if small.case.balanced.products and small.case.balanced.weights:
+        yield Drawn("balanced", "curves", balancing.balanced_hodograph(small).scenes)
+
+
+def _balancing_table(sources: Sources) -> Iterator[Drawn]:
+    if sources.report.case.balanced is not None:
+        yield from _table(sources, "balancing", (balancing.shaking_lines, balancing.balanced_table), cycle=True)
+
+
+def _true_motion(sources: Sources) -> Iterator[Drawn]:
+    if sources.report.case.true_motion is not None:
+        yield Drawn("run", "curves", tuple(running_curves.sheet(sources.small)))
+        if sources.report.case.true_motion.drive.governs:
+            yield Drawn("run-characteristic", "curves", running_curves.characteristic(sources.small).scenes)
 
 
 def _velocity_table(sources: Sources) -> Iterator[Drawn]:
@@ -409,12 +457,25 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
         *(_velocity_table, _acceleration_table),
     ),
     "forces": (
-        *(_indicator, _springs, _worked_forces, _force_plates, _torque, _polar, _flywheel, _flywheel_speed),
+        *(
+            _indicator,
+            _springs,
+            _worked_forces,
+            _friction,
+            _friction_plans,
+            _force_plates,
+            _torque,
+            _polar,
+            _flywheel,
+            _flywheel_speed,
+        ),
+        _true_motion,
         *(_reaction_table, _load_table),
     ),
+    "balancing": (_balancing, _balancing_table),
 }
 """What each set shows, in the order of the work."""
-FURTHER = frozenset({_centres, _force_plates, _polar, _flywheel_speed})
+FURTHER = frozenset({_centres, _friction_plans, _force_plates, _polar, _flywheel_speed})
 """What is shown only where every plate is asked for."""
 RESULTS = frozenset({_velocity_table, _acceleration_table, _reaction_table, _load_table})
 """Tables that else fill what is left of a sheet."""

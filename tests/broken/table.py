@@ -185,6 +185,11 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
     ],
     "engine-v": [
         ("flywheel without loads", {"PC: 1 kN": "flywheel: {delta: 1/50}"}, "2:102 flywheel-without-loads"),
+        (
+            "balancing of no four-bar",
+            {"PC: 1 kN": "m2: 1 kg, balancing: {links: [1, 3], radius: 9 mm}"},
+            "2:124 balancing-of-four-bar",
+        ),
         ("articulation beyond the rod", {"BD: 66 mm": "BD: 260 mm"}, "2:41 out-of-range"),
         ("rod too short", {"BC: 253 mm": "BC: 80 mm"}, "2:29 no-assembly"),
         # A rod articulated far out on a short main rod follows the eight that its end goes through.
@@ -219,6 +224,65 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("unevenness in words", {"e: 40 mm": "…\n  flywheel: {delta: small}"}, "6:21 not-a-number"),
         ("unevenness of 40", {"e: 40 mm": "…\n  flywheel: {delta: 40}"}, "6:21 out-of-range"),
         ("flywheel of nothing", {"e: 40 mm": "…\n  flywheel: {}"}, "6:3 missing-key"),
+        (
+            "motion without inertia",
+            {"  G2: 40 N\n": "  m3: 2 kg\n  motion: {drive: {constant: find}}\n"},
+            "8:3 motion-no-inertia",
+        ),
+        ("half a drive", {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 90 N m}}"}, "7:19 missing-key", "k"),
+        ("no drive", {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {}}"}, "7:19 missing-key"),
+        (
+            "two drives",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 90 N m, k: 1 N m s, constant: find}}"},
+            "7:44 both-given",
+        ),
+        (
+            "a drive of no name",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {constant: found}, steady: false}"},
+            "7:30 not-a-number, 7:46 choice",
+        ),
+        (
+            "a drive that turns back",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {table: {n: [0 rpm, 9 rpm, 5 rpm], M: [1 N m, 1 N m]}}}"},
+            "7:46 not-increasing, 7:57 row-length",
+        ),
+        (
+            "a machine that runs away",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {constant: 500 N m}}"},
+            "7:12 motion-runs-away",
+            "500 N·m",
+        ),
+        (
+            "a machine that runs down",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 0.001 N m, k: 1 N m s}}"},
+            "7:12 motion-runs-down",
+        ),
+        (
+            "a machine that stalls",
+            {
+                "inward: [0, 1, 2]": "inward: [0, 2000, 0]",
+                "outward: [0, 0, 0]": "…\n  J1: 0.1 kg m2\n"
+                "  motion: {drive: {kloss: {Mk: 60 N m, sk: 0.2, n0: 90 rpm}}}",
+            },
+            "15:12 motion-stalls",
+            "is missing there",
+        ),
+        (
+            "a machine that does not start",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 2 N m, k: 0.01 N m s}, start: {from: 0 deg}}"},
+            "7:47 motion-does-not-start",
+            "it would start from",
+        ),
+        (
+            "a machine that does not stop",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {constant: find}, stop: {brake: 0.0001 N m}}"},
+            "7:37 motion-does-not-stop",
+        ),
+        (
+            "motion and an acceleration",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  epsilon1: 2 rad/s2\n  motion: {drive: {constant: find}}"},
+            "8:3 motion-without-turn",
+        ),
     ],
     "four-bar": [
         ("no speed", {"  omega1: 20 rad/s\n": ""}, "3:1 missing-key"),
@@ -294,6 +358,77 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "an end that is none",
             {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: [3 mm], c: 4 N/mm, free: 9 mm}]"},
             "5:34 spring-end",
+        ),
+        ("balancing without mass", {"AB: 120 mm": "…\n  balancing: {}"}, "5:3 balancing-without-mass"),
+        (
+            "balancing an accelerating crank",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  epsilon1: 2 rad/s2\n  balancing: {}"},
+            "7:3 balancing-without-turn",
+            "epsilon1",
+        ),
+        (
+            "balancing at instants",
+            {"kind: four-bar": "…\npositions: {at: [50 deg]}", "AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {}"},
+            "7:3 balancing-without-turn",
+            "“at”",
+        ),
+        (
+            "a rule of slider-cranks",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [rms, rotating], radius: 9 mm}}"},
+            "6:44 rule-of-slider-cranks",
+        ),
+        (
+            "a rule twice",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [rms, rms], radius: 9 mm}}"},
+            "6:44 repeated",
+        ),
+        (
+            "a share that no rule takes",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [rms], share: 1/2, radius: 9 mm}}"},
+            "6:45 share-without-rule",
+        ),
+        ("no rule", {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {radius: 9 mm}}"}, "6:15 missing-key"),
+        (
+            "an unknown rule",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [least], radius: 9 mm}}"},
+            "6:39 choice",
+        ),
+        (
+            "counterweights without a distance",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {links: [1, 3]}"},
+            "6:3 missing-key",
+            "radius",
+        ),
+        (
+            "a distance of nothing",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {radius: 9 mm}"},
+            "6:3 missing-key",
+            "counterweight | links",
+        ),
+        (
+            "a counterweight on the coupler",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {links: [1, 2], radius: 9 mm}"},
+            "6:15 balancing-links",
+            "1, 3",
+        ),
+        (
+            "two ways of balancing",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {links: [1, 3], counterweight: {rules: [rms], radius: 9 mm}}"},
+            "6:15 both-given",
+        ),
+        ("friction in no joint", {"AB: 120 mm": "…\n  friction: {pins: {X: {rho: 2 mm}}}"}, "5:21 no-such-joint"),
+        ("a pin without radius", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1}}}"}, "5:23 missing-key"),
+        ("a circle and f", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1, rho: 2 mm}}}"}, "5:25 both-given"),
+        ("friction of no slider", {"AB: 120 mm": "…\n  friction: {sliders: {3: 0.1}}"}, "5:24 no-slider"),
+        (
+            "friction of nothing",
+            {"AB: 120 mm": "…\n  friction: {pins: {A: {rho: 2 mm}}}", "  torque: {M: 40 N m}\n": ""},
+            "5:3 friction-without-loads",
+        ),
+        (
+            "friction that locks",
+            {"AB: 120 mm": "…\n  friction: {pins: {B: {f: 0.9, r: 400 mm}, C: {f: 0.9, r: 400 mm}}}"},
+            "5:3 locks",
         ),
         ("a face of no slider", {"AB: 120 mm": "…\n  faces: {3: {from: -1 mm, to: 2 mm}}"}, "5:11 no-slider"),
         (
@@ -431,6 +566,8 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "with link 1 at 120 mm",
         ),
         ("flywheel", {"parameters:\n": "parameters:\n  flywheel: {delta: 1/50}\n"}, "5:3 flywheel-of-slide"),
+        ("balancing", {"parameters:\n": "parameters:\n  balancing: {}\n"}, "5:3 balancing-of-slide"),
+        ("motion", {"parameters:\n": "parameters:\n  motion: {drive: {constant: find}}\n"}, "5:3 motion-of-slide"),
     ],
     "dyad": [
         # The pin comes as near to D as the slot's offset: |AD| − |AB| = 100 − 40 = 60, the crank along AD.

@@ -97,7 +97,7 @@ def file_of(kind: str, text: str) -> File:
             parameters[letter + link] = value
     if "δ_ω" in data:
         parameters["flywheel"] = {"delta": data["δ_ω"]}
-    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data)
+    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data) | _balancing(task, data)
     file["parameters"] = parameters
     if rows := task.table("Indicator diagram"):
         file["indicator"] = _diagram(rows)
@@ -127,6 +127,35 @@ def _positions(task: Task) -> File:
 
 # --- what every kind may have -------------------------------------------------------------------------
 
+RULES = {
+    "rms": ("so that the mean square", "the one of least mean square"),
+    "max": ("so that the maximum", "the one of least maximum"),
+    "rotating": ("so that it balances the part that turns,", "the one that balances the part that turns"),
+    "share": ("so that it balances the part that turns and", "the one that also balances a share"),
+}
+"""How the rule for a counterweight is told that is carried out, and one that is compared."""
+
+
+def _balancing(task: Task, data: Mapping[str, str]) -> File:
+    """What is to be balanced, and how."""
+    text = task.find(r"(Find the force and the moment that the inertia.*)")
+    if text is None:
+        return {}
+    if "force whole" in text:
+        return {"balancing": {"links": [1, 3], "radius": data["r_c"]}}
+    if "counterweight" not in text:
+        return {"balancing": {}}
+    first, _, others = text.partition("Compare it with")
+    # They are compared in the order of the file.
+    compared = {others.find(told): rule for rule, (_, told) in RULES.items() if told in others}
+    rules = [
+        *(rule for rule, (chosen, _) in RULES.items() if chosen in first),
+        *(compared[at] for at in sorted(compared)),
+    ]
+    share = {"share": data["κ"]} if "κ" in data else {}
+    return {"balancing": {"counterweight": {"rules": rules, "radius": data["r_c"], **share}}}
+
+
 HUNG = r"from (?P<at>\w+) on link (?P<link>\d+) to "
 SIZES = r", stiffness (?P<c>.*?), free length (?P<free>.*)"
 SPRINGS = (
@@ -140,6 +169,22 @@ FACE = (
     r"The face of slider (\d+) reaches from \S+ = (.*?) to \S+ = (.*?), counted from \w+ in the direction of its guide"
     r"(?:, at (.*?) below \w+)?\. "
 )
+
+
+RUBBING = re.compile(r"Friction acts in the joints: (.*?)\.(?=\s)")
+GIVEN = re.compile(r"([frρ])_?(\w+) = (.*)")
+
+
+def _friction(told: str) -> File:
+    """What is given of the joints that rub: f_A = 0.1; r_A = 20 mm; ρ_B = 2 mm; f_3 = 0.12."""
+    pins: dict[str, File] = {}
+    sliders = {}
+    for letter, at, value in (match.groups() for one in told.split("; ") if (match := GIVEN.fullmatch(one.strip()))):
+        if at.isdigit():
+            sliders[at] = typed(value)
+        else:
+            pins.setdefault(_name(at), {})[{"ρ": "rho"}.get(letter, letter)] = typed(value)
+    return ({"pins": pins} if pins else {}) | ({"sliders": sliders} if sliders else {})
 
 
 def _further(task: Task, data: Mapping[str, str]) -> File:
@@ -158,7 +203,7 @@ def _accelerates(task: Task, size: str) -> str:
 
 
 def _beside(task: Task) -> File:
-    """The plane, springs, faces of sliders."""
+    """The plane, springs, faces of sliders, friction."""
     found: File = {"plane": "horizontal"} if "in a horizontal plane" in task.text else {}
     lines = (line.rstrip(";.") for line in task.text.splitlines())
     told = (one for line in lines for one in (re.fullmatch(pattern, line) for pattern in SPRINGS) if one)
@@ -167,7 +212,9 @@ def _beside(task: Task) -> File:
         link: {"from": typed(first), "to": typed(last)} | ({"below": typed(below)} if below else {})
         for link, first, last, below in re.findall(FACE, task.text)
     }
-    return found | ({"springs": springs} if springs else {}) | ({"faces": faces} if faces else {})
+    rubbing = RUBBING.search(task.text)
+    friction = {"friction": _friction(rubbing[1])} if rubbing else {}
+    return found | ({"springs": springs} if springs else {}) | ({"faces": faces} if faces else {}) | friction
 
 
 def _spring(told: Mapping[str, str]) -> File:
