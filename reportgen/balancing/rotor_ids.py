@@ -47,8 +47,8 @@ _AXIS = "{place}{axis}"
 ROWS: tuple[VocabularyRow, ...] = (
     *(VocabularyRow(mass.only(place=plane), "m", "mass", below=plane, name="rotor correction mass") for plane in "AB"),
     *(
-        VocabularyRow(radius.only(place=one), "r", "rotor length", below=one, name="rotor correction radius")
-        for one in "AB"
+        VocabularyRow(radius.only(place=plane), "r", "rotor length", below=plane, name="rotor correction radius")
+        for plane in "AB"
     ),
     VocabularyRow(mass, "m", "mass", below="{place}", name="rotor mass"),
     VocabularyRow(radius, "r", "rotor length", below="{place}", name="rotor radius"),
