@@ -204,7 +204,7 @@ class _Entry:
                 values=value,
                 by_rule=call("mean", q[balance_ids.seen(axis)], q["even"]),
                 symbol="",
-                kind="unbalance",
+                kind="counterweight product",
                 scale=self.unbalance,
             )
             for axis, value in values
@@ -231,7 +231,7 @@ class _Entry:
                     values=value,
                     by_rule=call("mean", q[balance_ids.seen(axis)], beside),
                     symbol=Symbol("u", f"{axis},{number}"),
-                    kind="unbalance",
+                    kind="counterweight product",
                     scale=self.unbalance,
                 )
                 for axis, value in zip(AXES, (place.real, place.imag), strict=True)

@@ -194,7 +194,7 @@ def cost_table(report: Report) -> Iterator[Sequence[object]]:
     """The greatest force, moments and the masses before and after."""
     after = next(iter(_turn(report).products), AFTER)
     for quantity, state in (("F", after), ("M", AFTER), ("cb", AFTER)):
-        pair = report.known(balance_ids.greatest(quantity, one) for one in (BEFORE, state))
+        pair = report.known(balance_ids.greatest(quantity, when) for when in (BEFORE, state))
         if len(pair) == 2:
             yield _compared(report, quantity, pair)
     yield _compared(report, "mass", [balance_ids.whole_mass(state) for state in (BEFORE, AFTER)])
