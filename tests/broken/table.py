@@ -417,7 +417,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "6:15 both-given",
         ),
         ("friction in no joint", {"AB: 120 mm": "…\n  friction: {pins: {X: {rho: 2 mm}}}"}, "5:21 no-such-joint"),
-        ("a pin without radius", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1}}}"}, "5:23 missing-key"),
+        ("a pin without radius", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1}}}"}, "5:24 missing-key"),
         ("a circle and f", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1, rho: 2 mm}}}"}, "5:25 both-given"),
         ("friction of no slider", {"AB: 120 mm": "…\n  friction: {sliders: {3: 0.1}}"}, "5:24 no-slider"),
         (
