@@ -16,11 +16,15 @@ def shaken_entries(analysis: Analysis, turn: BalancedTurn) -> Iterator[Entries]:
     states = {"shaking": analysis} | ({"balanced": analyse(turn.balanced)} if turn.weights else {})
     arrays = {
         name: {
-            "force": shaking_force(one.machine.linkage, one.motion),
-            "moment": shaking_moment(one.machine.linkage, one.motion),
-            **({} if name == "shaking" else {"R01": one.forces.reactions["R01"].force, "balancing_torque": one.torque}),
+            "force": shaking_force(state.machine.linkage, state.motion),
+            "moment": shaking_moment(state.machine.linkage, state.motion),
+            **(
+                {}
+                if name == "shaking"
+                else {"R01": state.forces.reactions["R01"].force, "balancing_torque": state.torque}
+            ),
         }
-        for name, one in states.items()
+        for name, state in states.items()
     }
     for k in range(len(analysis.cycle_angle)):
         yield {name: {what: values[k] for what, values in of.items()} for name, of in arrays.items()}

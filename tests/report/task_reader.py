@@ -92,11 +92,12 @@ def file_of(kind: str, text: str) -> File:
     symbols = COMMON | LENGTHS[kind]
     parameters: File = {symbols[symbol]: value for symbol, value in data.items() if symbol in symbols}
     for symbol, value in data.items():
-        if found := re.fullmatch(r"([Gm])_(\d)|(s)_(\d)|(J)_S?(\d)", symbol):
+        if found := re.fullmatch(r"([Gm])_(\d)|(s)_(\d)|(J)_S?([1-9]\d?)", symbol):
             letter, link = (part for part in found.groups() if part)
             parameters[letter + link] = value
     if "δ_ω" in data:
         parameters["flywheel"] = {"delta": data["δ_ω"]}
+    parameters |= _motion(task, data)
     parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data) | _balancing(task, data)
     file["parameters"] = parameters
     if rows := task.table("Indicator diagram"):
@@ -123,6 +124,46 @@ def _positions(task: Task) -> File:
     if "count" in found and (start := task.find(r"the crank stands at (\S+)° to the x-axis")):
         found["start"] = typed(f"{start}°")
     return found
+
+
+# --- the motion under a drive ---------------------------------------------------------------------------
+
+DRIVES = {"M_0": "M0", "k_dr": "k", "i": "ratio", "J_0": "J"}
+KLOSS = {"M_k": "Mk", "s_k": "sk", "n_0": "n0"}
+FROM_REST = r"the start from rest at φ = (\S+?°) from the first position"
+TO_REST = r"the brake acting from φ = (\S+?°) of a steady cycle"
+MOTOR = (
+    r"(?P<name>[^;(]+?) \((?P<power>\S+ kW), (?P<n>\S+ rpm), starting torque (?P<start>\S+ N·m), "
+    r"breakdown torque (?P<breakdown>\S+ N·m)\)"
+)
+
+
+def _motion(task: Task, data: Mapping[str, str]) -> File:
+    """The drive of a machine, its start and stop; nothing where none is asked for."""
+    asked = re.search(r"The machine (?:is driven|drives a load)(.*)", task.text)
+    if not asked:
+        return {}
+    drive: File = {key: data[symbol] for symbol, key in DRIVES.items() if symbol in data}
+    if "by Kloss" in asked[0]:
+        drive["kloss"] = {key: data[symbol] for symbol, key in KLOSS.items()}
+    elif "to be found" in asked[0]:
+        drive["constant"] = "find"
+    elif torques := re.search(r"with the torques (.*), linear between", asked[0]):
+        points = [point.split(" at ") for point in torques[1].split("; ")]
+        drive["table"] = {"n": [typed(n) for _, n in points], "M": [typed(torque) for torque, _ in points]}
+    if "Choose the motor among: " in asked[0]:
+        told = re.finditer(MOTOR, asked[0].partition("Choose the motor among: ")[2])
+        drive["motors"] = [{key: typed(text.strip(" ;")) for key, text in one.groupdict().items()} for one in told]
+    motion: File = {"drive": drive}
+    if start := task.find(FROM_REST):
+        motion["start"] = {"from": typed(start)}
+    if stop := task.find(TO_REST):
+        motion["stop"] = {"brake": data["M_br"], "from": typed(stop)}
+    if ", with the flywheel" in asked[0]:
+        motion["flywheel"] = "true"
+    if "the forces at the true speeds" in asked[0]:
+        motion["forces"] = "true"
+    return {"motion": motion}
 
 
 # --- what every kind may have -------------------------------------------------------------------------
@@ -365,6 +406,7 @@ def _linkage(task: Task, data: Mapping[str, str]) -> File:
         file["g"] = data["g"]
     if "δ_ω" in data:
         file["flywheel"] = {"delta": data["δ_ω"]}
+    file |= _motion(task, data)
     if "their cycle takes two turns" in task.text:
         file["turns"] = "2"
     return file | _beside(task)
