@@ -91,10 +91,10 @@ class EngineSheet:
         for order in FACTORS:
             inner = q.define(names.exact(order), acceleration_factor(order, λ, q.si(λ)), hidden=True)
             A = q.define(names.factor(order), inner, optional=order not in ORDERS)
-            short = q.define(names.series(order), short_series(order, λ), optional=True)
-            error = q.define(names.off(order), (short - A) / A, optional=True, residue=True)
+            first_terms = q.define(names.series(order), short_series(order, λ), optional=True)
+            error = q.define(names.off(order), (first_terms - A) / A, optional=True, residue=True)
             q.set_out("factors", A)
-            q.set_out("series", short, error)
+            q.set_out("series", first_terms, error)
         q.set_out("amplitude", q.define("orders.K", m_rec * q["orders.r"] * ω**2))
 
     def _enter_arms(self) -> None:

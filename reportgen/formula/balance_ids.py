@@ -62,7 +62,7 @@ AFTER_FORCE, AFTER_MOMENT = "balance.after.F", "balance.after.M"
 AFTER_REACTION, AFTER_TORQUE = "balance.after.R01", "balance.after.cb"
 after_component = Name("balance.after.F.{axis}")
 
-KINDS: Mapping[str, QuantityKind] = {"unbalance": QuantityKind("kg·m")}
+KINDS: Mapping[str, QuantityKind] = {"counterweight product": QuantityKind("kg·m")}
 
 _B = Chapter.balancing
 
@@ -74,18 +74,22 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(force_of_link, "P", "force", _B, below="qt{link},{axis}", name="balance force of link"),
     VocabularyRow(moment_of_link, "M", "torque", _B, below="{link}", name="balance moment of link"),
     VocabularyRow(place, "{axis}", "length", _B, below="{point}", name="balance place"),
-    VocabularyRow(seen, "u", "unbalance", _B, below="{axis}", name="balance seen"),
-    VocabularyRow(mean, "u", "unbalance", _B, below="m,{axis}", name="balance mean"),
-    VocabularyRow(touching, "u", "unbalance", below="{axis},{number}", name="balance touching"),
+    VocabularyRow(seen, "u", "counterweight product", _B, below="{axis}", name="balance seen"),
+    VocabularyRow(mean, "u", "counterweight product", _B, below="m,{axis}", name="balance mean"),
+    VocabularyRow(touching, "u", "counterweight product", below="{axis},{number}", name="balance touching"),
     VocabularyRow(point_mass, "m", "mass", _B, below="{link}{point}", name="balance point mass"),
     VocabularyRow(pin_turn, "δ", "angle", _B, name="balance pin turn"),
     VocabularyRow(on_link.only(axis="x"), "ξ", "length", _B, below="{link}", name="balance along link"),
     VocabularyRow(on_link.only(axis="y"), "η", "length", _B, below="{link}", name="balance across link"),
-    VocabularyRow(product, "U", "unbalance", name="balance product"),
-    VocabularyRow(product_component, "U", "unbalance", below="{link},{axis}", name="balance product component"),
+    VocabularyRow(product, "U", "counterweight product", name="balance product"),
+    VocabularyRow(
+        product_component, "U", "counterweight product", below="{link},{axis}", name="balance product component"
+    ),
     VocabularyRow(angle, "ψ", "angle", around=True, name="balance angle"),
-    VocabularyRow(rule_product, "U", "unbalance", name="balance product of {rule}"),
-    VocabularyRow(rule_component, "U", "unbalance", below="{rule},{axis}", name="balance product component of {rule}"),
+    VocabularyRow(rule_product, "U", "counterweight product", name="balance product of {rule}"),
+    VocabularyRow(
+        rule_component, "U", "counterweight product", below="{rule},{axis}", name="balance product component of {rule}"
+    ),
     VocabularyRow(rule_angle, "ψ", "angle", around=True, name="balance angle of {rule}"),
     VocabularyRow(Name(RADIUS), "r", "length", below="c"),
     VocabularyRow(Name(SHARE), "κ", "ratio"),

@@ -334,6 +334,12 @@ class BalancedTurn:
         angles = np.arange(FINE * self.machine.turns) * (FULL_TURN / FINE)
         return analyse(self.machine, angles), analyse(self.balanced, angles)
 
+    @cached_property
+    def left(self) -> float:
+        """The greatest force on the frame (N) that the counterweights leave at those places."""
+        after = self.cycles[1]
+        return float(np.abs(shaking_force(after.machine.linkage, after.motion)).max())
+
 
 def counterweight(machine: Machine, curve: CrankCurve, rule: Rule, share: float) -> complex:
     """U (kg·m) of the counterweight on the crank by a rule, in the crank's frame."""

@@ -22,7 +22,7 @@ FORWARD, BACKWARD = 1, -1
 
 
 @dataclass(frozen=True, slots=True)
-class Cylinder:
+class EngineCylinder:
     """A cylinder in line with the crank's centre: its slider, its angle β and its pin's ψ on the crank (rad)."""
 
     slider: int
@@ -38,7 +38,7 @@ class Cylinder:
 class Engine:
     """Cylinders that are alike: crank r and rod l (m), the mass that goes to and fro in each (kg)."""
 
-    cylinders: tuple[Cylinder, ...]
+    cylinders: tuple[EngineCylinder, ...]
     crank: float
     rod: float
     mass: float
@@ -48,7 +48,7 @@ class Engine:
     def in_line(self) -> bool:
         """Whether all cylinders stand in one plane with the shaft."""
         first = self.cylinders[0].bank
-        return all(abs(np.exp(1j * (one.bank - first)) - 1) < SAME for one in self.cylinders)
+        return all(abs(np.exp(1j * (each.bank - first)) - 1) < SAME for each in self.cylinders)
 
     def star(self, order: int, sense: int) -> complex:
         """The sum of the cylinders' vectors of an order."""
@@ -71,7 +71,7 @@ def engine(linkage: Linkage) -> Engine | None:
         if abs(offset.imag) > SAME * dyad.lengths[0]:
             return None
         bank = guide.angle if dyad.sign > 0 else guide.angle + np.pi
-        cylinders.append(Cylinder(rod.slider, float(bank), float(np.angle(rod.pin))))
+        cylinders.append(EngineCylinder(rod.slider, float(bank), float(np.angle(rod.pin))))
         lengths.append((abs(rod.pin), dyad.lengths[0], rod.reciprocating))
     if not lengths or not _alike(lengths) or not lengths[0][2]:
         return None
@@ -81,7 +81,7 @@ def engine(linkage: Linkage) -> Engine | None:
 
 def _alike(lengths: Sequence[tuple[float, float, float]]) -> bool:
     first = np.array(lengths[0])
-    return bool(all(np.all(np.abs(np.array(other) - first) <= SAME * np.abs(first)) for other in lengths))
+    return bool(all(np.all(np.abs(np.array(own) - first) <= SAME * np.abs(first)) for own in lengths))
 
 
 def on_sliders(linkage: Linkage) -> bool:

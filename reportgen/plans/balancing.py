@@ -43,7 +43,7 @@ from reportgen.formula.sheet import Sheet, is_short
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import DRIVER, Crank, Inertia
 from reportgen.machine.analysis import Analysis
-from reportgen.machine.balance import BalancedTurn, seen_from_crank, shaking_moment
+from reportgen.machine.balance import BalancedTurn, shaking_moment
 from reportgen.machine.counterweights import CrankRod, Rule, crank_rods, four_bar, place_on_link
 from reportgen.machine.motion import unit as unit_vector
 from reportgen.plans.integrals import with_rest
@@ -204,7 +204,7 @@ class _Entry:
                 values=value,
                 by_rule=call("mean", q[balance_ids.seen(axis)], q["even"]),
                 symbol="",
-                kind="unbalance",
+                kind="counterweight product",
                 scale=self.unbalance,
             )
             for axis, value in values
@@ -231,7 +231,7 @@ class _Entry:
                     values=value,
                     by_rule=call("mean", q[balance_ids.seen(axis)], beside),
                     symbol=Symbol("u", f"{axis},{number}"),
-                    kind="unbalance",
+                    kind="counterweight product",
                     scale=self.unbalance,
                 )
                 for axis, value in zip(AXES, (place.real, place.imag), strict=True)
@@ -415,8 +415,9 @@ class _Entry:
         if self.turn.weights:
             self._costs()
         if self.turn.weights and not self.turn.products:
-            rest = seen_from_crank(self.turn.balanced).greatest()[0] * ω2
-            q.give(balance_ids.greatest("F", AFTER), rest, Symbol("F", "max", "′"), exact=False, scale=self.force)
+            q.give(
+                balance_ids.greatest("F", AFTER), self.turn.left, Symbol("F", "max", "′"), exact=False, scale=self.force
+            )
 
     def _of_force(self, state: str, force: Expression, greatest: float, rms: float) -> None:
         letters = LETTERS.get(state, "0")

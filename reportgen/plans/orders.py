@@ -32,7 +32,7 @@ from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.balance import CrankCurve
 from reportgen.machine.counterweights import CrankRod
-from reportgen.machine.orders import BACKWARD, FORWARD, Cylinder, Engine, engine, on_sliders
+from reportgen.machine.orders import BACKWARD, FORWARD, Engine, EngineCylinder, engine, on_sliders
 
 ORDERS = (1, 2, 4)
 """Orders of forces and couples; of one piston's acceleration the sixth is told, too."""
@@ -92,7 +92,7 @@ def _size(factor: Expression, order: int) -> Expression:
     return -factor if order == 4 else factor
 
 
-def _angles(q: Sheet, layout: Engine, cylinder: Cylinder) -> tuple[Expression, Expression]:
+def _angles(q: Sheet, layout: Engine, cylinder: EngineCylinder) -> tuple[Expression, Expression]:
     """β and γ = ψ − β of a cylinder, both from those of the first."""
     first = layout.cylinders[0]
     parts: list[Expression] = []

@@ -14,7 +14,7 @@ from reportgen.drawing.counterweights import CounterweightDisc, with_discs
 from reportgen.formula import Chain, Symbol, balance_ids, ids
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
-from reportgen.machine.balance import BalancedTurn, frame_reactions, seen_from_crank, shaking_force
+from reportgen.machine.balance import BalancedTurn, frame_reactions, shaking_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import unit
 from reportgen.plans.balancing import AFTER, AXES, BEFORE, LETTERS
@@ -194,7 +194,7 @@ def cost_table(report: Report) -> Iterator[Sequence[object]]:
     """The greatest force, moments and the masses before and after."""
     after = next(iter(_turn(report).products), AFTER)
     for quantity, state in (("F", after), ("M", AFTER), ("cb", AFTER)):
-        pair = report.known(balance_ids.greatest(quantity, one) for one in (BEFORE, state))
+        pair = report.known(balance_ids.greatest(quantity, when) for when in (BEFORE, state))
         if len(pair) == 2:
             yield _compared(report, quantity, pair)
     yield _compared(report, "mass", [balance_ids.whole_mass(state) for state in (BEFORE, AFTER)])
@@ -217,7 +217,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
     off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
     entered = {"balance": (float(off), "N")}
     if balancing_state(report) == "links":
-        left = seen_from_crank(turn.balanced).greatest()[0] / turn.curve.greatest()[0]
+        left = turn.left / (turn.curve.greatest()[0] * turn.machine.speed**2)
         entered["rest"] = (left, "")
     return entered
 
