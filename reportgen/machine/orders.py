@@ -16,21 +16,9 @@ import numpy as np
 from reportgen.machine import GROUND, Crank, Guide, Linkage
 from reportgen.machine.counterweights import CrankRod, crank_rods
 
-PLACES = 256
-"""Even places of a turn; λ⁸ʰ fades below 1e-15 long before so many harmonics, λ being less than 1."""
 SAME = 1e-9
 """Shares by which cylinders may differ that count as alike."""
 FORWARD, BACKWARD = 1, -1
-
-
-def piston_order(ratio: float, order: int) -> float:
-    """A_n of a piston's acceleration, exactly: n² times the n-th Fourier coefficient of its way over r, λ = r/l.
-
-    Its way is r cos θ + l √(1 − λ² sin² θ).
-    """
-    angle = np.arange(PLACES) * (2 * np.pi / PLACES)
-    displacement = np.cos(angle) + np.sqrt(1 - (ratio * np.sin(angle)) ** 2) / ratio
-    return float(order**2 * 2 * np.mean(displacement * np.cos(order * angle)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,12 +25,14 @@ from reportgen.formula import (
     sqrt,
     total,
 )
+from reportgen.formula.evaluation import evaluate
+from reportgen.formula.piston_orders import acceleration_factor, short_series
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.balance import CrankCurve
 from reportgen.machine.counterweights import CrankRod
-from reportgen.machine.orders import BACKWARD, FORWARD, Engine, EngineCylinder, engine, on_sliders, piston_order
+from reportgen.machine.orders import BACKWARD, FORWARD, Engine, EngineCylinder, engine, on_sliders
 
 ORDERS = (1, 2, 4)
 """Orders of forces and couples; of one piston's acceleration the sixth is told, too."""
@@ -64,12 +66,11 @@ def _of_engine(q: Sheet, layout: Engine, centre: str, point_masses: PointMasses)
     first = layout.rods[0]
     r, l = q[ids.length(centre, first.crank_pin)], q[ids.length(first.crank_pin, first.end)]  # noqa: E741
     λ = q.find("lambda") or q.define(balance_ids.RATIO, r / l, Symbol("λ"))
-    series = {2: λ + λ**3 / 4 + 15 * λ**5 / 128, 4: -(λ**3 / 4) - 3 * λ**5 / 16, 6: 9 * λ**5 / 128}
     A: dict[int, Expression] = {1: ONE}
     for order in EXACT:
-        value = piston_order(layout.crank / layout.rod, order)
+        value = float(evaluate(acceleration_factor(order, λ, q.si(λ)), {λ.id: q.value(λ)})[0])
         exact = q.give(balance_ids.factor(order), value, exact=False)
-        by_series = q.define(balance_ids.series(order), series[order])
+        by_series = q.define(balance_ids.series(order), short_series(order, λ))
         # Of five figures each no error would be left.
         q.give(balance_ids.series_error(order), q.si(by_series) / value - 1, exact=False)
         A[order] = exact

@@ -29,7 +29,7 @@ def has_motors(report: Report) -> bool:
 
 def chosen_motor(report: Report) -> Inlines:
     """The least motor that passes all checks, by name and power; nothing if none does."""
-    fitting = next((one for one in _checks(report) if one.fits), None)
+    fitting = next((checked_motor for checked_motor in _checks(report) if checked_motor.fits), None)
     if fitting is None:
         return ()
     return Text(f"{fitting.motor.name}, "), Value(_typed(fitting.motor.power, "kW"))
@@ -65,14 +65,14 @@ def _rows(report: Report) -> Iterator[Sequence[object]]:
     def checked(torque: float, wanted: float) -> Inlines:
         return Value(_number(torque)), Text(" ≥ " if torque >= wanted else " < "), Value(_number(wanted))
 
-    for one in _checks(report):
+    for checked_motor in _checks(report):
         yield (
-            one.motor.name,
-            _typed(one.motor.power),
-            checked(one.rated, one.demand.effective),
-            checked(one.start, one.demand.resistance),
-            checked(one.breakdown, one.demand.most),
-            words["fits" if one.fits else "fits_not"],
+            checked_motor.motor.name,
+            _typed(checked_motor.motor.power),
+            checked(checked_motor.rated, checked_motor.demand.effective),
+            checked(checked_motor.start, checked_motor.demand.resistance),
+            checked(checked_motor.breakdown, checked_motor.demand.most),
+            words["fits" if checked_motor.fits else "fits_not"],
         )
 
 
