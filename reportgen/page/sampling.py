@@ -216,7 +216,7 @@ class Samples:
         look = looks(report, scale)
         shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
         items = linkage_items(linkage, motion, shown, scale, look)
-        low, high = self.chosen("box", lambda: extent(items))
+        low, high = self.chosen("box", lambda: shaking.with_room(report, motion, scale, extent(items)))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]

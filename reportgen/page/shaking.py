@@ -11,6 +11,7 @@ from reportgen.drawing import Circle, Pen, Polyline, style
 from reportgen.drawing.animation import BarScale, MovingBody, MovingItem, MovingVector, Still, Track
 from reportgen.formula import Symbol, balance_ids, vocabulary
 from reportgen.machine.balance import BalancedTurn, shaking_force, shaking_moment
+from reportgen.machine.counterweights import Counterweight
 from reportgen.machine.motion import Complexes, Floats, Motion, unit
 from reportgen.report.report import Report
 
@@ -60,9 +61,29 @@ def _items(report: Report, turn: BalancedTurn, motion: Motion, scale: float, per
         yield Still((Polyline(tuple(map(complex, end)), style.PATH),), layer)
         yield MovingVector(Track(centre), Track(end), style.ACTIVE, label=symbol, name=id, layer=layer)
     for weight in turn.weights:
-        arm = weight.place * unit(motion.links[weight.link].angle)
-        at = Track((motion.origins[weight.link].p + arm) * scale)
+        at = Track(_place(weight, motion) * scale)
         yield MovingBody((Circle(0j, DISC, Pen(0.35), style.TINT),), at, layer=LAYERS[1])
+
+
+def _place(weight: Counterweight, motion: Motion) -> Complexes:
+    """Where a counterweight is (m) [N]."""
+    return motion.origins[weight.link].p + weight.place * unit(motion.links[weight.link].angle)
+
+
+def with_room(report: Report, motion: Motion, scale: float, box: tuple[complex, complex]) -> tuple[complex, complex]:
+    """The corners of a drawing (mm) that holds the counterweights, too."""
+    turn = report.case.balanced
+    places = [_place(weight, motion) * scale for weight in turn.weights] if turn is not None else []
+    if not places:
+        return box
+    low, high = box
+    x = np.concatenate([place.real for place in places])
+    y = np.concatenate([place.imag for place in places])
+    room = 2 * DISC
+    return (
+        complex(min(low.real, x.min() - room), min(low.imag, y.min() - room)),
+        complex(max(high.real, x.max() + room), max(high.imag, y.max() + room)),
+    )
 
 
 def values(report: Report, motion: Motion) -> Iterator[tuple[Symbol, str, Floats]]:
