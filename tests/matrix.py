@@ -291,7 +291,7 @@ def edit(at: Desk) -> None:
     before, form = at.file.read_bytes(), session.form()
     assert "data-goto" not in form
     assert len(form.encode()) <= LONGEST_FORM
-    field = re.search(r'data-w="([^"]*)" data-was="([^"]+)"', form)
+    field = re.search(r"data-w='([^']*)' data-was=\"([^\"]+)\"", form)
     assert field
     where, was = json.loads(unescape(field[1])), unescape(field[2])
     assert "refused" not in session.edit({"op": "set", "where": where, "value": "new", "was": was})
