@@ -1,0 +1,180 @@
+"""Which of the places that a plan fits is beyond doubt, and which line of it is which vector.
+
+What speaks for a fit is counted as the logarithm of odds.  A figure that has nothing to do with a plan has an end at a
+third corner only by chance: one of its lines would have to end within ±2.5 σ instead of anywhere in the figure, once
+in each direction.  A plan is taken where the odds are `BEYOND_DOUBT` against chance and against every other plan at
+its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, Fit, Lines, fits, fitted
+from reportgen.handin.plan_shapes import PlanShape
+
+BEYOND_DOUBT = float(np.log(1e5))
+"""Odds against another plan at the same place."""
+BY_CHANCE = float(np.log(1e3))
+"""Odds against lines that meet so by chance, of all placings that were tried."""
+WITHIN = 2.5
+"""Deviations within which an end lies that is where it should be."""
+LEFT_OUT = float(np.log(20.0))
+"""Odds against a vector that was not drawn: students leave out one of twenty."""
+CLOSED = 1.0
+"""What speaks for a line between two ends that are there anyhow, as every polygon has it."""
+OTHER_SCALE = float(np.log(0.05))
+"""Odds of a plan that is drawn to another scale than most."""
+MANY = 3
+"""So many plans of one kind show the scale that they are drawn to."""
+FINEST = 0.03
+"""No drawing is taken for more exact (mm): lengths are rounded before they are drawn."""
+SHARED = 1 / 3
+"""Two fits are of one place if they share more of the lines of either."""
+COINCIDE = 0.05
+"""Vectors whose ends are nearer than this (mm) are one line on paper."""
+
+
+@dataclass(frozen=True)
+class FoundPlans:
+    """The plans found beyond doubt, those that share a place with others, and how exactly ends were drawn (mm)."""
+
+    plans: tuple[Fit, ...]
+    doubtful: tuple[tuple[Fit, ...], ...]
+    deviation: float
+
+
+def find(shapes: Sequence[PlanShape], lines: Lines, taken: frozenset[int] = frozenset()) -> FoundPlans:
+    """The plans among the lines."""
+    every = [fit for shape in shapes for fit in fits(shape, lines)]
+    judge = _Judge(lines, len(shapes), lines.error / np.sqrt(3), {})
+    clear, _ = judge.decided(every)
+    deviation = _deviation(clear, lines)
+    judge = replace(judge, deviation=deviation)
+    again = [fit for one in every if (fit := _closer(one, lines, deviation)) is not None]
+    scales = _common_scales(judge.decided(again)[0] or again, judge)
+    judge = replace(judge, scales=scales)
+    small = [
+        fit
+        for shape in shapes
+        if shape.kind in scales
+        for one in fits(shape, lines, [scales[shape.kind] if shape.kind in "va" else shape.unit / scales[shape.kind]])
+        if (fit := _closer(one, lines, deviation)) is not None
+    ]
+    plans, doubtful = judge.decided(_distinct([*again, *small]))
+    return FoundPlans(tuple(plans), tuple(doubtful), deviation)
+
+
+def _closer(fit: Fit, lines: Lines, deviation: float) -> Fit | None:
+    return fitted(fit.shape, lines, fit.scale, fit.shift, deviation)
+
+
+def _distinct(several: Sequence[Fit]) -> list[Fit]:
+    found: dict[tuple[int, frozenset[int]], Fit] = {}
+    for fit in several:
+        key = id(fit.shape), fit.used
+        if key not in found or fit.square < found[key].square:
+            found[key] = fit
+    return list(found.values())
+
+
+def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
+    """The standard deviation (mm) of ends from their places in each direction, over all plans; at most that expected."""
+    usual = lines.error / np.sqrt(3)
+    count = sum(4 * len(fit.found) - 3 for fit in plans)
+    if count < 4 * MANY:
+        return float(usual)
+    square = sum(fit.square for fit in plans)
+    return float(np.clip(np.sqrt(square / count), FINEST, usual))
+
+
+def _drawn_to(fit: Fit) -> float:
+    """The scale of a plan over the report's; of forces, whose report has one for each position, the scale itself."""
+    return fit.scale if fit.shape.kind in "va" else fit.shape.unit / fit.scale
+
+
+def _common_scales(plans: Sequence[Fit], judge: _Judge) -> dict[str, float]:
+    """The scale that most plans of a kind share, by kinds."""
+    scales: dict[str, float] = {}
+    for kind in {fit.shape.kind for fit in plans}:
+        own = [fit for fit in plans if fit.shape.kind == kind]
+        drawn = np.log([_drawn_to(fit) for fit in own])
+        room = np.array([WITHIN * fit.scale_error(judge.deviation) / fit.scale for fit in own])
+        agree = np.abs(drawn[:, None] - drawn) <= room[:, None] + room
+        names = np.array([id(fit.shape) for fit in own])
+        votes = [len(set(names[row])) for row in agree]
+        best = int(np.argmax(votes))
+        if votes[best] >= MANY and 2 * votes[best] > len(set(names)):
+            weights = 1 / np.maximum(room[agree[best]], 1e-6) ** 2
+            scales[kind] = float(np.exp((drawn[agree[best]] * weights).sum() / weights.sum()))
+    return scales
+
+
+@dataclass(frozen=True)
+class _Judge:
+    lines: Lines
+    shapes: int
+    deviation: float
+    scales: Mapping[str, float]
+
+    def for_it(self, fit: Fit) -> float:
+        """What speaks for a fit (logarithm of odds), chance not yet taken off."""
+        corners = fit.corners_met(2 * self.lines.reach)
+        across = max(np.log(fit.size / (WITHIN * self.deviation)), 0.0)
+        closing = len(fit.used) - (corners - 1)
+        return (
+            (2 * corners - 3) * across
+            + CLOSED * max(closing, 0)
+            - LEFT_OUT * fit.missing
+            - fit.square / (2 * self.deviation**2)
+            + self._of_scale(fit)
+        )
+
+    def _of_scale(self, fit: Fit) -> float:
+        """What the scale says: nothing where none is common."""
+        if fit.shape.kind not in self.scales:
+            return 0.0
+        off = abs(np.log(_drawn_to(fit) / self.scales[fit.shape.kind]))
+        room = max(WITHIN * fit.scale_error(self.deviation) / fit.scale, 1e-4)
+        return float(np.log(ANYWHERE / (2 * room))) if off <= room else OTHER_SCALE
+
+    @property
+    def by_chance(self) -> float:
+        """How many placings were tried, as a logarithm: two lines with a common end, for each plan."""
+        return float(np.log(max(len(self.lines.pairs[0]), 1) * max(self.shapes, 1)))
+
+    def decided(self, every: Sequence[Fit]) -> tuple[list[Fit], list[tuple[Fit, ...]]]:
+        """The fits beyond doubt, the best first, and those of places that several plans fit."""
+        odds = {id(fit): self.for_it(fit) for fit in every}
+        least = self.by_chance + BY_CHANCE
+        order = sorted((fit for fit in every if fit.corners_met(2 * self.lines.reach) >= FEWEST_CORNERS), key=lambda fit: -odds[id(fit)])
+        by_line: dict[int, list[Fit]] = {}
+        for fit in order:
+            for line in fit.used:
+                by_line.setdefault(line, []).append(fit)
+        plans: list[Fit] = []
+        doubtful: list[tuple[Fit, ...]] = []
+        placed: dict[int, Fit] = {}
+        taken: set[int] = set()
+        for fit in order:
+            if odds[id(fit)] < least or id(fit.shape) in placed or len(fit.used & taken) > SHARED * len(fit.used):
+                continue
+            others = {id(one): one for line in fit.used for one in by_line[line]}.values()
+            rivals = [
+                one
+                for one in others
+                if one.shape is not fit.shape
+                and id(one.shape) not in placed
+                and len(one.used & fit.used) > SHARED * min(len(one.used), len(fit.used))
+                and odds[id(one)] > odds[id(fit)] - BEYOND_DOUBT
+            ]
+            taken |= fit.used
+            if rivals:
+                doubtful.append((fit, *rivals))
+                continue
+            placed[id(fit.shape)] = fit
+            plans.append(fit)
+        return plans, doubtful
