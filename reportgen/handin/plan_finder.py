@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, Fit, Lines, fits, fitted
+from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, SEEN, Fit, Lines, fits, fitted, named
 from reportgen.handin.plan_shapes import PlanShape
 
 BEYOND_DOUBT = float(np.log(1e5))
@@ -21,7 +21,9 @@ BEYOND_DOUBT = float(np.log(1e5))
 BY_CHANCE = float(np.log(1e3))
 """Odds against lines that meet so by chance, of all placings that were tried."""
 WITHIN = 2.5
-"""Deviations within which an end lies that is where it should be."""
+"""Deviations within which an end lies that is where it should be: √(2π) σ is the width of a normal distribution."""
+LONG = 10.0
+"""A line shorter than so many errors of an end has hardly a direction (5 mm)."""
 LEFT_OUT = float(np.log(20.0))
 """Odds against a vector that was not drawn: students leave out one of twenty."""
 CLOSED = 1.0
@@ -34,8 +36,6 @@ FINEST = 0.03
 """No drawing is taken for more exact (mm): lengths are rounded before they are drawn."""
 SHARED = 1 / 3
 """Two fits are of one place if they share more of the lines of either."""
-COINCIDE = 0.05
-"""Vectors whose ends are nearer than this (mm) are one line on paper."""
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,8 @@ class FoundPlans:
     """The plans found beyond doubt, those that share a place with others, and how exactly ends were drawn (mm)."""
 
     plans: tuple[Fit, ...]
+    sure: tuple[np.ndarray, ...]
+    """Of each whether the line of each vector is beyond doubt [E]."""
     doubtful: tuple[tuple[Fit, ...], ...]
     deviation: float
 
@@ -55,7 +57,7 @@ def find(shapes: Sequence[PlanShape], lines: Lines, taken: frozenset[int] = froz
     deviation = _deviation(clear, lines)
     judge = replace(judge, deviation=deviation)
     again = [fit for one in every if (fit := _closer(one, lines, deviation)) is not None]
-    scales = _common_scales(judge.decided(again)[0] or again, judge)
+    scales = _common_scales(again, judge) | _common_scales(judge.decided(again)[0], judge)
     judge = replace(judge, scales=scales)
     small = [
         fit
@@ -65,7 +67,8 @@ def find(shapes: Sequence[PlanShape], lines: Lines, taken: frozenset[int] = froz
         if (fit := _closer(one, lines, deviation)) is not None
     ]
     plans, doubtful = judge.decided(_distinct([*again, *small]))
-    return FoundPlans(tuple(plans), tuple(doubtful), deviation)
+    sure = [named(fit, lines, deviation, BEYOND_DOUBT) for fit in plans]
+    return FoundPlans(tuple(plans), tuple(sure), tuple(doubtful), deviation)
 
 
 def _closer(fit: Fit, lines: Lines, deviation: float) -> Fit | None:
@@ -122,14 +125,14 @@ class _Judge:
 
     def for_it(self, fit: Fit) -> float:
         """What speaks for a fit (logarithm of odds), chance not yet taken off."""
-        corners = fit.corners_met(2 * self.lines.reach)
+        corners, square = fit.corners_met(2 * self.lines.reach)
         across = max(np.log(fit.size / (WITHIN * self.deviation)), 0.0)
         closing = len(fit.used) - (corners - 1)
         return (
             (2 * corners - 3) * across
             + CLOSED * max(closing, 0)
-            - LEFT_OUT * fit.missing
-            - fit.square / (2 * self.deviation**2)
+            - LEFT_OUT * fit.missing(SEEN * self.lines.error)
+            - square / (2 * self.deviation**2)
             + self._of_scale(fit)
         )
 
@@ -144,13 +147,15 @@ class _Judge:
     @property
     def by_chance(self) -> float:
         """How many placings were tried, as a logarithm: two lines with a common end, for each plan."""
-        return float(np.log(max(len(self.lines.pairs[0]), 1) * max(self.shapes, 1)))
+        _, _, along, beside = self.lines.pairs
+        long = (np.abs(along) > LONG * self.lines.error) & (np.abs(beside) > LONG * self.lines.error)
+        return float(np.log(max(long.sum(), 1) * max(self.shapes, 1)))
 
     def decided(self, every: Sequence[Fit]) -> tuple[list[Fit], list[tuple[Fit, ...]]]:
         """The fits beyond doubt, the best first, and those of places that several plans fit."""
         odds = {id(fit): self.for_it(fit) for fit in every}
         least = self.by_chance + BY_CHANCE
-        order = sorted((fit for fit in every if fit.corners_met(2 * self.lines.reach) >= FEWEST_CORNERS), key=lambda fit: -odds[id(fit)])
+        order = sorted((fit for fit in every if fit.corners_met(2 * self.lines.reach)[0] >= FEWEST_CORNERS), key=lambda fit: -odds[id(fit)])
         by_line: dict[int, list[Fit]] = {}
         for fit in order:
             for line in fit.used:

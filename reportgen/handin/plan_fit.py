@@ -22,12 +22,20 @@ ANYWHERE = float(np.log(FURTHEST**2))
 FEWEST_CORNERS = 3
 """Fewer corners have no shape."""
 HALF = 0.5
-"""So many of the corners must be ends of lines before anything is fitted."""
+"""So many of the vectors that would be seen must have a line before anything is fitted."""
 MOST_PAIRS = 400_000
 """Lines that share an end; more are no drawing of plans."""
-MOST_TRIED = 40
-"""Placings of a plan that are fitted, those that meet most ends first."""
+MOST_TRIED = 15
+"""Placings of a plan that are fitted, those that have most lines first."""
+CROWD = 40
+"""Ends nearer to one than others; more are a hatching."""
 ROUNDS = 4
+REACH = float(np.sqrt(6))
+"""Deviations that an end lies off its place at most: √3 in each direction where errors are evenly spread."""
+SEEN = 6.0
+"""A vector as long as so many errors of an end is seen on paper (3 mm); what is shorter is drawn enlarged beside it."""
+SAME_LINE = 0.05
+"""Vectors whose ends are nearer than this (mm) are one line on paper."""
 
 
 @dataclass(frozen=True)
@@ -48,39 +56,63 @@ class Lines:
         return np.concatenate((self.ends[:, 0], self.ends[:, 1]))
 
     @cached_property
-    def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """All two lines with a common end: which, that end, and both as vectors from it, sorted by the first's angle."""
+    def touching(self) -> tuple[np.ndarray, np.ndarray]:
+        """The numbers of all two ends, of two lines, that may be one, each pair in either order."""
         first, second = _near(self.points, 2 * self.reach)
-        count = len(self.ends)
-        other = first % count != second % count
-        first, second = first[other][:MOST_PAIRS], second[other][:MOST_PAIRS]
-        first, second = np.concatenate((first, second)), np.concatenate((second, first))
-        far = np.concatenate((self.ends[:, 1], self.ends[:, 0]))
-        along, beside = far[first] - self.points[first], far[second] - self.points[second]
-        at = (self.points[first] + self.points[second]) / 2
-        order = np.argsort(np.angle(along), kind="stable")
-        return np.angle(along)[order], at[order], along[order], beside[order]
+        other = np.flatnonzero(first % len(self.ends) != second % len(self.ends))[:MOST_PAIRS]
+        first, second = first[other], second[other]
+        return np.concatenate((first, second)), np.concatenate((second, first))
 
     @cached_property
-    def cells(self) -> np.ndarray:
-        """The numbers of all cells of a grid that an end lies in or beside, sorted."""
-        keys = _keys(self.points, self.cell)
-        beside = [keys + _key(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)]
-        return np.unique(np.concatenate(beside)) if len(keys) else keys
+    def ways(self) -> np.ndarray:
+        """The lines as vectors from each of their ends [2 M]."""
+        way = self.ends[:, 1] - self.ends[:, 0]
+        return np.concatenate((way, -way))
+
+    @cached_property
+    def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """All two lines with a common end: the first's angle, that end, both as vectors from it; sorted by the angle."""
+        first, second = self.touching
+        along, beside = self.ways[first], self.ways[second]
+        at = (self.points[first] + self.points[second]) / 2
+        angle = np.angle(along)
+        order = np.argsort(angle, kind="stable")
+        return angle[order], at[order], along[order], beside[order]
 
     @property
     def cell(self) -> float:
         """The width of a cell (mm): what a first guess of scale and place may be off by."""
-        return 4 * self.reach
+        return 3 * self.reach
 
-    def meet(self, places: np.ndarray) -> np.ndarray:
-        """Whether an end lies near each of some places."""
-        keys = _keys(places, self.cell)
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """The numbers of the cells of a grid that lines run between, or of cells beside these, sorted."""
+        keys = np.concatenate([_between(self.ends[:, n], self.ends[:, 1 - n], self.cell) for n in (0, 1)])
+        steps = np.array([-1, 0, 1], dtype=np.int64)
+        for factor in _FACTORS:
+            keys = (keys[:, None] + steps * factor).ravel()
+        return np.unique(keys)
+
+    def run_between(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+        """Whether a line runs between places about these."""
+        keys = _between(starts, ends, self.cell)
         if not len(self.cells):
             return np.zeros(keys.shape, dtype=bool)
-        found = np.searchsorted(self.cells, keys).clip(max=len(self.cells) - 1)
-        met: np.ndarray = self.cells[found] == keys
-        return met
+        place = np.searchsorted(self.cells, keys).clip(max=len(self.cells) - 1)
+        run: np.ndarray = self.cells[place] == keys
+        return run
+
+
+_FACTORS = tuple(np.int64(factor) for factor in (1, 0x1F123BB5, 0x2545F4914F6CDD1D, 0x369DEA0F31A53F85))
+"""What the numbers of rows and columns of two cells are multiplied by: a sum that no other two cells are likely to have."""
+
+
+def _between(starts: np.ndarray, ends: np.ndarray, cell: float) -> np.ndarray:
+    """A number for the cells that each line starts and ends in."""
+    numbers = (np.floor(part / cell).astype(np.int64) for part in (starts.real, starts.imag, ends.real, ends.imag))
+    with np.errstate(over="ignore"):
+        total: np.ndarray = sum((n * factor for n, factor in zip(numbers, _FACTORS, strict=True)), np.int64(0))
+    return total
 
 
 def _key(x: int, y: int) -> int:
@@ -105,8 +137,7 @@ def _near(points: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
         if step == 0:
             low = np.arange(1, len(ranked) + 1)
         count = np.maximum(high - low, 0)
-        # A crowd of ends is a hatching.
-        count = np.minimum(count, MOST_TRIED)
+        count = np.minimum(count, CROWD)
         first = np.repeat(np.arange(len(ranked)), count)
         second = np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count) + np.repeat(low, count)
         a, b = order[first], order[second]
@@ -120,8 +151,8 @@ def _near(points: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
 class Fit:
     """A plan found among lines: corners z at `scale` z + `shift`; the line of each vector by number, −1 for none.
 
-    `turned` lines begin where their vector ends.  `square` is the sum of the squared distances of all ends from their
-    places (mm²), `size` the extent of what was found (mm).
+    `turned` lines begin where their vector ends.  `rest` [2 K] are the ends of the K lines found, first where their
+    vectors start, less their places (mm), `size` is the extent of what was found (mm).
     """
 
     shape: PlanShape
@@ -129,10 +160,12 @@ class Fit:
     shift: complex
     lines: np.ndarray
     turned: np.ndarray
-    square: float
+    rest: np.ndarray
     size: float
     off_centre: float
     """The sum of the squared distances (mm², report's scale) of the fitted corners from their middle."""
+    reach: np.ndarray
+    """How far the ends of each vector may lie off their places (mm) [E]."""
 
     @property
     def found(self) -> np.ndarray:
@@ -145,24 +178,40 @@ class Fit:
         return frozenset(int(line) for line in self.lines[self.lines >= 0])
 
     @property
-    def missing(self) -> int:
-        """Vectors of the report's figure without a line."""
-        return sum(vector.drawn and line < 0 for vector, line in zip(self.shape.vectors, self.lines, strict=True))
+    def square(self) -> float:
+        """The sum of the squared distances of all ends from their places (mm²)."""
+        return float((np.abs(self.rest) ** 2).sum())
+
+    def missing(self, least: float) -> int:
+        """Vectors of the report's figure that would be seen, being longer than `least` (mm), and have no line."""
+        lengths = self.scale * np.abs(self.shape.ends - self.shape.starts)
+        drawn = np.array([vector.drawn for vector in self.shape.vectors])
+        return int((drawn & (self.lines < 0) & (lengths > least)).sum())
 
     def at(self, corners: np.ndarray) -> np.ndarray:
         """Where corners of the report's figure lie in the drawing (mm)."""
         return self.scale * corners + self.shift
 
-    def corners_met(self, apart: float) -> int:
-        """How many corners the lines have, those nearer than `apart` (mm) being one."""
-        shape = self.shape
-        met = {end for number in self.found for end in (shape.vectors[number].start, shape.vectors[number].end)}
-        kept: list[complex] = []
+    def corners_met(self, apart: float) -> tuple[int, float]:
+        """How many corners the lines have, those nearer than `apart` (mm) being one, and how far off these lie.
+
+        The second is the sum over the corners of the squared mean distance of their ends, each as often as it has ends
+        (mm²): how far the ends of one corner lie from each other speaks neither for this plan nor against it.
+        """
+        shape, found = self.shape, self.found
+        met = [shape.vectors[number].start for number in found] + [shape.vectors[number].end for number in found]
+        places = self.scale * shape.corners
+        kept: list[int] = []
+        at: list[int] = []
         for corner in met:
-            place = complex(shape.corners[corner] * self.scale)
-            if all(abs(place - one) > apart for one in kept):
-                kept.append(place)
-        return len(kept)
+            near = next((n for n, one in enumerate(kept) if abs(places[corner] - places[one]) <= apart), None)
+            if near is None:
+                near = len(kept)
+                kept.append(corner)
+            at.append(near)
+        count = np.bincount(at)
+        means = (np.bincount(at, self.rest.real) + 1j * np.bincount(at, self.rest.imag)) / count
+        return len(kept), float((count * np.abs(means) ** 2).sum())
 
     def scale_error(self, deviation: float) -> float:
         """The standard deviation of the scale where every end has that `deviation` (mm) in each direction."""
@@ -175,9 +224,10 @@ def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[F
     scale, shift = (np.concatenate(part) for part in zip(*tried, strict=True))
     if not len(scale):
         return []
-    # Two vectors say the place of others the less exactly the longer these are.
-    met = lines.meet(scale[:, None] * shape.corners + shift[:, None]).sum(axis=1)
-    enough = np.flatnonzero(met >= max(FEWEST_CORNERS if not scales else 2, HALF * len(shape.corners)))
+    starts, ends = (scale[:, None] * part + shift[:, None] for part in (shape.starts, shape.ends))
+    seen = (np.abs(ends - starts) >= SEEN * lines.error) & np.array([vector.drawn for vector in shape.vectors])
+    met = (lines.run_between(starts, ends) & seen).sum(axis=1)
+    enough = np.flatnonzero(met >= np.maximum(2, HALF * seen.sum(axis=1)))
     enough = enough[np.argsort(-met[enough], kind="stable")]
     found: dict[frozenset[int], Fit] = {}
     seen: set[tuple[int, int, int]] = set()
@@ -253,54 +303,105 @@ def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarra
 def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviation: float | None = None) -> Fit | None:
     """The best fit of a plan about a first guess of scale and shift; None where less than two of its vectors lie there.
 
-    An end belongs to a corner if it lies no farther off than `reach` and three deviations of the fit itself.
+    `deviation` is that of an end in each direction (mm); without it that of ends spread evenly over their errors.
     """
     starts, ends = shape.starts, shape.ends
     sigma = lines.error / np.sqrt(3) if deviation is None else deviation
     near = _around(lines, scale * shape.corners + shift)
-    first, second = lines.ends[near, 0], lines.ends[near, 1]
-    reach = np.full(len(starts), lines.cell)
-    chosen, turned = np.full(len(starts), -1), np.zeros(len(starts), dtype=bool)
     if not len(near):
         return None
-    off_centre = 0.0
+    some = lines.ends[near]
+    reach = np.full(len(starts), lines.cell)
+    rows = np.arange(len(starts))
     for turn in range(ROUNDS):
         a, b = scale * starts + shift, scale * ends + shift
-        straight = np.maximum(np.abs(first - a[:, None]), np.abs(second - b[:, None]))
-        opposite = np.maximum(np.abs(second - a[:, None]), np.abs(first - b[:, None]))
-        nearest = np.minimum(straight, opposite)
-        line = nearest.argmin(axis=1)
-        rows = np.arange(len(starts))
-        chosen = np.where(nearest[rows, line] <= reach, line, -1)
+        farthest, turned, _ = off_place(some, a, b)
+        line = farthest.argmin(axis=1)
         # What is shorter than two ends may lie off has no direction.
-        chosen[np.abs(b - a) < 2 * np.sqrt(2) * sigma * np.sqrt(3)] = -1
-        turned = opposite[rows, line] < straight[rows, line]
-        kept = np.flatnonzero(chosen >= 0)
+        seen = (farthest[rows, line] <= reach) & (np.abs(b - a) > 2 * REACH * sigma)
+        kept = np.flatnonzero(seen)
         if len(kept) < 2:
             return None
         z = np.concatenate((starts[kept], ends[kept]))
-        w = np.concatenate(
-            (
-                np.where(turned[kept], second[chosen[kept]], first[chosen[kept]]),
-                np.where(turned[kept], first[chosen[kept]], second[chosen[kept]]),
-            )
-        )
-        middle = z.mean()
-        off_centre = float((np.abs(z - middle) ** 2).sum())
+        w = _ends_of(some[line[kept]], turned[kept, line[kept]])
+        off_centre = float((np.abs(z - z.mean()) ** 2).sum())
         if off_centre == 0.0:
             return None
-        scale = float(((w - w.mean()) * (z - middle).conjugate()).real.sum() / off_centre)
-        shift = complex(w.mean() - scale * middle)
+        scale = float(((w - w.mean()) * (z - z.mean()).conjugate()).real.sum() / off_centre)
+        shift = complex(w.mean() - scale * z.mean())
         if not 1 / FURTHEST < scale < FURTHEST:
             return None
-        leverage = np.maximum(np.abs(starts - middle), np.abs(ends - middle)) ** 2 / off_centre + 1 / len(z)
-        exact = np.sqrt(2) * np.sqrt(3) * sigma + 3 * sigma * np.sqrt(leverage)
-        reach = exact if turn >= 1 else np.maximum(exact, lines.cell / 2)
-    a, b = scale * starts + shift, scale * ends + shift
-    rest = w - (scale * z + shift)
+        reach = _reach(shape, z, sigma)
+        # The first guess is finer than the cells, but not as fine as the fit.
+        reach = np.maximum(reach, lines.cell / 2) if turn == 0 else reach
+    numbers = np.where(seen, near[line], -1)
     extent = float(np.abs(w[:, None] - w).max())
-    numbers = np.where(chosen >= 0, near[chosen], -1)
-    return Fit(shape, scale, shift, numbers, turned, float((np.abs(rest) ** 2).sum()), extent, off_centre)
+    return Fit(shape, scale, shift, numbers, turned[rows, line], w - (scale * z + shift), extent, off_centre, reach)
+
+
+def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of vectors from a to b [E] and some lines [M, 2]: how far off the farther end lies (mm) [E, M], whether the line
+    is turned round, and the sum of both squares (mm²)."""
+    starts, ends = [np.abs(some[:, n] - a[:, None]) for n in (0, 1)], [np.abs(some[:, n] - b[:, None]) for n in (0, 1)]
+    straight, opposite = np.maximum(starts[0], ends[1]), np.maximum(starts[1], ends[0])
+    turned = opposite < straight
+    squares = np.where(turned, starts[1] ** 2 + ends[0] ** 2, starts[0] ** 2 + ends[1] ** 2)
+    return np.minimum(straight, opposite), turned, squares
+
+
+def _ends_of(some: np.ndarray, turned: np.ndarray) -> np.ndarray:
+    """The ends [2 K] of lines [K, 2], first those where their vectors start."""
+    return np.concatenate((np.where(turned, some[:, 1], some[:, 0]), np.where(turned, some[:, 0], some[:, 1])))
+
+
+def _reach(shape: PlanShape, fitted_to: np.ndarray, sigma: float) -> np.ndarray:
+    """How far from their places (mm) [E] the ends of each vector may lie: an end's own error and three of the fit's.
+
+    Evenly spread errors reach to √3 deviations in each direction; the fit's own deviation is σ √h, with the leverage
+    h = 1/n + |z − z̄|²/Σ|z − z̄|².
+    """
+    middle = fitted_to.mean()
+    spread = float((np.abs(fitted_to - middle) ** 2).sum())
+    from_middle = np.maximum(np.abs(shape.starts - middle), np.abs(shape.ends - middle))
+    leverage = 1 / len(fitted_to) + from_middle**2 / spread
+    reach: np.ndarray = REACH * sigma + 3 * sigma * np.sqrt(leverage)
+    return reach
+
+
+def named(fit: Fit, lines: Lines, deviation: float, odds: float) -> np.ndarray:
+    """Whether it is beyond doubt, for each vector [E] of a fit, that its line is its and no other vector's.
+
+    `odds` (logarithm) is what must speak against every other line at its place, and against every other vector at that
+    of its line.  Vectors with the same ends are one line on paper, which is both.
+    """
+    a, b = fit.at(fit.shape.starts), fit.at(fit.shape.ends)
+    near = _around(lines, fit.at(fit.shape.corners))
+    farthest, _, squares = off_place(lines.ends[near], a, b)
+    place = {int(line): column for column, line in enumerate(near)}
+    own = {int(number): place[int(fit.lines[number])] for number in fit.found}
+    fits_there = farthest <= fit.reach[:, None]
+    least = 2 * odds * deviation**2
+    sure = (fit.lines >= 0) & (np.abs(b - a) >= SEEN * lines.error)
+    for i, column in own.items():
+        free = fits_there[i].copy()
+        free[list(own.values())] = False
+        if (squares[i, free] - squares[i, column] < least).any():
+            sure[i] = False
+        for j in np.flatnonzero(fits_there[:, column]):
+            if j == i or _off_place_of(a, b, i, int(j)) < SAME_LINE:
+                continue
+            against = squares[j, column] - squares[i, column]
+            if j in own and own[int(j)] != column:
+                against += squares[i, own[int(j)]] - squares[j, own[int(j)]]
+            if against < least:
+                sure[i] = False
+    return sure
+
+
+def _off_place_of(a: np.ndarray, b: np.ndarray, first: int, second: int) -> float:
+    """How far the ends of two vectors lie apart at most (mm), whichever way round."""
+    straight = max(abs(a[first] - a[second]), abs(b[first] - b[second]))
+    return float(min(straight, max(abs(a[first] - b[second]), abs(b[first] - a[second]))))
 
 
 def _around(lines: Lines, places: np.ndarray) -> np.ndarray:
