@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, SEEN, Fit, Lines, fits, fitted, named
+from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, SEEN, Beside, Fit, Lines, fits, fitted, named
+from reportgen.handin.plan_labels import TITLE, Labels, names_of
 from reportgen.handin.plan_shapes import PlanShape
 
 BEYOND_DOUBT = float(np.log(1e5))
@@ -36,6 +37,7 @@ FINEST = 0.03
 """No drawing is taken for more exact (mm): lengths are rounded before they are drawn."""
 SHARED = 1 / 3
 """Two fits are of one place if they share more of the lines of either."""
+UNLABELLED = Labels(())
 
 
 @dataclass(frozen=True)
@@ -49,10 +51,10 @@ class FoundPlans:
     deviation: float
 
 
-def find(shapes: Sequence[PlanShape], lines: Lines, taken: frozenset[int] = frozenset()) -> FoundPlans:
+def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED) -> FoundPlans:
     """The plans among the lines."""
     every = [fit for shape in shapes for fit in fits(shape, lines)]
-    judge = _Judge(lines, len(shapes), lines.error / np.sqrt(3), {})
+    judge = _Judge(lines, len(shapes), lines.error / np.sqrt(3), {}, labels)
     clear, _ = judge.decided(every)
     deviation = _deviation(clear, lines)
     judge = replace(judge, deviation=deviation)
@@ -67,8 +69,18 @@ def find(shapes: Sequence[PlanShape], lines: Lines, taken: frozenset[int] = froz
         if (fit := _closer(one, lines, deviation)) is not None
     ]
     plans, doubtful = judge.decided(_distinct([*again, *small]))
-    sure = [named(fit, lines, deviation, BEYOND_DOUBT) for fit in plans]
+    sure = [named(fit, lines, deviation, BEYOND_DOUBT, _names(fit, lines, labels)) for fit in plans]
     return FoundPlans(tuple(plans), tuple(sure), tuple(doubtful), deviation)
+
+
+def _names(fit: Fit, lines: Lines, labels: Labels) -> Beside:
+    """What tells the vectors of a plan apart where they lie beside one another."""
+
+    def beside(vector: int, line: int) -> bool:
+        start, end = lines.ends[line]
+        return labels.beside(names_of(fit.shape, vector), complex(start), complex(end))
+
+    return beside
 
 
 def _closer(fit: Fit, lines: Lines, deviation: float) -> Fit | None:
@@ -122,6 +134,7 @@ class _Judge:
     shapes: int
     deviation: float
     scales: Mapping[str, float]
+    labels: Labels
 
     def for_it(self, fit: Fit) -> float:
         """What speaks for a fit (logarithm of odds), chance not yet taken off."""
@@ -134,6 +147,7 @@ class _Judge:
             - LEFT_OUT * fit.missing(SEEN * self.lines.error)
             - square / (2 * self.deviation**2)
             + self._of_scale(fit)
+            + self.labels.speak_for(fit)
         )
 
     def _of_scale(self, fit: Fit) -> float:
@@ -155,6 +169,10 @@ class _Judge:
         """The fits beyond doubt, the best first, and those of places that several plans fit."""
         odds = {id(fit): self.for_it(fit) for fit in every}
         least = self.by_chance + BY_CHANCE
+        likely = [fit for fit in every if odds[id(fit)] >= least]
+        for at, positions in self.labels.owned(likely, self.lines.ends).items():
+            if len(positions) == 1:
+                odds[id(likely[at])] += TITLE if likely[at].shape.position in positions else -TITLE
         order = sorted((fit for fit in every if fit.corners_met(2 * self.lines.reach)[0] >= FEWEST_CORNERS), key=lambda fit: -odds[id(fit)])
         by_line: dict[int, list[Fit]] = {}
         for fit in order:

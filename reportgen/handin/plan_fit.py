@@ -7,7 +7,7 @@ is tested at all other corners, and fitted to all lines that lie there.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -368,11 +368,16 @@ def _reach(shape: PlanShape, fitted_to: np.ndarray, sigma: float) -> np.ndarray:
     return reach
 
 
-def named(fit: Fit, lines: Lines, deviation: float, odds: float) -> np.ndarray:
+Beside = Callable[[int, int], bool]
+"""Whether the name of a vector, by its number, stands beside a line, by its number."""
+
+
+def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside) -> np.ndarray:
     """Whether it is beyond doubt, for each vector [E] of a fit, that its line is its and no other vector's.
 
     `odds` (logarithm) is what must speak against every other line at its place, and against every other vector at that
-    of its line.  Vectors with the same ends are one line on paper, which is both.
+    of its line; a name beside it, that does not stand beside the other, says it as well.  Vectors with the same ends
+    are one line on paper, which is both.
     """
     a, b = fit.at(fit.shape.starts), fit.at(fit.shape.ends)
     near = _around(lines, fit.at(fit.shape.corners))
@@ -389,6 +394,8 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float) -> np.ndarray:
             sure[i] = False
         for j in np.flatnonzero(fits_there[:, column]):
             if j == i or _off_place_of(a, b, i, int(j)) < SAME_LINE:
+                continue
+            if beside(i, int(fit.lines[i])) and not beside(int(j), int(fit.lines[i])):
                 continue
             against = squares[j, column] - squares[i, column]
             if j in own and own[int(j)] != column:

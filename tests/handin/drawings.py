@@ -236,8 +236,11 @@ def _draw_plan(document, model, plan, factor, shift, manner, rng, truth, number)
 
 
 def _name(id):
-    """What a student writes beside a vector: R12, P3, or the letters of its ends."""
-    return id.rpartition(".")[2].replace("t", "τ") if id[4].isdigit() else id.rpartition(".")[2]
+    """What a student writes beside a vector: R12t, P3, aCBn, or the letters of its ends."""
+    _, of, *rest = id.split(".")
+    if of in ("v", "a"):
+        return rest[0] if len(rest) == 1 else f"a{rest[1]}{rest[0]}"
+    return "".join(rest)
 
 
 def _vector(space, a, b, manner, rng, per):
