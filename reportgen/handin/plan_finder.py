@@ -8,8 +8,9 @@ its place.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -139,10 +140,9 @@ class _Judge:
     def for_it(self, fit: Fit) -> float:
         """What speaks for a fit (logarithm of odds), chance not yet taken off."""
         corners, square = fit.corners_met(2 * self.lines.reach)
-        across = max(np.log(fit.size / (WITHIN * self.deviation)), 0.0)
-        closing = len(fit.used) - (corners - 1)
+        closing = len(fit.used) - (len(corners) - 1)
         return (
-            (2 * corners - 3) * across
+            _of_corners(corners, WITHIN * self.deviation)
             + CLOSED * max(closing, 0)
             - LEFT_OUT * fit.missing(SEEN * self.lines.error)
             - square / (2 * self.deviation**2)
@@ -158,46 +158,85 @@ class _Judge:
         room = max(WITHIN * fit.scale_error(self.deviation) / fit.scale, 1e-4)
         return float(np.log(ANYWHERE / (2 * room))) if off <= room else OTHER_SCALE
 
-    @property
-    def by_chance(self) -> float:
-        """How many placings were tried, as a logarithm: two lines with a common end, for each plan."""
-        _, _, along, beside = self.lines.pairs
-        long = (np.abs(along) > LONG * self.lines.error) & (np.abs(beside) > LONG * self.lines.error)
-        return float(np.log(max(long.sum(), 1) * max(self.shapes, 1)))
+    @cached_property
+    def _long(self) -> tuple[np.ndarray, np.ndarray]:
+        """The numbers of all two lines with a common end that both have a direction."""
+        first, second = self.lines.touching
+        length = np.abs(self.lines.ways)
+        long = np.minimum(length[first], length[second]) > LONG * self.lines.error
+        count = len(self.lines.ends)
+        return first[long] % count, second[long] % count
+
+    def by_chance(self, taken: Collection[int], left: int) -> float:
+        """How many placings can be tried, as a logarithm: two lines with a common end that no plan has, for each left."""
+        free = np.ones(len(self.lines.ends), dtype=bool)
+        free[list(taken)] = False
+        first, second = self._long
+        return float(np.log(max((free[first] & free[second]).sum() * left, 1)))
 
     def decided(self, every: Sequence[Fit]) -> tuple[list[Fit], list[tuple[Fit, ...]]]:
-        """The fits beyond doubt, the best first, and those of places that several plans fit."""
+        """The fits beyond doubt, the best first, and those of places that several plans fit.
+
+        What is found leaves fewer lines and fewer plans, for which less is to be had by chance.
+        """
         odds = {id(fit): self.for_it(fit) for fit in every}
-        least = self.by_chance + BY_CHANCE
-        likely = [fit for fit in every if odds[id(fit)] >= least]
+        likely = [fit for fit in every if odds[id(fit)] >= BY_CHANCE]
         for at, positions in self.labels.owned(likely, self.lines.ends).items():
             if len(positions) == 1:
                 odds[id(likely[at])] += TITLE if likely[at].shape.position in positions else -TITLE
-        order = sorted((fit for fit in every if fit.corners_met(2 * self.lines.reach)[0] >= FEWEST_CORNERS), key=lambda fit: -odds[id(fit)])
+        shaped = [fit for fit in likely if len(fit.corners_met(2 * self.lines.reach)[0]) >= FEWEST_CORNERS]
+        order = sorted(shaped, key=lambda fit: -odds[id(fit)])
         by_line: dict[int, list[Fit]] = {}
         for fit in order:
             for line in fit.used:
                 by_line.setdefault(line, []).append(fit)
         plans: list[Fit] = []
         doubtful: list[tuple[Fit, ...]] = []
-        placed: dict[int, Fit] = {}
+        placed: set[int] = set()
         taken: set[int] = set()
-        for fit in order:
-            if odds[id(fit)] < least or id(fit.shape) in placed or len(fit.used & taken) > SHARED * len(fit.used):
-                continue
-            others = {id(one): one for line in fit.used for one in by_line[line]}.values()
-            rivals = [
-                one
-                for one in others
-                if one.shape is not fit.shape
-                and id(one.shape) not in placed
-                and len(one.used & fit.used) > SHARED * min(len(one.used), len(fit.used))
-                and odds[id(one)] > odds[id(fit)] - BEYOND_DOUBT
-            ]
-            taken |= fit.used
-            if rivals:
-                doubtful.append((fit, *rivals))
-                continue
-            placed[id(fit.shape)] = fit
-            plans.append(fit)
+        before = -1
+        while len(taken) > before:
+            before = len(taken)
+            least = self.by_chance(taken, self.shapes - len(placed)) + BY_CHANCE
+            for fit in order:
+                if odds[id(fit)] < least:
+                    break
+                if id(fit.shape) in placed or len(fit.used & taken) > SHARED * len(fit.used):
+                    continue
+                others = {id(other): other for line in fit.used for other in by_line[line]}.values()
+                rivals = [
+                    other
+                    for other in others
+                    if other.shape is not fit.shape
+                    and id(other.shape) not in placed
+                    and len(other.used & fit.used) > SHARED * min(len(other.used), len(fit.used))
+                    and odds[id(other)] > odds[id(fit)] - BEYOND_DOUBT
+                ]
+                taken |= fit.used
+                if rivals:
+                    doubtful.append((fit, *rivals))
+                else:
+                    placed.add(id(fit.shape))
+                    plans.append(fit)
         return plans, doubtful
+
+
+def _of_corners(corners: np.ndarray, width: float) -> float:
+    """What it says that lines end within a `width` (mm) of so many corners, in each direction, if nothing made them.
+
+    An end may lie anywhere about the corner next to it, as far as that is; the first one gives the place, the farthest
+    one the scale.
+    """
+    if len(corners) < FEWEST_CORNERS:
+        return 0.0
+    apart = np.abs(corners[:, None] - corners)
+    reached, steps = apart[0].copy(), []
+    left = np.ones(len(corners), dtype=bool)
+    left[0] = False
+    while left.any():
+        following = int(np.where(left, reached, np.inf).argmin())
+        steps.append(reached[following])
+        left[following] = False
+        reached = np.minimum(reached, apart[following])
+    gains = np.maximum(np.log(np.array(steps) / width), 0.0)
+    return float(2 * gains.sum() - gains.max())

@@ -34,8 +34,6 @@ REACH = float(np.sqrt(6))
 """Deviations that an end lies off its place at most: √3 in each direction where errors are evenly spread."""
 SEEN = 6.0
 """A vector as long as so many errors of an end is seen on paper (3 mm); what is shorter is drawn enlarged beside it."""
-SAME_LINE = 0.05
-"""Vectors whose ends are nearer than this (mm) are one line on paper."""
 
 
 @dataclass(frozen=True)
@@ -192,26 +190,26 @@ class Fit:
         """Where corners of the report's figure lie in the drawing (mm)."""
         return self.scale * corners + self.shift
 
-    def corners_met(self, apart: float) -> tuple[int, float]:
-        """How many corners the lines have, those nearer than `apart` (mm) being one, and how far off these lie.
+    def corners_met(self, apart: float) -> tuple[np.ndarray, float]:
+        """The corners [n] (mm) that the lines have, those nearer than `apart` (mm) being one, and how far off these lie.
 
         The second is the sum over the corners of the squared mean distance of their ends, each as often as it has ends
         (mm²): how far the ends of one corner lie from each other speaks neither for this plan nor against it.
         """
         shape, found = self.shape, self.found
         met = [shape.vectors[number].start for number in found] + [shape.vectors[number].end for number in found]
-        places = self.scale * shape.corners
-        kept: list[int] = []
+        places = (self.scale * shape.corners).tolist()
+        kept: list[complex] = []
         at: list[int] = []
         for corner in met:
-            near = next((n for n, one in enumerate(kept) if abs(places[corner] - places[one]) <= apart), None)
+            near = next((n for n, one in enumerate(kept) if abs(places[corner] - one) <= apart), None)
             if near is None:
                 near = len(kept)
-                kept.append(corner)
+                kept.append(places[corner])
             at.append(near)
         count = np.bincount(at)
         means = (np.bincount(at, self.rest.real) + 1j * np.bincount(at, self.rest.imag)) / count
-        return len(kept), float((count * np.abs(means) ** 2).sum())
+        return np.array(kept), float((count * np.abs(means) ** 2).sum())
 
     def scale_error(self, deviation: float) -> float:
         """The standard deviation of the scale where every end has that `deviation` (mm) in each direction."""
@@ -376,8 +374,8 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
     """Whether it is beyond doubt, for each vector [E] of a fit, that its line is its and no other vector's.
 
     `odds` (logarithm) is what must speak against every other line at its place, and against every other vector at that
-    of its line; a name beside it, that does not stand beside the other, says it as well.  Vectors with the same ends
-    are one line on paper, which is both.
+    of its line; a name beside it, that does not stand beside the other, says it as well.  Vectors whose
+    ends are no farther apart than a drawn point may be off are one line on paper, which is both.
     """
     a, b = fit.at(fit.shape.starts), fit.at(fit.shape.ends)
     near = _around(lines, fit.at(fit.shape.corners))
@@ -393,7 +391,7 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
         if (squares[i, free] - squares[i, column] < least).any():
             sure[i] = False
         for j in np.flatnonzero(fits_there[:, column]):
-            if j == i or _off_place_of(a, b, i, int(j)) < SAME_LINE:
+            if j == i or _off_place_of(a, b, i, int(j)) < lines.error:
                 continue
             if beside(i, int(fit.lines[i])) and not beside(int(j), int(fit.lines[i])):
                 continue

@@ -23,6 +23,8 @@ Line = tuple[complex, complex]
 
 SHORTEST = 3.0
 """What is drawn shorter (mm) is not counted: a line of arrowheads and of the reader's own least length."""
+SAME = 0.5
+"""Ends nearer than this (mm) are one point to whoever draws."""
 NICE = tuple(step * 10.0**power for power in range(-3, 7) for step in (1, 2, 2.5, 4, 5))
 RELEASES = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 
@@ -45,12 +47,21 @@ class TruePlan:
 
 @dataclass
 class Truth:
-    """What was drawn: the line of each place, places left out, places drawn wrongly with their own line."""
+    """What was drawn: the line of each place, places left out, places drawn wrongly with their own line.
+
+    `alike` are for each place those of its plan whose ends lie within half a millimetre of its own: lines that nobody
+    tells apart by eye.
+    """
 
     lines: dict[Place, Line] = field(default_factory=dict)
     left_out: set[Place] = field(default_factory=set)
     wrong: dict[Place, Line] = field(default_factory=dict)
+    alike: dict[Place, set[Place]] = field(default_factory=dict)
     factors: dict[tuple[str, int], float] = field(default_factory=dict)
+
+    def is_right(self, place: Place, line: Line) -> bool:
+        """Whether a line is that of a place, or of one that looks the same."""
+        return any(other in self.lines and same_line(line, self.lines[other]) for other in self.alike[place])
 
 
 @dataclass(frozen=True)
@@ -194,6 +205,10 @@ def _draw_plan(document, model, plan, factor, shift, manner, rng, truth, number)
             dxfattribs={"xscale": ratio, "yscale": ratio},
         )
         back = lambda z: (z - at) / ratio  # noqa: E731
+    ends = {id: (factor * plan.corners[a], factor * plan.corners[b]) for id, (a, b) in plan.vectors.items()}
+    for id in ends:
+        near = {other for other in ends if same_line(ends[id], ends[other], SAME)}
+        truth.alike[id, plan.position] = {(other, plan.position) for other in near}
     # What has the same ends is one line on paper.
     lines: dict[frozenset, list[str]] = {}
     for id, ends in plan.vectors.items():
