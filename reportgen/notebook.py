@@ -12,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from reportgen import api, catalogue
+from reportgen import api
+from reportgen.api.figures import worked_at
 from reportgen.assignment import Assignment
 from reportgen.assignment.reading import name_faults
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
@@ -55,7 +56,7 @@ class Model:
     """An opened assignment; `model["v.E"]` is a quantity at its positions, in SI units."""
 
     def __init__(self, source: Source, path: Path, language: Language | None = None) -> None:
-        assignment, faults = catalogue.assess(source, path)
+        assignment, faults = api.assess(source, path)
         faults = [*name_faults(path), *faults]
         if assignment is None or faults:
             raise as_error(faults, language or language_of(source))
@@ -177,7 +178,7 @@ class Model:
 
         Raises `UnknownNameError`, `NotOfferedError`.
         """
-        case, labels = api.worked_at(self.assignment, str(at)) if at != "" else (self.case, ())
+        case, labels = worked_at(self.assignment, str(at)) if at != "" else (self.case, ())
         still = self._still if case is self.case else named_figures(case.document())
         moving = next((one for one in self._moving if one.name == name), None)
         query = figures.FigureQuery((name,), labels)

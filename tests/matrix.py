@@ -23,6 +23,7 @@ import pytest
 
 from reportgen import api, catalogue
 from reportgen import cases as cases_module
+from reportgen.api.figures import PLOT_FORMATS
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
@@ -237,7 +238,7 @@ def plot(at: Desk) -> None:
             app(["plot", str(at.file), "--of", next(iter(case.ledger.families)), "--out", str(at.out)])
         assert (end.value.code, at.capture.readouterr().out) == (1, "")
         return
-    formats = at.formats(api.PLOT_FORMATS, "svg")
+    formats = at.formats(PLOT_FORMATS, "svg")
     paths = at.made("plot", "--of", id, "--format", formats)
     assert [path.name for path in paths] == [f"{id}.{format}" for format in formats.split(",")]
 

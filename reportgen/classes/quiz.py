@@ -18,7 +18,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
-from reportgen import api
+from reportgen.api import figures
 from reportgen.base.kinds import title
 from reportgen.base.units import Language
 from reportgen.cases import open_case
@@ -81,10 +81,10 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
 
 def _pictures(file: Path, language: Language | None) -> Iterator[tuple[str, bytes]]:
     """The picture of the scheme, of each part that has one."""
-    still, _ = api.figure_list(file, language)
+    still, _ = figures.figure_list(file, language)
     names = [figure.name for figure in still if figure.name.rpartition(".")[2] == PICTURE]
     if names:
-        yield from api.figure_files(file, names, formats=("png",), dpi=DOTS, language=language).items()
+        yield from figures.figure_files(file, names, formats=("png",), dpi=DOTS, language=language).items()
 
 
 def _data(key: Key, words: Mapping[str, Any]) -> str:

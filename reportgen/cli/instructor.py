@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -25,9 +25,6 @@ from reportgen.cli.common import (
     say,
     tell,
 )
-
-if TYPE_CHECKING:
-    from reportgen.marking.policy import Policy
 
 PolicyOption = Annotated[
     Path | None,
@@ -65,6 +62,7 @@ def variants(
 
     With --format moodle-xml a bank of questions for a Moodle quiz goes to DIR/questions.xml, too.
     """
+    from reportgen import api
     from reportgen.classes.variants import make_variants
 
     formats = listed(format, ("yaml", "moodle-xml"), "--format", "no_format", lang)
@@ -73,7 +71,7 @@ def variants(
             from reportgen.classes import quiz
 
             refuse_inputs([out / quiz.NAME], [spec, roster, policy], lang)
-        rules = _policy(policy, lang)
+        rules = api.policy(policy, lang)
         made = make_variants(spec, roster, out, force, lang, _bar, shared=shared or ())
         print(
             *(path for file in made.files for path in (file.path, *file.parts)),
@@ -84,13 +82,6 @@ def variants(
         if "moodle-xml" in formats:
             bank = quiz.question_bank([file.path for file in made.files], rules, spec.stem, lang)
             print(*put_files(out, {quiz.NAME: bank}), sep="\n")
-
-
-def _policy(path: Path | None, lang: LangOption) -> Policy:
-    """The policy of a file, or what holds without one."""
-    from reportgen.marking.policy import Policy, read_policy
-
-    return Policy() if path is None else read_policy(path, lang)
 
 
 def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
@@ -126,18 +117,17 @@ def batch(
     templates: TemplatesOption = None,
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
-    from reportgen.api import MAKERS
+    from reportgen import api
     from reportgen.classes.manifest import NAME
     from reportgen.classes.run import Order, run_batch
-    from reportgen.marking.policy import read_policy
 
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
-    products = listed(make, MAKERS, "--make", "no_product", lang)
+    products = listed(make, api.MAKERS, "--make", "no_product", lang)
     with ending(lang):
         made = (path for kind in ("task", "report", "key", "sheet") for path in standing(out, kind, "*/"))
         refuse_inputs((out / NAME, *made), [roster, spec, policy], lang)
-        ask = None if policy is None else read_policy(policy, lang).ask
+        ask = None if policy is None else api.policy(policy, lang).ask
         order = Order(
             roster=roster,
             spec=spec,
@@ -176,14 +166,13 @@ def key(
     from reportgen import api
     from reportgen.base.files import scratch
     from reportgen.base.made import put_made
-    from reportgen.marking.policy import read_policy
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
 
     with ending(lang):
         made = (path for file in files for path in standing(out / file.stem, "key"))
         refuse_inputs(made, [*files, policy], lang)
-        ask = None if policy is None else read_policy(policy, lang).ask
+        ask = None if policy is None else api.policy(policy, lang).ask
         api.check_ask(ask, files, lang)
 
     def work(file: Path) -> None:
@@ -226,6 +215,7 @@ def grade(
     templates: TemplatesOption = None,
 ) -> None:
     """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
+    from reportgen import api
     from reportgen.classes import assess, outcome
     from reportgen.classes.corrections import read_corrections
     from reportgen.classes.gradebooks import read_gradebook
@@ -235,7 +225,7 @@ def grade(
         made = (*standing(out, "feedback", "*/"), *standing(out, "class"))
         filled = () if gradebook is None else (outcome.filled_gradebook(gradebook, out),)
         refuse_inputs((*made, *filled), [*files_read(submissions), policy, roster, gradebook, corrections], lang)
-        rules = _policy(policy, lang)
+        rules = api.policy(policy, lang)
         # What is wrong with it is told before an hour's marking, not after.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         judged = () if corrections is None else read_corrections(corrections, lang)

@@ -34,8 +34,6 @@ from reportgen.cli.common import (
 
 if TYPE_CHECKING:
     from reportgen.base.units import Language
-    from reportgen.report import Document
-    from reportgen.report.case import Case
 
 
 def build(
@@ -100,10 +98,8 @@ def sheet(
     formats = listed(format, api.SHEET_FORMATS, "--format", "no_format", lang)
 
     def work(file: Path) -> None:
-        from reportgen.sheets.frame import blocks
-
         assignment = api.load(file, lang)
-        known = blocks(assignment.school or "")
+        known = api.blocks(assignment)
         path = None if block is None else known.get(block, Path(block))
         if path is not None and not path.exists():
             raise typer.BadParameter(say("no_block", lang, name=block, known=", ".join(known)), param_hint="--block")
@@ -135,14 +131,12 @@ def watch(
     templates: TemplatesOption = None,
 ) -> None:
     """Show the report in a browser, renewed whenever FILE changes. Ctrl-C ends it."""
-    from reportgen.cases import opener
-    from reportgen.page.watch import nobody
-    from reportgen.page.watch import watch as serve
+    from reportgen.api import serving
 
     with ending(lang):
         if pdf:
             refuse_inputs(standing(out / file.stem, "report"), [file], lang)
-        serve(file, opener(), lang, _pdf_writer(file, out) if pdf else nobody, browser=not no_open)
+        serving.watch(file, lang, _pdf_writer(file, out) if pdf else None, browser=not no_open)
 
 
 def edit(
@@ -159,9 +153,8 @@ def edit(
     templates: TemplatesOption = None,
 ) -> None:
     """Edit FILE in a browser by a form, the machine moving beside it. A KIND begins a file. Ctrl-C ends it."""
+    from reportgen.api import serving
     from reportgen.base.kinds import kinds
-    from reportgen.cases import opener
-    from reportgen.page import watch as served
 
     def begin(kind: str) -> Path:
         """The file of a kind, begun; one that was named, or the first that is not there yet."""
@@ -175,7 +168,7 @@ def edit(
 
     with ending(lang):
         if what is None:
-            served.choose(begin, opener(), lang, products, browser=not no_open)
+            serving.choose(begin, products, lang, browser=not no_open)
             return
         begins = what in kinds() and not Path(what).exists()
         if output is not None and not begins:
@@ -186,17 +179,17 @@ def edit(
         if begins:
             file = output or Path(f"{what}.yaml")
             _begin(what, file, lang)
-        served.edit(file, opener(), lang, products, browser=not no_open)
+        serving.edit(file, products, lang, browser=not no_open)
 
 
 def _begin(kind: str, file: Path, lang: Language | None) -> None:
     """Write the file to begin with of a kind, never over one that is there."""
-    from reportgen import catalogue
+    from reportgen import api
     from reportgen.base.words import spoken
 
     if os.path.lexists(file):
         refuse([Fault("already-there", Mark(str(file)))], file, lang)
-    write(file, catalogue.sample(kind, lang or spoken()))
+    write(file, api.sample(kind, lang or spoken()))
 
 
 def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[str, ...]]:
@@ -213,19 +206,19 @@ def _products(file: Path, out: Path, lang: Language | None) -> dict[str, tuple[s
     return {name: (*begun, *command, str(file), "--out", str(out), *spoken) for name, command in commands.items()}
 
 
-def _pdf_writer(path: Path, out: Path) -> Callable[[Case, Document], None]:
+def _pdf_writer(path: Path, out: Path) -> Callable[[Callable[[], bytes], Language], None]:
     """Writes each finished report as PDF, whole or not at all; says in a line what keeps it from that."""
-    from reportgen.api import made_of, typeset
+    from reportgen.api import made_of
     from reportgen.base.errors import ReportgenError
     from reportgen.base.made import put_made
 
-    def write(case: Case, document: Document) -> None:
+    def write(pdf_of_report: Callable[[], bytes], language: Language) -> None:
         try:
-            pdf = {"report.pdf": typeset(document, "typst")[1]}
-            of = made_of(path, "typst", case.assignment.language)
+            pdf = {"report.pdf": pdf_of_report()}
+            of = made_of(path, "typst", language)
             tell(put_made(out / path.stem, pdf, "report", of, alone=True), None)
         except ReportgenError as error:
-            complain(say("system", case.assignment.language, text=error))
+            complain(say("system", language, text=error))
 
     return write
 
@@ -251,7 +244,6 @@ def solve(
     """Compute motion, forces and torque. They are printed as tables, or written in SI units."""
     from reportgen import api
     from reportgen.base.made import put_made
-    from reportgen.results.tables import print_tables
 
     formats = listed(format, api.RESULT_FORMATS, "--format", "no_format", lang) if format is not None else ()
 
@@ -267,7 +259,7 @@ def solve(
             return
         results = api.solve(assignment, positions, printed=json_file is not None and positions is None)
         if json_file is None:
-            print_tables(results, assignment.language)
+            api.print_tables(results, assignment.language)
         else:
             text = json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n"
             write(json_file, text)
@@ -298,21 +290,19 @@ def new(
     lang: LangOption = None,
 ) -> None:
     """Print a commented assignment file to fill in, or an example."""
-    from reportgen import catalogue
+    from reportgen import api
     from reportgen.base.kinds import kinds
     from reportgen.base.words import spoken, unknown
 
     if kind not in kinds():
         raise typer.BadParameter(unknown("no_kind", kind, list(kinds()), lang))
-    examples = catalogue.examples(kind) if example is not None else {}
+    examples = api.examples(kind) if example is not None else {}
     if example is not None and example not in examples:
         raise typer.BadParameter(unknown("no_example", example, list(examples), lang), param_hint="--from")
     with ending(lang):
         if output is not None and os.path.lexists(output) and not (force or is_stream(output)):
             refuse([Fault("already-there", Mark(str(output)))], output, lang)
-        text = (
-            catalogue.sample(kind, lang or spoken()) if example is None else catalogue.example(examples[example], lang)
-        )
+        text = api.sample(kind, lang or spoken()) if example is None else api.example(examples[example], lang)
         write(output or Path("-"), text)
 
 
@@ -354,9 +344,9 @@ def kinds(lang: LangOption = None) -> None:
 
 def schema(lang: LangOption = None) -> None:
     """Print the JSON Schema of the assignment file, for editors. Its keys are told in the language."""
-    from reportgen import catalogue
+    from reportgen import api
 
-    print(json.dumps(catalogue.schema(lang), ensure_ascii=False, indent=2))
+    print(json.dumps(api.schema(lang), ensure_ascii=False, indent=2))
 
 
 def compare(
@@ -369,10 +359,9 @@ def compare(
     templates: TemplatesOption = None,
 ) -> None:
     """Check your own SHEET before handing it in. It is told where it first leaves the assignment, without answers."""
-    from reportgen.cases import open_case
-    from reportgen.marking.marking import compare as compared
+    from reportgen import api
 
     with ending(lang):
-        lines, agrees = compared(open_case(file, lang), sheet, hint)
+        lines, agrees = api.compare(file, sheet, hint, lang)
         print(*lines, sep="\n")
         raise typer.Exit(0 if agrees else AT_FAULT)

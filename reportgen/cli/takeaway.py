@@ -42,10 +42,11 @@ def figure(
     A NAME is the key of a figure, v.4, or with --at only what it shows, v; what moves has a name, too, machine.
     """
     from reportgen import api
+    from reportgen.api import figures
     from reportgen.base.files import scratch
     from reportgen.base.made import put_made
 
-    formats = listed(format, api.FIGURE_FORMATS, "--format", "no_format", lang)
+    formats = listed(format, figures.FIGURE_FORMATS, "--format", "no_format", lang)
     shown = tuple(dict.fromkeys(name.strip() for name in layers.split(",") if name.strip()))
     with ending(lang):
         if list_names:
@@ -54,7 +55,7 @@ def figure(
         folder = out / file.stem / FIGURES
         refuse_inputs(standing(folder, "figures"), [file], lang)
         with reported(), scratch(out):
-            files = api.figure_files(
+            files = figures.figure_files(
                 file, names or (), at=at, formats=formats, dpi=dpi or 0, layers=shown, language=lang
             )
             of = api.made_of(file, "typst", api.load(file, lang).language)
@@ -83,28 +84,28 @@ def plot(
     is phi (deg) from position 1, or t (s).
     """
     from reportgen import api
+    from reportgen.api import figures
     from reportgen.base.files import scratch
     from reportgen.base.made import put_made
 
-    formats = listed(format, api.PLOT_FORMATS, "--format", "no_format", lang)
+    formats = listed(format, figures.PLOT_FORMATS, "--format", "no_format", lang)
     ids = tuple(dict.fromkeys(name.strip() for name in of.split(",") if name.strip()))
     with ending(lang):
         folder = out / files[0].stem / PLOTS
         refuse_inputs(standing(folder, "plots"), [*files, measured], lang)
         with reported(), scratch(out):
-            made = api.plot_files(files, ids, over, measured, formats=formats, dpi=dpi, language=lang)
+            made = figures.plot_files(files, ids, over, measured, formats=formats, dpi=dpi, language=lang)
             of_first = api.made_of(files[0], "", api.load(files[0], lang).language)
             tell(put_made(folder, made, "plots", of_first, alone=True), lang)
 
 
 def _print_list(file: Path, lang: LangOption) -> None:
     """A line a figure: its name, its number or the formats of what moves, what it shows, and at which positions."""
-    from reportgen import api
-    from reportgen.export.figures import MOVING
+    from reportgen.api import figures
 
-    still, moving = api.figure_list(file, lang)
+    still, moving = figures.figure_list(file, lang)
     rows = [(one.name, one.number, one.caption, ", ".join(one.positions)) for one in still]
-    rows += [(one.name, "/".join(MOVING), one.pane.title, "") for one in moving]
+    rows += [(one.name, "/".join(figures.MOVING), one.pane.title, "") for one in moving]
     widths = [max(len(row[column]) for row in rows) for column in (0, 1)] if rows else [0, 0]
     for name, number, caption, positions in rows:
         print(f"{name:{widths[0]}}  {number:{widths[1]}}  {caption}{f' ({positions})' * bool(positions)}")

@@ -7,6 +7,7 @@ file but is not read beyond doubt is *unread*: it neither earns nor costs anythi
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -15,8 +16,12 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.marking.marks import Answer, Place, Submission
 
-SAME = 1e-3
-"""Two values of one place that differ by no more than this share are one, rounded differently."""
+FEWEST_FIGURES = 2
+"""Figures that a number has been written with at least."""
+SAME = 5e-3
+"""Two values of a place that differ by less are one: worked out from other roundings, as by a plan and by a formula.
+Marking takes no smaller share of a quantity for wrong."""
+_FIGURES = re.compile(r"[1-9]\d*(?:[.,]\d+)?|0?[.,]0*(\d+)")
 
 
 @dataclass(frozen=True)
@@ -50,7 +55,7 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
     for reading in readings:
         for place, answer in reading.values.items():
             first = values.setdefault(place, answer)
-            if not same(first.value, answer.value):
+            if not agree(first, answer):
                 unread[place] = Fault("unread-two-values", answer.mark, {"text": answer.text, "first": first.text})
     for place in unread:
         del values[place]
@@ -69,6 +74,16 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
     )
 
 
-def same(first: float, second: float) -> bool:
-    """Whether two numbers are one value, written to more or fewer figures."""
-    return math.isclose(first, second, rel_tol=SAME, abs_tol=1e-12)
+def agree(first: Answer, second: Answer) -> bool:
+    """Whether two values are one, written to more or fewer figures, 3.214 and 3.2, or come to in another way."""
+    coarse = min(figures(first.text), figures(second.text))
+    size = max(abs(first.value), abs(second.value))
+    half_unit = 0.5 * 10 ** (math.floor(math.log10(size)) + 1 - coarse) if size else 0.0
+    return abs(first.value - second.value) <= max(half_unit * (1 + 1e-9), SAME * size)
+
+
+def figures(text: str) -> int:
+    """How many figures the first number of a text is written with."""
+    match = _FIGURES.search(text)
+    count = sum(map(str.isdigit, match[1] or match[0])) if match else 0
+    return max(count, FEWEST_FIGURES)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.api.figures import plot_files
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
 from reportgen.cases import open_case, opened
 from reportgen.export.curves import dense, diagrams, read_measured
@@ -150,7 +151,7 @@ def test_all_charts_of_a_report_are_diagrams() -> None:
 
 def test_a_plot_is_a_file(caplog: pytest.LogCaptureFixture) -> None:
     """The same one each time, of which no library has anything to say."""
-    files = api.plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+    files = plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
     assert list(files) == ["v.E.svg", "v.E.eps", "M.eq.svg", "M.eq.eps"]
-    assert files == api.plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
+    assert files == plot_files([SHAPER, SHAPER], ["v.E", "M.eq"], formats=["svg", "eps"])
     assert caplog.records == []

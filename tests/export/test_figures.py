@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.api.figures import figure_files
 from reportgen.base.errors import NotOfferedError, TypesetterError, UnknownNameError
 from reportgen.cases import open_case
 from reportgen.drawing import Arrow, Label, Scene
@@ -143,14 +144,14 @@ def test_figures_go_by_their_keys() -> None:
 
 def test_a_position_that_the_report_does_not_work_out_is_drawn() -> None:
     """v at 3 is the plan of position 3; its tips are those of the ledger."""
-    files = api.figure_files(SHAPER, ["v", "v.plates"], at="3", formats=["svg"])
+    files = figure_files(SHAPER, ["v", "v.plates"], at="3", formats=["svg"])
     assert set(files) == {"v.3.svg", "v.plates-3.svg"}
     with pytest.raises(UnknownNameError, match="13"):
-        api.figure_files(SHAPER, ["v"], at="13")
+        figure_files(SHAPER, ["v"], at="13")
     with pytest.raises(UnknownNameError, match=r"v\.6"):
-        api.figure_files(SHAPER, ["v.7"])
+        figure_files(SHAPER, ["v.7"])
     with pytest.raises(NotOfferedError):
-        api.figure_files(ROOT / "assignments" / "gears" / "train-single.yaml", at="3")
+        figure_files(ROOT / "assignments" / "gears" / "train-single.yaml", at="3")
 
 
 # --- what moves -------------------------------------------------------------------------------------
@@ -202,7 +203,7 @@ def test_no_label_lies_on_another_one(shaper: Mapping[str, MovingFigure]) -> Non
 def test_a_gif_has_a_frame_for_each_scene() -> None:
     from PIL import Image
 
-    files = api.figure_files(SHAPER, ["v"], formats=["gif"], dpi=50)
+    files = figure_files(SHAPER, ["v"], formats=["gif"], dpi=50)
     with Image.open(io.BytesIO(files["v.gif"])) as film:
         assert (film.n_frames, film.info["duration"], film.info["loop"]) == (60, 50, 0)  # type: ignore[attr-defined]
         first = film.convert("RGB")
@@ -213,16 +214,16 @@ def test_a_gif_has_a_frame_for_each_scene() -> None:
 
 def test_what_stands_and_what_is_not_there_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(NotOfferedError, match="machine"):
-        api.figure_files(SHAPER, ["motion"], formats=["gif"])
+        figure_files(SHAPER, ["motion"], formats=["gif"])
     with pytest.raises(UnknownNameError, match="velocities"):
-        api.figure_files(SHAPER, ["machine"], formats=["gif"], layers=["velocity"])
+        figure_files(SHAPER, ["machine"], formats=["gif"], layers=["velocity"])
     with pytest.raises(NotOfferedError):
-        api.figure_files(ROOT / "assignments" / "plane-motion" / "01.yaml", formats=["gif"])
+        figure_files(ROOT / "assignments" / "plane-motion" / "01.yaml", formats=["gif"])
     monkeypatch.setattr(shutil, "which", lambda name: None)
     with pytest.raises(TypesetterError, match="ffmpeg"):
-        api.figure_files(SHAPER, ["v"], formats=["mp4"], dpi=20)
+        figure_files(SHAPER, ["v"], formats=["mp4"], dpi=20)
 
 
 @pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed")
 def test_an_mp4_is_one() -> None:
-    assert api.figure_files(SHAPER, ["v"], formats=["mp4"], dpi=50)["v.mp4"][4:8] == b"ftyp"
+    assert figure_files(SHAPER, ["v"], formats=["mp4"], dpi=50)["v.mp4"][4:8] == b"ftyp"

@@ -29,15 +29,13 @@ from reportgen.report.case import bounded
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
-    from reportgen.export.curves import Over
-    from reportgen.export.figures import MovingFigure
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
+    from reportgen.marking.policy import Policy
     from reportgen.report import Document
     from reportgen.report.case import Case
     from reportgen.report.key import Key
     from reportgen.report.layout import Letter
-    from reportgen.report.named_figures import NamedFigure
     from reportgen.writers.pdflatex import Ahead
 
 Engine = Literal["typst", "latex"]
@@ -46,7 +44,8 @@ FORMATS = ("pdf", "html", "docx")
 """What a report can be written as."""
 
 
-load, check, examine = catalogue.load, catalogue.check, catalogue.examine
+load, check, examine, assess = catalogue.load, catalogue.check, catalogue.examine, catalogue.assess
+schema, sample, examples, example = catalogue.schema, catalogue.sample, catalogue.examples, catalogue.example
 
 
 def analyse(assignment: Assignment) -> Analysis:
@@ -71,6 +70,13 @@ def solve(assignment: Assignment, positions: int | None = None, printed: bool = 
         with suppress(NotOfferedError):
             found["printed"] = printed_values(case.printed)
     return found
+
+
+def print_tables(results: Mapping[str, Any], language: Language) -> None:
+    """Print results as tables on a terminal."""
+    from reportgen.results import tables
+
+    tables.print_tables(results, language)
 
 
 RESULT_FORMATS = ("csv", "xlsx", "json")
@@ -346,8 +352,6 @@ def key_files(
 
 
 SHEET_FORMATS = ("pdf", "dxf")
-FIGURE_FORMATS = ("svg", "png", "pdf", "eps", "gif", "mp4")
-"""What a figure can be written as; GIF and MP4 of what moves."""
 
 
 def sheet_files(
@@ -381,77 +385,11 @@ def sheet_files(
     }
 
 
-def figure_list(
-    path: Path | str, language: Language | None = None
-) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
-    """The figures of a file's report in their order, and what moves on its page."""
-    from reportgen.export import figures
+def blocks(assignment: Assignment) -> dict[str, Path]:
+    """The title blocks that are known by a name: the program's, and those of the assignment's school."""
+    from reportgen.sheets import frame
 
-    return figures.listed(open_case(path, language))
-
-
-def figure_files(
-    path: Path | str,
-    names: Sequence[str] = (),
-    at: str = "",
-    formats: Sequence[str] = ("svg",),
-    dpi: int = 0,
-    layers: Sequence[str] = ("paths",),
-    language: Language | None = None,
-) -> Mapping[str, bytes]:
-    """Figures as files in some of `FIGURE_FORMATS`, by name; all that the report has unless some are named.
-
-    With the label or the number of a position `at` that one is worked out, and of several drawings those that show it
-    are chosen.  Raises `UnknownNameError`, `NotOfferedError`, `TypesetterError`.
-    """
-    from reportgen.export import figures
-
-    case = open_case(path, language)
-    case, labels = worked_at(case.assignment, at) if at else (case, ())
-    query = figures.FigureQuery(names, labels, formats, dpi, tuple(layers))
-    return figures.figure_files(case, query)
-
-
-PLOT_FORMATS = ("svg", "png", "pdf", "eps")
-
-
-def plot_files(
-    paths: Sequence[Path],
-    of: Sequence[str],
-    over: Over = "phi",
-    measured: Path | None = None,
-    formats: Sequence[str] = ("svg",),
-    dpi: int = 220,
-    language: Language | None = None,
-) -> Mapping[str, bytes]:
-    """Quantities by their ids as curves of each file, a chart for each unit, in some of `PLOT_FORMATS`.
-
-    They run over the driver's way or over time; a table of `measured` values is drawn as points.  Raises
-    `UnknownNameError`, `NotOfferedError`, `AssignmentError` also for the table.
-    """
-    from reportgen.export import curves
-    from reportgen.report.named_figures import safe
-    from reportgen.writers import figure
-
-    cases = [opened(curves.dense(load(path, language))) for path in paths]
-    points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
-    spoken = cases[0].assignment.language
-    made = {safe(name): figure.chart(one, spoken) for name, one in curves.diagrams(cases, of, over, points).items()}
-    return {f"{name}.{format}": figure.saved(one, format, dpi) for name, one in made.items() for format in formats}
-
-
-def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:
-    """The case with one position worked out, and the labels that it goes by: its own, that of its place in a turn.
-
-    Raises `UnknownNameError` where there is no such position, `NotOfferedError` of a kind without any.
-    """
-    if not catalogue.kind(assignment.kind).has_positions:
-        raise NotOfferedError(word("no_at", assignment.language, kind=assignment.kind))
-    number = assignment.position(at)
-    # What repeats from turn to turn is drawn once.
-    turn = assignment.cycle_positions // assignment.turns
-    labels = dict.fromkeys(assignment.labels[k] for k in (number - 1, (number - 1) % turn))
-    return opened(assignment.with_worked(number)), tuple(labels)
+    return frame.blocks(assignment.school or "")
 
 
 MAKERS: Mapping[str, Maker] = {
@@ -467,6 +405,25 @@ USUAL = ("task", "report", "key")
 """What a batch makes unless it is told."""
 ASKING = frozenset({"task", "key"})
 """Those that depend on what the answer sheet asks for."""
+
+
+def policy(path: Path | None, language: Language | None) -> Policy:
+    """How a class is marked: as a file says, or what holds without one.  Raises `AssignmentError`."""
+    from reportgen.marking.policy import Policy, read_policy
+
+    return Policy() if path is None else read_policy(path, language)
+
+
+def compare(
+    path: Path, sheet: Path, hint: bool = False, language: Language | None = None
+) -> tuple[tuple[str, ...], bool]:
+    """What a student is told of a filled answer sheet, and whether it agrees with the assignment as far as it goes.
+
+    Raises `AssignmentError`.
+    """
+    from reportgen.marking import marking
+
+    return marking.compare(open_case(path, language), sheet, hint)
 
 
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:

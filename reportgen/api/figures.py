@@ -1,0 +1,86 @@
+"""Figures and curves of assignment files as files of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from reportgen import catalogue
+from reportgen.api import load
+from reportgen.assignment import Assignment
+from reportgen.base.errors import NotOfferedError
+from reportgen.base.units import Language
+from reportgen.base.words import word
+from reportgen.cases import open_case, opened
+from reportgen.export import curves, figures
+from reportgen.export.curves import Over
+from reportgen.export.figures import FORMATS as FIGURE_FORMATS
+from reportgen.export.figures import MOVING, MovingFigure
+from reportgen.export.figures import STILL as PLOT_FORMATS
+from reportgen.report.case import Case
+from reportgen.report.named_figures import NamedFigure, safe
+from reportgen.writers import figure
+
+__all__ = ["FIGURE_FORMATS", "MOVING", "PLOT_FORMATS", "figure_files", "figure_list", "plot_files", "worked_at"]
+
+
+def figure_list(
+    path: Path | str, language: Language | None = None
+) -> tuple[tuple[NamedFigure, ...], tuple[MovingFigure, ...]]:
+    """The figures of a file's report in their order, and what moves on its page."""
+    return figures.listed(open_case(path, language))
+
+
+def figure_files(
+    path: Path | str,
+    names: Sequence[str] = (),
+    at: str = "",
+    formats: Sequence[str] = ("svg",),
+    dpi: int = 0,
+    layers: Sequence[str] = ("paths",),
+    language: Language | None = None,
+) -> Mapping[str, bytes]:
+    """Figures as files in some of `FIGURE_FORMATS`, by name; all that the report has unless some are named.
+
+    With the label or the number of a position `at` that one is worked out, and of several drawings those that show it
+    are chosen.  Raises `UnknownNameError`, `NotOfferedError`, `TypesetterError`.
+    """
+    case = open_case(path, language)
+    case, labels = worked_at(case.assignment, at) if at else (case, ())
+    query = figures.FigureQuery(names, labels, formats, dpi, tuple(layers))
+    return figures.figure_files(case, query)
+
+
+def plot_files(
+    paths: Sequence[Path],
+    of: Sequence[str],
+    over: Over = "phi",
+    measured: Path | None = None,
+    formats: Sequence[str] = ("svg",),
+    dpi: int = 220,
+    language: Language | None = None,
+) -> Mapping[str, bytes]:
+    """Quantities by their ids as curves of each file, a chart for each unit, in some of `PLOT_FORMATS`.
+
+    They run over the driver's way or over time; a table of `measured` values is drawn as points.  Raises
+    `UnknownNameError`, `NotOfferedError`, `AssignmentError` also for the table.
+    """
+    cases = [opened(curves.dense(load(path, language))) for path in paths]
+    points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
+    spoken = cases[0].assignment.language
+    made = {safe(name): figure.chart(one, spoken) for name, one in curves.diagrams(cases, of, over, points).items()}
+    return {f"{name}.{format}": figure.saved(one, format, dpi) for name, one in made.items() for format in formats}
+
+
+def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:
+    """The case with one position worked out, and the labels that it goes by: its own, that of its place in a turn.
+
+    Raises `UnknownNameError` where there is no such position, `NotOfferedError` of a kind without any.
+    """
+    if not catalogue.kind(assignment.kind).has_positions:
+        raise NotOfferedError(word("no_at", assignment.language, kind=assignment.kind))
+    number = assignment.position(at)
+    # What repeats from turn to turn is drawn once.
+    turn = assignment.cycle_positions // assignment.turns
+    labels = dict.fromkeys(assignment.labels[k] for k in (number - 1, (number - 1) % turn))
+    return opened(assignment.with_worked(number)), tuple(labels)
