@@ -65,8 +65,8 @@ def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED)
     small = [
         fit
         for shape in shapes
-        if shape.kind in scales
-        for one in fits(shape, lines, [scales[shape.kind] if shape.kind in "va" else shape.unit / scales[shape.kind]])
+        if shape.scale in scales
+        for one in fits(shape, lines, [scales[shape.scale] if shape.is_of_motion else shape.unit / scales[shape.scale]])
         if (fit := _closer(one, lines, deviation)) is not None
     ]
     plans, doubtful = judge.decided(_distinct([*again, *small]))
@@ -109,14 +109,14 @@ def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
 
 def _drawn_to(fit: Fit) -> float:
     """The scale of a plan over the report's; of forces, whose report has one for each position, the scale itself."""
-    return fit.scale if fit.shape.kind in "va" else fit.shape.unit / fit.scale
+    return fit.scale if fit.shape.is_of_motion else fit.shape.unit / fit.scale
 
 
 def _common_scales(plans: Sequence[Fit], judge: _Judge) -> dict[str, float]:
     """The scale that most plans of a kind share, by kinds."""
     scales: dict[str, float] = {}
-    for kind in {fit.shape.kind for fit in plans}:
-        own = [fit for fit in plans if fit.shape.kind == kind]
+    for kind in {fit.shape.scale for fit in plans}:
+        own = [fit for fit in plans if fit.shape.scale == kind]
         drawn = np.log([_drawn_to(fit) for fit in own])
         room = np.array([WITHIN * fit.scale_error(judge.deviation) / fit.scale for fit in own])
         agree = np.abs(drawn[:, None] - drawn) <= room[:, None] + room
@@ -152,9 +152,9 @@ class _Judge:
 
     def _of_scale(self, fit: Fit) -> float:
         """What the scale says: nothing where none is common."""
-        if fit.shape.kind not in self.scales:
+        if fit.shape.scale not in self.scales:
             return 0.0
-        off = abs(np.log(_drawn_to(fit) / self.scales[fit.shape.kind]))
+        off = abs(np.log(_drawn_to(fit) / self.scales[fit.shape.scale]))
         room = max(WITHIN * fit.scale_error(self.deviation) / fit.scale, 1e-4)
         return float(np.log(ANYWHERE / (2 * room))) if off <= room else OTHER_SCALE
 

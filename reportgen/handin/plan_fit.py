@@ -313,10 +313,11 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
     rows = np.arange(len(starts))
     for turn in range(ROUNDS):
         a, b = scale * starts + shift, scale * ends + shift
-        farthest, turned, _ = off_place(some, a, b)
-        line = farthest.argmin(axis=1)
+        farthest, turned, squares = off_place(some, a, b)
         # What is shorter than two ends may lie off has no direction.
-        seen = (farthest[rows, line] <= reach) & (np.abs(b - a) > 2 * REACH * sigma)
+        fits_there = (farthest <= reach[:, None]) & (np.abs(b - a) > 2 * REACH * sigma)[:, None]
+        line = _each_its_own(np.where(fits_there, squares, np.inf))
+        seen = line >= 0
         kept = np.flatnonzero(seen)
         if len(kept) < 2:
             return None
@@ -345,6 +346,25 @@ def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarra
     turned = opposite < straight
     squares = np.where(turned, starts[1] ** 2 + ends[0] ** 2, starts[0] ** 2 + ends[1] ** 2)
     return np.minimum(straight, opposite), turned, squares
+
+
+def _each_its_own(squares: np.ndarray) -> np.ndarray:
+    """The line of each vector [E], −1 without one, from how badly they fit [E, M]: the best first, no line twice.
+
+    A vector that is left without a line may have that of another: both are one line on paper where nothing else is.
+    """
+    best = np.where(np.isfinite(squares.min(axis=1)), squares.argmin(axis=1), -1)
+    kept = best[best >= 0]
+    if len(set(kept.tolist())) == len(kept):
+        return best
+    chosen, used = np.full(len(best), -1), set()
+    vectors, lines = np.nonzero(np.isfinite(squares))
+    for number in np.argsort(squares[vectors, lines], kind="stable"):
+        vector, line = int(vectors[number]), int(lines[number])
+        if chosen[vector] < 0 and line not in used:
+            chosen[vector] = line
+            used.add(line)
+    return np.where(chosen < 0, best, chosen)
 
 
 def _ends_of(some: np.ndarray, turned: np.ndarray) -> np.ndarray:

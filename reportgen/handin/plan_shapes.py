@@ -58,9 +58,10 @@ class PlanShape:
     letters: tuple[tuple[str, ...], ...] = ()
 
     @property
-    def kind(self) -> str:
-        """What plans of one kind are drawn to one scale: l, v, a, R."""
-        return self.scale.removeprefix("mu.")[:1]
+    def is_of_motion(self) -> bool:
+        """Whether it is a plan of velocities or accelerations, which have one scale at all positions."""
+        names = ids.scale.read(self.scale)
+        return names is not None and names["plan"] in ("v", "a")
 
     @property
     def starts(self) -> np.ndarray:

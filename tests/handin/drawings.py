@@ -23,6 +23,8 @@ Line = tuple[complex, complex]
 
 SHORTEST = 3.0
 """What is drawn shorter (mm) is not counted: a line of arrowheads and of the reader's own least length."""
+HEADED = 5.0
+"""A vector that is shorter (mm) has no arrowhead."""
 SAME = 0.5
 """Ends nearer than this (mm) are one point to whoever draws."""
 NICE = tuple(step * 10.0**power for power in range(-3, 7) for step in (1, 2, 2.5, 4, 5))
@@ -205,17 +207,17 @@ def _draw_plan(document, model, plan, factor, shift, manner, rng, truth, number)
             dxfattribs={"xscale": ratio, "yscale": ratio},
         )
         back = lambda z: (z - at) / ratio  # noqa: E731
-    ends = {id: (factor * plan.corners[a], factor * plan.corners[b]) for id, (a, b) in plan.vectors.items()}
-    for id in ends:
-        near = {other for other in ends if same_line(ends[id], ends[other], SAME)}
+    drawn = {id: (factor * plan.corners[a], factor * plan.corners[b]) for id, (a, b) in plan.vectors.items()}
+    for id in drawn:
+        near = {other for other in drawn if same_line(drawn[id], drawn[other], SAME)}
         truth.alike[id, plan.position] = {(other, plan.position) for other in near}
     # What has the same ends is one line on paper.
     lines: dict[frozenset, list[str]] = {}
     for id, ends in plan.vectors.items():
         places = [complex(round(plan.corners[end].real, 1), round(plan.corners[end].imag, 1)) for end in ends]
         lines.setdefault(frozenset(places), []).append(id)
-    many = len(lines) >= 4
-    bad = rng.choice(sorted(lines, key=str)) if many and rng.random() < manner.wrong else None
+    telling = sorted((key for key, names in lines.items() if _length(drawn[names[0]]) >= HEADED), key=str)
+    bad = rng.choice(telling) if len(lines) >= 4 and telling and rng.random() < manner.wrong else None
     kind = rng.choice(["length", "reversed", "turned"])
     for key, names in lines.items():
         places = [(id, plan.position) for id in names]
@@ -248,6 +250,10 @@ def _draw_plan(document, model, plan, factor, shift, manner, rng, truth, number)
             if place not in done:
                 done.add(place)
                 _letter(space, back(factor * corner + shift + 1.5 + 1.5j), letter, manner)
+
+
+def _length(line):
+    return abs(line[1] - line[0])
 
 
 def _name(id):
