@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from reportgen.base.errors import Fault
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.marking.marks import Answer, Measured, Place, Submission
 
 FEWEST_FIGURES = 2
 """Figures that a number has been written with at least."""
@@ -37,6 +37,10 @@ class FileReading:
     values: Mapping[Place, Answer]
     unread: Mapping[Place, Fault] = field(default_factory=dict)
     notes: tuple[Fault, ...] = ()
+    measured: Mapping[Place, Measured] = field(default_factory=dict)
+    """How the values of a drawing were read."""
+    drawn: frozenset[Place] = frozenset()
+    """The places of which a drawing has to show something."""
 
     @property
     def share(self) -> float:
@@ -48,11 +52,19 @@ class FileReading:
 def submission(readings: Sequence[FileReading], language: Language | None) -> Submission:
     """The readings of one student's files as what is marked, faults worded in `language`.
 
-    A place with two values, here and there, is unread; one that only a single file leaves unread has the other's.
+    A place with two values, here and there, is unread; one that only a single file leaves unread has the other's.  What
+    is written counts before what is measured on a drawing, which is at another scale.
     """
     values: dict[Place, Answer] = {}
     unread: dict[Place, Fault] = {}
+    measured: dict[Place, Measured] = {}
+    readings = sorted(readings, key=lambda reading: bool(reading.measured))
     for reading in readings:
+        if reading.measured:
+            further = {place: answer for place, answer in reading.values.items() if place not in values}
+            measured |= {place: reading.measured[place] for place in further}
+            values |= further
+            continue
         for place, answer in reading.values.items():
             first = values.setdefault(place, answer)
             if not agree(first, answer):
@@ -71,6 +83,8 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
         rows=frozenset(id for id, _ in (*values, *unread)),
         unread={place: as_problem(fault, language) for place, fault in unread.items()},
         own_files=True,
+        measured={place: how for place, how in measured.items() if place in values},
+        drawn=frozenset().union(*(reading.drawn for reading in readings)),
     )
 
 

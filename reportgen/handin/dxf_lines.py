@@ -16,7 +16,8 @@ from itertools import pairwise
 import numpy as np
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.handin.dxf_tags import MOST, DrawingFault, Entities, Entity, is_drawn, read_entities
+from reportgen.handin.dxf_tags import MOST, Entities, Entity, is_drawn, read_entities
+from reportgen.workbook.package import RefusedError
 
 UNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 14: 100.0}
 """Millimetres of the units that a drawing may name."""
@@ -53,7 +54,7 @@ class DrawnLines:
 
 
 def read_lines(data: bytes, file: str) -> DrawnLines:
-    """The lines and texts of a DXF.  Raises `DrawingFault`."""
+    """The lines and texts of a DXF.  Raises `RefusedError`."""
     found = read_entities(data, file)
     encoding = _encoding(found)
     model = _pieces(found.model, encoding)
@@ -127,12 +128,12 @@ class _Unfolding:
     def check(self, model: Pieces) -> None:
         """Count before anything is unfolded: a file of a few kB may have millions of lines in blocks of blocks."""
         if self.count(model, ()) > MOST:
-            raise DrawingFault(Fault("drawing-elements", Mark(self.file), {"most": f"{MOST}"}))
+            raise RefusedError("drawing-elements", Mark(self.file), most=f"{MOST}")
 
     def count(self, pieces: Pieces, within: tuple[bytes, ...]) -> int:
         """Lines and texts with those of all blocks set in."""
         if len(within) > DEEPEST:
-            raise DrawingFault(Fault("drawing-deep", Mark(self.file), {"most": f"{DEEPEST}"}))
+            raise RefusedError("drawing-deep", Mark(self.file), most=f"{DEEPEST}")
         total = len(pieces.lines) + len(pieces.texts)
         for insertion in pieces.insertions:
             name = insertion.name

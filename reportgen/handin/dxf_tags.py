@@ -9,7 +9,8 @@ import io
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Fault, Mark
+from reportgen.base.errors import Mark
+from reportgen.workbook.package import RefusedError
 
 LARGEST = 50_000_000
 """Bytes of a drawing."""
@@ -30,14 +31,6 @@ _COMMENT = 999
 _INVISIBLE, _PAPER = 60, 67
 
 Tags = list[tuple[int, bytes]]
-
-
-class DrawingFault(Exception):
-    """A drawing that cannot be read, and why."""
-
-    def __init__(self, fault: Fault) -> None:
-        super().__init__(fault.code)
-        self.fault = fault
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,10 +74,10 @@ class Entities:
 
 
 def read_entities(data: bytes, file: str) -> Entities:
-    """The entities of a drawing.  Raises `DrawingFault` for what is no DXF, is damaged or too large."""
+    """The entities of a drawing.  Raises `RefusedError` for what is no DXF, is damaged or too large."""
 
-    def refuse(code: str, line: int = 1, **about: str) -> DrawingFault:
-        return DrawingFault(Fault(code, Mark(file, line), about))
+    def refuse(code: str, line: int = 1, **about: str) -> RefusedError:
+        return RefusedError(code, Mark(file, line), **about)
 
     if len(data) > LARGEST:
         raise refuse("drawing-large", largest=f"{LARGEST / 1e6:g}")
@@ -97,7 +90,7 @@ def read_entities(data: bytes, file: str) -> Entities:
     block: Block | None = None
     entity: Entity | None = None
     sections = 0
-    for code, value, line in _pairs(data, refuse):
+    for code, value, line, _ in pairs(data, refuse):
         if code == 0:
             entity = None
             if value == b"SECTION":
@@ -136,9 +129,12 @@ def read_entities(data: bytes, file: str) -> Entities:
     return found
 
 
-def _pairs(data: bytes, refuse: Callable[..., DrawingFault]) -> Iterator[tuple[int, bytes, int]]:
-    """Codes and values with the line of each code, up to the end that the file names or has."""
-    lines, line = io.BytesIO(data), 1
+Refuse = Callable[..., RefusedError]
+
+
+def pairs(data: bytes, refuse: Refuse) -> Iterator[tuple[int, bytes, int, int]]:
+    """Codes and values, the line of each code and its byte, up to the end that the file names or has."""
+    lines, line, offset = io.BytesIO(data), 1, 0
     for code_line in lines:
         value = lines.readline()
         try:
@@ -148,10 +144,10 @@ def _pairs(data: bytes, refuse: Callable[..., DrawingFault]) -> Iterator[tuple[i
                 return
             raise refuse("drawing-damaged", line) from None
         if code != _COMMENT:
-            yield code, value.strip(b"\r\n") if code in _TEXTS else value.strip(), line
-        if code == 0 and value == b"EOF":
+            yield code, value.strip(b"\r\n") if code in _TEXTS else value.strip(), line, offset
+        if code == 0 and value.strip() == b"EOF":
             return
-        line += 2
+        line, offset = line + 2, offset + len(code_line) + len(value)
 
 
 _TEXTS = frozenset({1, 3})

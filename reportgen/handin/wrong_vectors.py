@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.handin.arrowheads import Arrowheads
 from reportgen.handin.plan_finder import FoundPlans
 from reportgen.handin.plan_fit import SEEN, Fit, Lines
 from reportgen.handin.plan_labels import Labels, names_of
@@ -28,8 +27,8 @@ class WrongVector:
     end: complex
 
 
-def wrong_vectors(found: FoundPlans, lines: Lines, heads: Arrowheads, labels: Labels) -> tuple[WrongVector, ...]:
-    """The wrong vectors of the plans that were found; `heads` [M, 2] are those of the same lines."""
+def wrong_vectors(found: FoundPlans, lines: Lines, heads: np.ndarray, labels: Labels) -> tuple[WrongVector, ...]:
+    """The wrong vectors of the plans that were found; `heads` [M, 2] says which ends have an arrowhead."""
     used = {line for plan in found.plans for line in plan.used}
     used |= {line for several in found.doubtful for fit in several for line in fit.used}
     free = np.array([line for line in range(len(lines.ends)) if line not in used], dtype=int)
@@ -40,7 +39,7 @@ def wrong_vectors(found: FoundPlans, lines: Lines, heads: Arrowheads, labels: La
 @dataclass(frozen=True)
 class _Search:
     lines: Lines
-    heads: Arrowheads
+    heads: np.ndarray
     labels: Labels
     free: np.ndarray
 
@@ -72,8 +71,8 @@ class _Search:
         for number in self.free:
             for end in (0, 1):
                 start, far = complex(self.lines.ends[number, end]), complex(self.lines.ends[number, 1 - end])
-                if abs(start - place) <= reach and not self.heads.heads[number, end]:
-                    begun.append(_Begun(int(number), start, far, bool(self.heads.heads[number, 1 - end])))
+                if abs(start - place) <= reach and not self.heads[number, end]:
+                    begun.append(_Begun(int(number), start, far, bool(self.heads[number, 1 - end])))
         return begun
 
     def _named(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:

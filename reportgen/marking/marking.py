@@ -52,19 +52,7 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
             scheme, submission, [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
         )
     working = lay_out(scheme, submission)
-    possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
-    cells = {
-        (row.id, position): _judged(working, submission, row, position, possible)
-        for row in scheme.judged
-        for position in row.positions
-    }
-    wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
-    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
-    for search in SEARCHES:
-        mistakes = search(working, cells)
-        for place, mistake in mistakes.items():
-            cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
-        cells |= _charged_once(working, cells, mistakes)
+    cells, _ = _verdicts(working)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
     if scheme.policy.guard:
@@ -74,6 +62,43 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
     return Marking(scheme.key, submission, tuple(in_order), flags)
 
 
+@np.errstate(all="ignore")
+def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
+    """All values (SI) [N] as a student has them who went wrong: from what is written, and with the data misread.
+
+    None where nothing is wrong.
+    """
+    if scheme.parts:
+        return ()
+    working = lay_out(scheme, submission)
+    _, mistakes = _verdicts(working)
+    changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
+    if not mistakes:
+        return ()
+    return (working.world, *([working.world_with(changes)] if changes else []))
+
+
+def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
+    """The verdicts on what is laid out, and the mistakes that have a name."""
+    scheme, submission = working.scheme, working.submission
+    possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
+    cells = {
+        (row.id, position): _judged(working, submission, row, position, possible)
+        for row in scheme.judged
+        for position in row.positions
+    }
+    wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
+    told: list[Mistake] = []
+    for search in SEARCHES:
+        mistakes = search(working, cells)
+        told += mistakes.values()
+        for place, mistake in mistakes.items():
+            cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
+        cells |= _charged_once(working, cells, mistakes)
+    return cells, told
+
+
 def _judged(working: Working, submission: Submission, row: KeyRow, position: int, possible: Sequence[Values]) -> Marked:
     """The verdict on one cell; `possible` are values that follow from the student's own."""
     scheme, place = working.scheme, (row.id, position)
@@ -81,6 +106,10 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     unit, worth = float(working.unit(row.id)[index]), scheme.policy.worth(row.id)
     bands = working.bands[row.id]
     band = float(bands[index if len(bands) > 1 else 0])
+    if place in submission.measured:
+        # What the drawing's own fit may be off by counts where that is more.
+        band = max(band, submission.measured[place].error * family.how.scale)
+        unit = family.how.scale
     key = float(family.at(position).real)
     following = [_own(scheme.ledger, values, row.id, index) for values in possible]
     following += working.also(row, position)
