@@ -187,7 +187,9 @@ def key(
 def grade(
     submissions: Annotated[
         list[Path],
-        typer.Argument(metavar="SUBMISSION", help="Sheets, folders, downloads of a platform.", show_default=False),
+        typer.Argument(
+            metavar="SUBMISSION", help="Sheets, reports, folders, downloads of a platform.", show_default=False
+        ),
     ],
     assignments: Annotated[
         Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
@@ -229,7 +231,9 @@ def grade(
         # What is wrong with it is told before an hour's marking, not after.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         judged = () if corrections is None else read_corrections(corrections, lang)
-        graded = assess.grade(submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table)
+        graded = assess.grade(
+            submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table, out=out
+        )
         problems = list(graded.problems)
         for path in outcome.put(graded, rules, out, engine, lang):
             print(path, flush=True)

@@ -31,7 +31,7 @@ class _Hand:
 
 def read_report(blocks: Sequence[Block], key: Key, file: str) -> FileReading:
     """What a report says of the quantities that a key asks for."""
-    marks = marks_of((line.text for line in _lines(blocks)), key.language)
+    marks = marks_of((line.text for line in lines_of(blocks)), key.language)
     gathering = Gathering(key, file, marks, Symbols(key, key.rows))
     reader = _Reader(gathering)
     for block in blocks:
@@ -40,7 +40,7 @@ def read_report(blocks: Sequence[Block], key: Key, file: str) -> FileReading:
     return gathering.reading()
 
 
-def _lines(blocks: Sequence[Block]) -> list[TextLine]:
+def lines_of(blocks: Sequence[Block]) -> list[TextLine]:
     """All lines, those of tables too."""
     lines: list[TextLine] = []
     for block in blocks:
@@ -48,7 +48,7 @@ def _lines(blocks: Sequence[Block]) -> list[TextLine]:
             lines.append(block)
         else:
             for cell in dict.fromkeys(cell for row in block.rows for cell in row):
-                lines += _lines(cell.blocks)
+                lines += lines_of(cell.blocks)
     return lines
 
 

@@ -91,9 +91,7 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
 
 def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answers: bool) -> Entry:
     """A judged cell: the student's value on the colour of its verdict."""
-    place = (cell.id, cell.position)
-    problem = marking.submission.problems.get(place) or marking.submission.unread.get(place)
-    comment = _comment(cell, marking.key, words, problem.message if problem else "", show_answers)
+    comment = cell_comment(cell, marking, words, show_answers)
     return Entry(cell.written, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
@@ -298,15 +296,17 @@ def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines
     return sentence(named[cell.mistake], symbol=InlineMath(row.symbol))
 
 
-def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:
-    """The comment on a cell that is not right; `message` says why it could not be read."""
+def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_answers: bool) -> str:
+    """The comment on a cell that is not right; "" where there is nothing to say."""
+    key, place = marking.key, (cell.id, cell.position)
     notes = words["verdict_notes"]
     if cell.corrected:
         return str(words["feedback"]["amended_note"]).format(reason=cell.corrected)
     if cell.verdict is Verdict.right:
         return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
     if cell.verdict in (Verdict.unreadable, Verdict.unread):
-        return str(notes[cell.verdict]).format(message=message)
+        problem = marking.submission.problems.get(place) or marking.submission.unread[place]
+        return str(notes[cell.verdict]).format(message=problem.message)
     lines = [str(notes["first" if cell.first else cell.verdict])]
     if cell.first and cell.mistake:
         lines.append(plain(mistake_inlines(cell, key, words), key.language))

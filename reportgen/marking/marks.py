@@ -56,6 +56,8 @@ class Submission:
     own_files: bool = False
     measured: Mapping[Place, Measured] = field(default_factory=dict)
     drawn: frozenset[Place] = frozenset()
+    fingerprint: str = ""
+    """Of a sheet that was filled with what was read of such files: what it held when it was written."""
 
     @property
     def share_read(self) -> float:
@@ -219,7 +221,11 @@ class Marking:
 
 @dataclass(frozen=True, slots=True)
 class Unmarked:
-    """A student without marks: the reasons why what was handed in is not marked, none where nothing was."""
+    """A student without marks: the reasons why what was handed in is not marked, none where nothing was.
+
+    Of `unsettled` work less was read than the policy asks for.
+    """
 
     key: Key
     reasons: tuple[str, ...] = ()
+    unsettled: Submission | None = None

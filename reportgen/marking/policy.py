@@ -51,6 +51,8 @@ class Lateness:
         return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
 
 
+LEAST_READ = 0.8
+
 Twice = Literal["last", "first"]
 """Which of two sheets of one student is marked."""
 
@@ -78,6 +80,8 @@ class Policy:
     """The shares of the parts of a coursework, by name; without them each value counts alike."""
     late: Lateness | None = None
     twice: Twice = "last"
+    least_read: float = LEAST_READ
+    """Where a smaller share of what stands in a student's own files was read, there is no mark."""
     file: Path | None = None
 
     def deducted(self, share: float, days_late: int) -> float:
@@ -135,6 +139,7 @@ class _PolicyFile(Part):
     parts: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
     late: _Late | None = None
     twice: Annotated[Twice, Field(json_schema_extra={})] = "last"
+    least_read: Annotated[Given | None, quantity("%", least=0, most=100)] = None
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -165,6 +170,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
       per_day: 1
       most: 5
     twice: last              # which of two sheets of one student is marked, or: first
+    least_read: 80 %         # of what stands in a report or a drawing without a sheet; below it there is no mark
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points
@@ -184,5 +190,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         parts=content.parts,
         late=Lateness(late.due, late.per_day, late.most) if (late := content.late) else None,
         twice=content.twice,
+        least_read=LEAST_READ if content.least_read is None else content.least_read.si,
         file=path,
     )
