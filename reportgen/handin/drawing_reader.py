@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -37,41 +37,24 @@ USUAL = (1.0, 10.0, 1000.0, 25.4)
 
 @dataclass(frozen=True)
 class DrawnMark(Mark):
-    """A place of a drawing, in its own units."""
+    """Where a vector begins in a drawing, in its own units, and where it should end to be right."""
 
     at: complex = 0j
+    right: complex = 0j
 
     def __str__(self) -> str:
         return f"{self.file}:({self.at.real:.6g}, {self.at.imag:.6g})"
 
     @property
     def place(self) -> tuple[str, int, int, int]:
+        """In a drawing one reads from top to bottom."""
         return (self.file, 0, round(-self.at.imag), round(self.at.real))
 
 
 @dataclass(frozen=True)
-class DrawnVector:
-    """A vector of a plan in the drawing: where it lies, and where it should end (drawing units)."""
+class WantedPlans:
+    """What is looked for in a drawing: the plans of an assignment, from the key's values and from a student's own."""
 
-    start: complex
-    end: complex
-    right_end: complex
-
-
-@dataclass(frozen=True)
-class DrawingReading:
-    """What was read of a drawing, and the vectors that its values were read from, by places."""
-
-    reading: FileReading
-    vectors: Mapping[Place, DrawnVector] = field(default_factory=dict)
-    plans: int = 0
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What is looked for in a drawing: the plans of a key, from its own values and from those of a student."""
-
-    key: Key
     sketches: Sequence[PlanSketch]
     known: Values
     worlds: Sequence[Values] = ()
@@ -81,27 +64,25 @@ class Wanted:
     def shapes(self, values: Values) -> list[PlanShape]:
         return [shape for sketch in self.sketches for shape in sketch.shapes(values)]
 
-    def labels(self, texts: Sequence[DrawnText]) -> Labels:
-        names = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
+    def labels(self, texts: Sequence[DrawnText], key: Key) -> Labels:
+        names = {label.casefold(): k for k, label in enumerate(key.labels, start=1)}
         return Labels(tuple(texts), self.words, names)
 
 
-def read_drawing(drawn: DrawnLines, file: str, wanted: Wanted) -> DrawingReading:
+def read_drawing(drawn: DrawnLines, file: str, key: Key, wanted: WantedPlans) -> FileReading:
     """What a drawing shows of the plans that are wanted, in the unit that it names or else in a usual one.
 
     Raises `RefusedError` where it has more lines than any drawing of plans.
     """
     if len(drawn.ends) > MOST_LINES:
         raise RefusedError("drawing-lines", Mark(file), most=str(MOST_LINES))
-    units = list(dict.fromkeys((*((drawn.unit,) if drawn.unit else ()), *USUAL)))
-    first: _Search | None = None
-    for unit in units:
-        search = _Search.of(drawn, unit, wanted)
-        first = first or search
-        if search.found.plans:
-            return _Reading(search, file).read(drawn.notes)
-    assert first is not None
-    return _Reading(first, file).read(drawn.notes)
+    searches: list[_Search] = []
+    for unit in dict.fromkeys((*((drawn.unit,) if drawn.unit else ()), *USUAL)):
+        searches.append(_Search.of(drawn, unit, key, wanted))
+        if searches[-1].found.plans:
+            break
+    best = searches[-1] if searches[-1].found.plans else searches[0]
+    return _Reading(best, key, file).read(drawn.notes)
 
 
 @dataclass(frozen=True)
@@ -110,22 +91,22 @@ class _Search:
 
     unit: float
     lines: Lines
-    wanted: Wanted
     found: FoundPlans
     wrong: tuple[WrongVector, ...] = ()
 
     @classmethod
-    def of(cls, drawn: DrawnLines, unit: float, wanted: Wanted) -> _Search:
+    def of(cls, drawn: DrawnLines, unit: float, key: Key, wanted: WantedPlans) -> _Search:
         ends = drawn.ends * unit
         every = Lines(ends[np.abs(ends[:, 1] - ends[:, 0]) > OFF], OFF)
         marked = arrowheads(every)
         kept = ~marked.strokes & (np.abs(every.ends[:, 1] - every.ends[:, 0]) > 2 * every.reach)
         lines, heads = Lines(every.ends[kept], OFF), marked.heads[kept]
-        labels = wanted.labels([DrawnText(text.text, text.at * unit, text.height * unit) for text in drawn.texts])
+        texts = [DrawnText(text.text, text.at * unit, text.height * unit) for text in drawn.texts]
+        labels = wanted.labels(texts, key)
         found = find(wanted.shapes(wanted.known), lines, labels)
         for world in wanted.worlds:
             found = _with_own(found, wanted.shapes(world), lines, labels)
-        return cls(unit, lines, wanted, found, wrong_vectors(found, lines, heads, labels))
+        return cls(unit, lines, found, wrong_vectors(found, lines, heads, labels))
 
 
 def _with_own(found: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labels: Labels) -> FoundPlans:
@@ -157,81 +138,80 @@ def _with_own(found: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labe
 @dataclass(frozen=True)
 class _Reading:
     search: _Search
+    key: Key
     file: str
 
-    def read(self, notes: Sequence[Fault]) -> DrawingReading:
-        key, found = self.search.wanted.key, self.search.found
+    def read(self, notes: Sequence[Fault]) -> FileReading:
+        found = self.search.found
         values: dict[Place, Answer] = {}
         measured: dict[Place, Measured] = {}
         unread: dict[Place, Fault] = {}
-        vectors: dict[Place, DrawnVector] = {}
-        wrong = {(id(one.plan), one.vector): one for one in self.search.wrong}
+        wrong = {(id(one.plan), one.vector): (one.start, one.end) for one in self.search.wrong}
         for fit, sure in zip(found.plans, found.sure, strict=True):
-            longest = int(max(fit.found, key=lambda n: abs(fit.shape.ends[n] - fit.shape.starts[n])))
+            lengths = np.abs(fit.shape.ends - fit.shape.starts)
+            longest = fit.found[lengths[fit.found].argmax()]
             for number, vector in enumerate(fit.shape.vectors):
-                places = [(name, place) for name in (vector.length, vector.direction) if (place := self.place(name, fit))]
-                own = wrong.get((id(fit), number))
-                if own is not None:
-                    start, end = own.start, own.end
-                elif sure[number]:
-                    start, end = self.ends(fit, number)
-                else:
-                    unread |= {place: fault for _, place in places if (fault := self.doubt(fit, number))}
+                line = wrong.get((id(fit), number), self.ends(fit, number) if sure[number] else None)
+                if line is None:
+                    unread |= self.doubts(fit, number)
                     continue
-                for name, place in places:
-                    # The longest vector says what scale the plan has, and so says nothing of its own length.
-                    if name == vector.length and number == longest:
-                        continue
-                    value, error = self.value(fit, number, name == vector.length, start, end)
-                    values[place] = Answer(value, f"{value:.4g} {key.row(place[0]).unit}", self.mark(start))
-                    measured[place] = Measured(fit.scale, error)
-                    vectors[place] = self.drawn(fit, number, start, end)
-        for several in found.doubtful:
-            for fit in several:
-                for vector in fit.shape.vectors:
-                    for name in (vector.length, vector.direction):
-                        if (place := self.place(name, fit)) and place not in values:
-                            unread.setdefault(place, Fault("unread-two-plans", self.mark(fit.shift)))
-        mark = Mark(self.file)
-        told = [*notes, *([] if found.plans or found.doubtful else [Fault("drawing-no-plans", mark)])]
-        reading = FileReading(
-            key.id, self.file, values, unread, tuple(told), measured, frozenset((*values, *unread))
-        )
-        return DrawingReading(reading, vectors, len(found.plans))
+                # The longest vector says what scale the plan has, and so says nothing of its own length.
+                own = self.place(vector.length, fit) if number != longest else None
+                for place, value, error in (
+                    (own, *_length(fit, number, *line)),
+                    (self.place(vector.direction, fit), *_direction(fit, number, *line)),
+                ):
+                    if place is not None:
+                        text = f"{value:.4g} {self.key.row(place[0]).unit}"
+                        values[place] = Answer(value, text, self.mark(fit, number, line[0]))
+                        measured[place] = Measured(fit.scale, error)
+        for fit in (fit for several in found.doubtful for fit in several):
+            for number, vector in enumerate(fit.shape.vectors):
+                for place in filter(None, (self.place(name, fit) for name in (vector.length, vector.direction))):
+                    unread.setdefault(place, Fault("unread-two-plans", self.mark(fit, number)))
+        nothing = () if found.plans or found.doubtful else (Fault("drawing-no-plans", Mark(self.file)),)
+        unread = {place: fault for place, fault in unread.items() if place not in values}
+        drawn = frozenset((*values, *unread))
+        return FileReading(self.key.id, self.file, values, unread, (*notes, *nothing), measured, drawn)
 
     def place(self, id: str, fit: Fit) -> Place | None:
-        """The place of a quantity at a plan's position, if the key has a cell for it there."""
-        row = self.search.wanted.key.find(id) if id else None
-        if row is None:
+        """The place of a quantity at a plan's position, if the key has a cell for it there.
+
+        What is the same at all positions is the drawn crank, to which the plans are scaled.
+        """
+        row = self.key.find(id) if id else None
+        if row is None or row.single or fit.shape.position not in row.positions:
             return None
-        position = 0 if row.single else fit.shape.position
-        return (row.id, position) if position in row.positions else None
+        return row.id, fit.shape.position
 
     def ends(self, fit: Fit, number: int) -> tuple[complex, complex]:
         """Where the line of a vector begins and ends (mm), in the vector's sense."""
         first, second = self.search.lines.ends[fit.lines[number]]
         return (complex(second), complex(first)) if fit.turned[number] else (complex(first), complex(second))
 
-    def value(self, fit: Fit, number: int, length: bool, start: complex, end: complex) -> tuple[float, float]:
-        """A vector's length (mm) as the report draws it, or its direction (°), and what either may be off by."""
-        way, off = end - start, 2 * float(fit.reach[number])
-        if length:
-            return abs(way) / fit.scale, off / fit.scale
-        return math.degrees(cmath.phase(way)), math.degrees(min(off / abs(way), math.pi))
+    def doubts(self, fit: Fit, number: int) -> dict[Place, Fault]:
+        """Why a vector of a plan that was found is not read; nothing of one that is too short, or need not be drawn."""
+        vector = fit.shape.vectors[number]
+        length = fit.scale * abs(fit.shape.ends[number] - fit.shape.starts[number])
+        here = fit.lines[number] >= 0
+        if length < SEEN * self.search.lines.error or not (vector.drawn or here):
+            return {}
+        fault = Fault("unread-beside" if here else "unread-vector", self.mark(fit, number))
+        return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
 
-    def doubt(self, fit: Fit, number: int) -> Fault | None:
-        """Why a vector of a plan that was found is not read; None where nothing stands there, or nothing is seen."""
-        a, b = fit.at(fit.shape.starts[number]), fit.at(fit.shape.ends[number])
-        if abs(b - a) < SEEN * self.search.lines.error:
-            return None
-        if fit.lines[number] >= 0:
-            return Fault("unread-beside", self.mark(complex(a)))
-        return Fault("unread-vector", self.mark(complex(a)))
+    def mark(self, fit: Fit, number: int, start: complex | None = None) -> DrawnMark:
+        """Where a vector begins, as drawn or as it should, and where it should end."""
+        unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
+        way = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
+        return DrawnMark(self.file, at=a / unit, right=(a + way) / unit)
 
-    def drawn(self, fit: Fit, number: int, start: complex, end: complex) -> DrawnVector:
-        right = start + fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
-        unit = self.search.unit
-        return DrawnVector(start / unit, end / unit, right / unit)
 
-    def mark(self, at: complex) -> DrawnMark:
-        return DrawnMark(self.file, at=at / self.search.unit)
+def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float]:
+    """A vector's length (mm) as the report draws it, and how far off it may be."""
+    return abs(end - start) / fit.scale, 2 * float(fit.reach[number]) / fit.scale
+
+
+def _direction(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float]:
+    """A vector's direction (°) from the x axis, and how far off it may be."""
+    off = min(2 * float(fit.reach[number]) / abs(end - start), math.pi)
+    return math.degrees(cmath.phase(end - start)) % 360, math.degrees(off)
