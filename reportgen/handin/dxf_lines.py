@@ -9,7 +9,7 @@ import cmath
 import codecs
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
@@ -56,7 +56,7 @@ class DrawnLines:
 def read_lines(data: bytes, file: str) -> DrawnLines:
     """The lines and texts of a DXF.  Raises `RefusedError`."""
     found = read_entities(data, file)
-    encoding = _encoding(found)
+    encoding = encoding_of(found.header)
     model = _pieces(found.model, encoding)
     unfolding = _Unfolding(found, encoding, file)
     unfolding.check(model)
@@ -69,11 +69,11 @@ def read_lines(data: bytes, file: str) -> DrawnLines:
     return DrawnLines(whole.lines, tuple(whole.texts), unit, tuple(notes))
 
 
-def _encoding(found: Entities) -> str:
-    """How the texts are written: UTF-8 since R2007, before by the code page that the file names."""
-    if found.header.get(b"$ACADVER", b"") >= b"AC1021":
+def encoding_of(header: Mapping[bytes, bytes]) -> str:
+    """How the texts are written: UTF-8 since R2007, before by the code page that the header names."""
+    if header.get(b"$ACADVER", b"") >= b"AC1021":
         return "utf-8"
-    page = found.header.get(b"$DWGCODEPAGE", b"").decode("ascii", "replace").upper().replace("ANSI_", "cp")
+    page = header.get(b"$DWGCODEPAGE", b"").decode("ascii", "replace").upper().replace("ANSI_", "cp")
     try:
         return codecs.lookup(page or "cp1252").name
     except LookupError:
