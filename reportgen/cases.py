@@ -49,23 +49,25 @@ def opened(assignment: Assignment) -> Case:
     return Coursework.of(case, [opened(part.within(assignment)) for part in assignment.parts])
 
 
-def open_case(path: Path | str, language: Language | None = None) -> Case:
-    """The case of an assignment file, in its own language or in `language`.
+def open_case(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Case:
+    """The case of an assignment file, in its own language or in `language`; of a part, with what it takes in `whole`.
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    return opened(catalogue.load(path, language))
+    return opened(catalogue.load(path, language, whole))
 
 
-def opener() -> Callable[[Path | str, Language | None], Case]:
+def opener() -> Callable[..., Case]:
     """As `open_case`, for a file that is opened again and again: a part that has not changed is not computed again."""
     from reportgen.coursework.case import Coursework
 
     earlier: Case | None = None
 
-    def reopened(path: Path | str, language: Language | None = None) -> Case:
+    def reopened(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Case:
         nonlocal earlier
-        case = open_case(path, language)
+        case = open_case(path, language, whole)
+        if whole:
+            return case
         earlier = case.after(earlier) if isinstance(case, Coursework) else case
         return earlier
 
@@ -148,7 +150,9 @@ class MachineCase(MachineAnalysis):
         slides = bool(machine.span)
         gone = machine.cycle_angles * (machine.way / (machine.turns * FULL_TURN) if slides else 1.0)
         called = self.words["figure"]["way" if slides else "cycle_angle"]
-        return DriverMotion(gone, machine.way, called, abs(machine.speed), slides=slides, signed=signed)
+        # A speed that holds at each position by itself makes no time.
+        speed = None if machine.acceleration else abs(machine.speed)
+        return DriverMotion(gone, machine.way, called, speed, slides=slides, signed=signed)
 
     @property
     def balance(self) -> np.ndarray | None:

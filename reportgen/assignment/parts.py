@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from reportgen.base.files import leads_out
 from reportgen.base.kinds import kinds
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
 from reportgen.base.source_text import at, put, without
-from reportgen.base.units import NUMBER
+from reportgen.base.units import NUMBER, QuantityFault, read_ratio
 
 ABOUT = ("file", "title", "from")
 """The keys of a named part that are not those of an assignment."""
@@ -51,20 +52,49 @@ def read(
             for key, wanted in part.from_.items()
         )
         if source.top is not None and not own:
-            source, own = _with_taken(source, top, index, taken, part)
-            if not own and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
-                source, own = _with_direction(source, top, find)
+            factors = {key: wanted.times.si if wanted.times else None for key, wanted in part.from_.items()}
+            source, own = _completed(source, top, index, taken, factors, find)
         own = own or list(_no_part(source, find))
         assignment, wrong = (None, own) if own else assess(source, Path(source.file))
         if assignment is None:
             # A part in place has its faults in this very file, one in a file of its own has them there.
-            here = (PARTS, index) if part.file is None else ()
-            faults += [replace(fault, where=(*here, *fault.where)) for fault in wrong]
+            faults += [
+                replace(fault, where=(PARTS, index, *fault.where)) if fault.mark.file == str(path) else fault
+                for fault in wrong
+            ]
             continue
         head = find(assignment.kind).part
         numbers[head] += 1
         parts.append(AssignedPart(numbered(head, numbers[head]), head, part.title or "", assignment, taken))
     return parts, faults
+
+
+def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str], Kind]) -> Source:
+    """The nodes of a part's file with what it takes from the machine of the coursework `whole`, and what keeps it.
+
+    They are as they stand where the coursework does not name the file.
+    """
+    top = read_source(whole).top
+    if not isinstance(top, MappingNode) or source.top is None:
+        return source
+    index = next((index for index, file in _named(top, whole) if file == path), None)
+    return source if index is None else taking(source, top, index, find)
+
+
+def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], Kind]) -> Source:
+    """A part with what it takes by the coursework's nodes, in order or not: what is not understood is left out."""
+    table = at(top, (PARTS, index, "from"))
+    taken: list[TakenDatum] = []
+    factors: dict[str, float | None] = {}
+    for key, about in table.entries if isinstance(table, MappingNode) else ():
+        of, times = at(about, ("of",)), at(about, ("times",))
+        if isinstance(of, Scalar) and not of.null:
+            typed = times.text.strip() if isinstance(times, Scalar) and not times.null else ""
+            with suppress(QuantityFault):
+                factors[key.text] = read_ratio(typed).si if typed else None
+                taken.append(TakenDatum(key.text, of.text, typed or "1"))
+    completed, faults = _completed(source, top, index, taken, factors, find)
+    return replace(completed, faults=(*source.faults, *faults))
 
 
 def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
@@ -81,11 +111,16 @@ def numbered(head: str, number: int) -> str:
 
 def files(source: Source, path: Path) -> list[Path]:
     """The files that the parts of a coursework's file stand in, those that may be read."""
-    listed = at(source.top, (PARTS,))
-    items = listed.items if isinstance(listed, SequenceNode) else ()
-    named = (at(item, ("file",)) for item in items)
-    paths = (path.parent / one.text for one in named if isinstance(one, Scalar) and not one.null)
-    return [file for file in paths if not leads_out(file, path.parent)]
+    return [file for _, file in _named(source.top, path) if not leads_out(file, path.parent)]
+
+
+def _named(top: Node | None, path: Path) -> Iterator[tuple[int, Path]]:
+    """The files that a coursework's nodes name, by the numbers of their parts."""
+    listed = at(top, (PARTS,))
+    for index, item in enumerate(listed.items if isinstance(listed, SequenceNode) else ()):
+        file = at(item, ("file",))
+        if isinstance(file, Scalar) and not file.null:
+            yield index, path.parent / file.text
 
 
 def in_place(top: MappingNode, path: Path) -> tuple[MappingNode, dict[int, Source], list[Fault]]:
@@ -154,8 +189,23 @@ def source_of(top: MappingNode, path: Path, index: int) -> tuple[Source, list[Fa
     return source, unread
 
 
+def _completed(
+    source: Source,
+    top: MappingNode,
+    index: int,
+    taken: Sequence[TakenDatum],
+    factors: Mapping[str, float | None],
+    find: Callable[[str], Kind],
+) -> tuple[Source, list[Fault]]:
+    """The part with what it takes, so many times by its key, and with the driver's sense if it sits on that shaft."""
+    source, faults = _with_taken(source, top, index, taken, factors)
+    if not faults and any((datum.key, datum.of, datum.times) == ON_SHAFT for datum in taken):
+        return _with_direction(source, top, find)
+    return source, faults
+
+
 def _with_taken(
-    source: Source, top: MappingNode, index: int, taken: Sequence[TakenDatum], part: NamedPart
+    source: Source, top: MappingNode, index: int, taken: Sequence[TakenDatum], factors: Mapping[str, float | None]
 ) -> tuple[Source, list[Fault]]:
     """The part with the machine's values among its parameters."""
     node: Node | None = source.top
@@ -168,12 +218,13 @@ def _with_taken(
         assert isinstance(wanted, Scalar), "what is taken is in order"
         if not isinstance(value, Scalar) or value.null:
             known = ", ".join(_quantities(top))
-            faults.append(Fault("no-datum", wanted.mark, {"text": datum.of, "known": known}))
+            own_place = ("from", datum.key, "of")
+            faults.append(Fault("no-datum", wanted.mark, {"text": datum.of, "known": known}, own_place))
         elif own is not None:
-            faults.append(Fault("datum-twice", own.mark, {"key": datum.key}))
+            faults.append(Fault("datum-twice", own.mark, {"key": datum.key}, ("parameters", datum.key)))
         elif node is not None:
-            times = part.from_[datum.key].times
-            text = value.text if times is None else scaled(value.text, times.si)
+            times = factors[datum.key]
+            text = value.text if times is None else scaled(value.text, times)
             node = put(node, ("parameters", datum.key), Scalar(text, wanted.mark))
     return replace(source, top=node), faults
 
@@ -189,7 +240,8 @@ def _with_direction(source: Source, top: MappingNode, find: Callable[[str], Kind
     sense = of_machine.text if isinstance(of_machine, Scalar) and not of_machine.null else ANTICLOCKWISE
     if isinstance(own, Scalar) and not own.null:
         against = own.text in SENSES and sense in SENSES and own.text != sense
-        return source, [Fault("shaft-sense", own.mark, {"text": own.text, "of": sense})] if against else []
+        wrong = Fault("shaft-sense", own.mark, {"text": own.text, "of": sense}, ("parameters", DIRECTION))
+        return source, [wrong] if against else []
     return replace(source, top=put(node, ("parameters", DIRECTION), Scalar(sense, name.mark))), []
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from reportgen.base.errors import Where
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, read_text
-from reportgen.base.source_text import at, entry_text, flow, item_lines, quoted
+from reportgen.base.source_text import at, entry_text, flow, item_lines, path_text, quoted
 
 _REMARK = re.compile(r"#[ \t]?(?P<entry>(?P<key>[^\s:#][^:#]*):(?:[ \t].*)?)$")
 
@@ -24,7 +24,11 @@ BRACKETS = 2000
 
 
 class EditError(ValueError):
-    """A change that this text cannot take; the text is left as it was."""
+    """A change that a text cannot take; the key of the words that say why, and what fills them."""
+
+    def __init__(self, key: str, /, **arguments: str) -> None:
+        super().__init__(key)
+        self.key, self.arguments = key, arguments
 
 
 def with_value(text: str, where: Where, value: Node) -> str:
@@ -42,7 +46,7 @@ def with_value(text: str, where: Where, value: Node) -> str:
     if isinstance(above, SequenceNode) and rest == (len(above.items),):
         return _checked(_with_item(text, above, value), where, value, top)
     if any(isinstance(step, int) for step in rest):
-        raise EditError(f"there is no list for an item at {where}")
+        raise EditError("no_list", place=path_text(where))
     if isinstance(above, MappingNode):
         key = str(rest[0])
         if (uncommented := _from_remark(text, top, above, rest, value)) is not None:
@@ -60,7 +64,7 @@ def without(text: str, where: Where) -> str:
     top = _top(text)
     above, node = at(top, where[:-1]), at(top, where)
     if node is None or not isinstance(above, MappingNode | SequenceNode):
-        raise EditError(f"nothing stands at {where}")
+        raise EditError("nothing", place=path_text(where))
     wanted = _less(plain(top), where)
     start = _start(above, where[-1], node)
     if _is_flow(text, above):
@@ -74,7 +78,7 @@ def without(text: str, where: Where) -> str:
             key_end = text.rindex(":", 0, above.span[0]) + 1
             return _agreeing(text[:key_end] + empty + text[_content_end(text, above.span[1]) :], wanted)
         if head.strip(" -"):
-            raise EditError(f"{where} shares its line")
+            raise EditError("same_line", place=path_text(where))
         if head.strip() and isinstance(above, MappingNode):
             # The first key of an item in block form stands behind its dash.
             following = above.entries[1][0].span[0]
@@ -89,14 +93,14 @@ def with_key(text: str, where: Where, key: str, value: Scalar) -> str:
     table = at(top, where[:-1])
     entry = table.find(where[-1]) if isinstance(table, MappingNode) else None
     if entry is None or not isinstance(table, MappingNode) or table.find(key):
-        raise EditError(f"{where} cannot become {key}")
+        raise EditError("not_instead", place=path_text(where), key=key)
     old, node = entry
     changed = _replaced(text, node, value)
     changed = changed[: old.span[0]] + quoted(key) + changed[old.span[1] :]
     new = plain(_top(changed))
     here = (*where[:-1], key)
     if _get(new, here) != plain(value) or _less(new, here) != _less(plain(top), where):
-        raise EditError(f"{where} cannot become {key}")
+        raise EditError("not_instead", place=path_text(where), key=key)
     return changed
 
 
@@ -105,7 +109,7 @@ def exchanged(text: str, where: Where, first: int) -> str:
     top = _top(text)
     listed = at(top, where)
     if not isinstance(listed, SequenceNode) or not 0 <= first < len(listed.items) - 1:
-        raise EditError(f"there are no items {first} and {first + 1} at {where}")
+        raise EditError("nothing", place=path_text((*where, first + 1)))
     (a, b), (c, d) = (item.span for item in listed.items[first : first + 2])
     changed = text[:a] + text[c:d] + text[b:c] + text[a:b] + text[d:]
     wanted = plain(top)
@@ -119,7 +123,7 @@ def as_list(text: str) -> SequenceNode:
     source = read_text(f"[{text}]")
     if isinstance(source.top, SequenceNode) and not source.faults:
         return source.top
-    raise EditError(f"this is no list: {text if len(text) <= SHOWN else text[:SHOWN] + '…'}")
+    raise EditError("not_list", text=text if len(text) <= SHOWN else text[:SHOWN] + "…")
 
 
 # --- what stands where --------------------------------------------------------------------------------
@@ -133,7 +137,7 @@ def _read(text: str) -> Source:
 def _top(text: str) -> MappingNode:
     source = _read(text)
     if not isinstance(source.top, MappingNode):
-        raise EditError("this text is no table")
+        raise EditError("no_table")
     return source.top
 
 
@@ -180,6 +184,23 @@ def _content_end(text: str, index: int) -> int:
     return index - len(text[:index]) + len(text[:index].rstrip("\r\n"))
 
 
+def _behind(text: str, index: int, depth: int) -> int:
+    """Where the line after an entry that ends at an index begins, behind remarks that are set deeper than the entry.
+
+    They belong to the table in it, as `# G3: 200 N` below the last of the `parameters`.
+    """
+    end = line = _line_end(text, _content_end(text, index))
+    while line < len(text):
+        following = _line_end(text, line)
+        bare = text[line:following].strip()
+        if bare and not (bare.startswith("#") and text.index("#", line) - line > depth):
+            break
+        line = following
+        if bare:
+            end = line
+    return end
+
+
 def _newline(text: str) -> str:
     return "\r\n" if "\r\n" in text else "\n"
 
@@ -201,8 +222,8 @@ def _with_item(text: str, listed: SequenceNode, value: Node) -> str:
         closing = listed.span[1] - 1
         before = text[:closing].rstrip()
         return f"{before}{', ' if listed.items else ''}{flow(value)}{text[closing:]}"
-    end = _line_end(text, _content_end(text, listed.span[1]))
     dash = listed.span[0] - _line_start(text, listed.span[0])
+    end = _behind(text, listed.span[1], dash)
     head = text[:end] if text[:end].endswith("\n") else text[:end] + _newline(text)
     lines = "".join(f"{line}{_newline(text)}" for line in item_lines(value, dash))
     return head + lines + text[end:]
@@ -214,8 +235,8 @@ def _with_entry(text: str, table: MappingNode, key: str, value: Node) -> str:
         closing = table.span[1] - 1
         before = text[:closing].rstrip() if not text[:closing].rstrip().endswith(":") else text[:closing]
         return f"{before}{', ' if table.entries else ''}{quoted(key)}: {flow(value)}{text[closing:]}"
-    end = _line_end(text, _content_end(text, table.span[1]))
     depth = table.span[0] - _line_start(text, table.span[0])
+    end = _behind(text, table.span[1], depth)
     lines = entry_text(Scalar(key, value.mark), value, depth).replace("\n", _newline(text))
     head = text[:end] if text[:end].endswith("\n") else text[:end] + _newline(text)
     return head + lines + text[end:]
@@ -298,7 +319,7 @@ def _less(content: Any, where: Where) -> Any:
 
 def _agreeing(text: str, wanted: Any) -> str:
     if _bare(plain(_top(text))) != _bare(wanted):
-        raise EditError("the change would be read as something else")
+        raise EditError("otherwise")
     return text
 
 
@@ -315,7 +336,7 @@ def _checked(text: str, where: Where, value: Node, top: MappingNode) -> str:
     wanted = plain(top)
     _put(wanted, where, plain(value))
     if source.top is None or plain(source.top) != wanted:
-        raise EditError("the change would be read as something else")
+        raise EditError("otherwise")
     return text
 
 

@@ -23,7 +23,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from reportgen.assignment import reading
+from reportgen.assignment import parts, reading
 from reportgen.assignment.common import Assignment, Kind, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
@@ -38,6 +38,7 @@ from reportgen.base.words import as_error, as_problem, language_of, sections, sp
 from reportgen.catalogue import assembly, declared_loads, given_springs, wide_sliders
 from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
+from reportgen.machine.laws import FULL_TURN
 
 
 def module(kind: str) -> ModuleType:
@@ -90,10 +91,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
         points = declared_loads.pins(machine.linkage)
         for index, load in enumerate(assignment.parameters.loads):
             where = ("parameters", "loads", index)
-            yield from declared_loads.on_link(points, load.link, load.at, where)
-            yield from declared_loads.sized(load, where)
-            if isinstance(load, declared_loads.OverAngle):
-                yield from declared_loads.over_cycle(load, machine.turns, where)
+            yield from declared_loads.faults(load, points, machine.turns * FULL_TURN, where)
 
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
@@ -111,12 +109,17 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
         yield from assembly.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
 
 
-def load(path: Path | str, language: Language | None = None) -> Assignment:
-    """The assignment of a file, in its own language or in `language`.
+def load(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Assignment:
+    """The assignment of a file, in its own language or in `language`; of a part, with what it takes in the `whole`.
 
     Raises `AssignmentError` with all faults of the file, located.
     """
-    return _in_order(read_source(Path(path)), Path(path), language)
+    return _in_order(with_taken(read_source(Path(path)), Path(path), whole), Path(path), language)
+
+
+def with_taken(source: Source, path: Path, whole: Path | None) -> Source:
+    """Nodes that were read from `path`, of a part with what it takes from the machine of the coursework `whole`."""
+    return parts.in_coursework(source, path, whole, kind) if whole else source
 
 
 def _in_order(source: Source, path: Path, language: Language | None) -> Assignment:

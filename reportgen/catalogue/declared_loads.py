@@ -10,8 +10,9 @@ import math
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -22,6 +23,8 @@ from reportgen.assignment.fields import (
     CycleAngles,
     Force,
     ForceUnit,
+    Nodes,
+    Offset,
     Reader,
     UnitOf,
     Values,
@@ -36,7 +39,7 @@ from reportgen.catalogue.typed import as_typed, size_of
 from reportgen.formula import Number, ids
 from reportgen.formula.ids import Name as Family
 from reportgen.machine import DRIVER, Crank, Guide, Linkage
-from reportgen.machine.laws import AngleLaw, ConstantLaw, Floats, Law, MotionAt, Resistance, opposing
+from reportgen.machine.laws import AngleLaw, ConstantLaw, Floats, Law, MotionAt, Resistance, WayLaw, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
 from reportgen.machine.motion import Motion
 
@@ -60,6 +63,7 @@ class PointName(Reader):
 
 Name = Annotated[str, PointName()]
 Link = Annotated[int, Whole(1, LAST_LINK)]
+DriverWays = Annotated[tuple[Offset, ...], Nodes]
 TorqueOf = Annotated[Given, quantity("N m", least=-1e9, most=1e9, tiny=1e-6)]
 
 
@@ -75,19 +79,46 @@ class Constant(Part):
     against: Literal["motion"] | None = None
 
 
-class OverAngle(Part):
-    """A force or a torque over the driver's turn from the first position."""
+class _Listed(Part):
+    """A force in a fixed direction or a torque, in a table."""
 
-    by: Literal["angle"]
+    by: str
     link: Link
     at: Name | None = None
     direction: Angle = LEVEL
     unit: ForceUnit | None = None
     torque_unit: Annotated[Given, UnitOf("N m")] | None = None
+
+
+class OverAngle(_Listed):
+    """A force or a torque over the driver's turn from the first position."""
+
+    by: Literal["angle"]
     angle: CycleAngles
     values: Values
 
+    shown: ClassVar[tuple[float, str]] = (180 / math.pi, " deg")
 
+    @property
+    def nodes(self) -> tuple[Given, ...]:
+        return self.angle
+
+
+class OverWay(_Listed):
+    """A force or a torque over the way of a sliding driver from its start."""
+
+    by: Literal["way"]
+    way: DriverWays
+    values: Values
+
+    shown: ClassVar[tuple[float, str]] = (1e3, " mm")
+
+    @property
+    def nodes(self) -> tuple[Given, ...]:
+        return self.way
+
+
+PlainLoad = Constant | OverAngle | OverWay
 CrankLoading = Annotated[Constant | OverAngle, Field(discriminator="by")]
 """What loads a machine with a crank besides what its kind has for itself."""
 
@@ -125,7 +156,20 @@ def on_link(points: Mapping[int, set[str]], link: int, name: str | None, at: Whe
         yield Finding("not-on-link", (*at, "at"), words)
 
 
-def sized(load: Constant | OverAngle | Any, at: Where) -> Iterator[Finding]:
+def faults(load: PlainLoad, points: Mapping[int, set[str]], end: float, at: Where) -> Iterator[Finding]:
+    """A load is on a link and a point that are there, of `points` by link, and given as loads of its sort are.
+
+    The driver goes from 0 to `end` (rad or m).
+    """
+    yield from on_link(points, load.link, load.at, at)
+    if not isinstance(load, Constant):
+        shown, unit = load.shown
+        nodes = tuple(node.si * shown for node in load.nodes)
+        yield from table(at, load.by, nodes, end * shown, unit, values=load.values)
+    yield from sized(load, at)
+
+
+def sized(load: PlainLoad, at: Where) -> Iterator[Finding]:
     """A force has a point and a size in newtons, a torque neither, but its own."""
     if isinstance(load, Constant):
         wanted, forbidden = ("F", "M") if load.at else ("M", "F")
@@ -139,12 +183,6 @@ def sized(load: Constant | OverAngle | Any, at: Where) -> Iterator[Finding]:
         yield Finding("missing-key", at, {"key": key})
     if getattr(load, forbidden) is not None:
         yield Finding("force-or-torque", (*at, forbidden), at="key")
-
-
-def over_cycle(load: OverAngle, turns: int, at: Where) -> Iterator[Finding]:
-    """A table over the driver's turn has a value for each angle, from 0 to the end of the cycle."""
-    angles = tuple(math.degrees(angle.si) for angle in load.angle)
-    yield from table(at, "angle", angles, 360.0 * turns, " deg", values=load.values)
 
 
 def table(
@@ -203,7 +241,7 @@ def rows(
     return tuple(row_of(load, one.name) for load, one in pairs if one.name not in idle)
 
 
-def applied(load: Any, law: Law, others: Iterable[Applied | Torque]) -> Applied | Torque:
+def applied(load: PlainLoad, law: Law, others: Iterable[Applied | Torque]) -> Applied | Torque:
     """A force at the load's point, or a torque where it has none."""
     if load.at is None:
         return Torque(named(ids.applied_torque, load.link, others), load.link, law)
@@ -211,12 +249,13 @@ def applied(load: Any, law: Law, others: Iterable[Applied | Torque]) -> Applied 
     return Applied(named(ids.applied_force, load.link, others), load.link, load.at, along, law)
 
 
-def law_of(load: Constant | OverAngle, motion_at: MotionAt, *, through: bool = True) -> Law:
-    """How a force along its direction varies, or a torque where the load has no point."""
-    if isinstance(load, OverAngle):
+def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: float = 0.0) -> Law:
+    """How a force along its direction varies, or a torque where the load has no point; `span` (m) of a slide's way."""
+    if not isinstance(load, Constant):
         unit = load.torque_unit if load.at is None else load.unit
         assert unit is not None, "a table without its unit is refused by the kind's checks"
-        return AngleLaw(tuple(angle.si for angle in load.angle), tuple(value * unit.si for value in load.values))
+        nodes, sizes = tuple(node.si for node in load.nodes), tuple(value * unit.si for value in load.values)
+        return WayLaw(nodes, sizes, span) if isinstance(load, OverWay) else AngleLaw(nodes, sizes)
     size = load.M if load.at is None else load.F
     assert size is not None, "a load without its size is refused by the kind's checks"
     if not load.against:
@@ -281,15 +320,12 @@ class LoadRow:
         return f"tab.gas.law.{self.id}" if self.by == "gas" else f"tab.law.{self.id}"
 
 
-def row_of(load: Constant | OverAngle, name: str) -> LoadRow:
+def row_of(load: PlainLoad, name: str) -> LoadRow:
     """A load as words tell of it."""
-    torque, direction = load.at is None, as_typed(load.direction)
-    if isinstance(load, OverAngle):
-        nodes = tuple(angle.value for angle in load.angle)
-        return LoadRow(name, load.link, load.by, torque, load.at or "", direction, nodes=nodes, rows=(load.values,))
+    acting, direction = partial(LoadRow, name, load.link, load.by, load.at is None), as_typed(load.direction)
+    row = partial(acting, load.at or "", direction)
+    if not isinstance(load, Constant):
+        return row(nodes=tuple(node.value for node in load.nodes), rows=(load.values,))
     size = load.F or load.M
     assert size is not None, "a load without its size is refused by the kind's checks"
-    told = as_typed(size_of(size) if load.against else size)
-    return LoadRow(
-        name, load.link, load.by, torque, load.at or "", direction, size=told, against=load.against is not None
-    )
+    return row(size=as_typed(size_of(size) if load.against else size), against=load.against is not None)

@@ -16,8 +16,9 @@ from reportgen.catalogue.typed import as_typed
 from reportgen.catalogue.wide_sliders import Datum
 from reportgen.formula import Number, Symbol, ids
 from reportgen.machine import GROUND, Linkage
+from reportgen.machine.coils import Anchor
 from reportgen.machine.loads import Applied, Torque
-from reportgen.machine.springs import Anchor, SpringLaw, TorsionLaw
+from reportgen.machine.springs import SpringLaw, TorsionLaw
 
 COORDINATE = quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
 STIFFNESS = quantity("N/mm", least=0, most=1e9, tiny=1e-9)

@@ -30,7 +30,7 @@ from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Machine, lettered
-from reportgen.machine.laws import FULL_TURN, Floats, GasLaw, MotionAt, TableLaw, WayLaw, by_stroke
+from reportgen.machine.laws import FULL_TURN, Floats, GasLaw, MotionAt, TableLaw, by_stroke
 from reportgen.machine.loads import Applied, LoadsByKind, Torque, course, fixed, rails
 from reportgen.machine.motion import Motion, solve_motion
 
@@ -117,7 +117,7 @@ def machine(assignment: Assignment) -> Machine:
         places=places,
         labels=labels,
     )
-    declared = _loads(given, linkage, _motion_at(built), through=not positions.at)
+    declared = _loads(given, linkage, _motion_at(built), through=not positions.at, span=span)
     q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
     of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, declared)
     loads = LoadsByKind.of((*declared, *of_springs))
@@ -206,7 +206,7 @@ def _drawn(built: Machine, crank: float) -> float:
 
 
 def _loads(
-    given: file.Parameters, linkage: Linkage, motion_at: MotionAt, *, through: bool
+    given: file.Parameters, linkage: Linkage, motion_at: MotionAt, *, through: bool, span: float
 ) -> tuple[Applied | Torque, ...]:
     """The loads in the order of the file, named P (forces) and M (torques) with their link's number."""
     loads: list[Applied | Torque] = []
@@ -214,10 +214,8 @@ def _loads(
         if isinstance(load, file.OverStroke | file.Gas):
             name = declared_loads.named(ids.applied_force, load.link, loads)
             loads.append(_on_slider(load, given, linkage, motion_at, name))
-        elif isinstance(load, file.OverWay):
-            loads.append(declared_loads.applied(load, _over_way(load, given.driver), loads))
         else:
-            law = declared_loads.law_of(load, motion_at, through=through)
+            law = declared_loads.law_of(load, motion_at, through=through, span=span)
             loads.append(declared_loads.applied(load, law, loads))
     return tuple(loads)
 
@@ -237,11 +235,3 @@ def _on_slider(
     table = by_stroke(load.s, *(tuple(value * unit for value in row) for row in (load.inward, load.outward)))
     stroke = course(linkage, load.link, motion_at)
     return Applied(name, load.link, dyad.middle, fixed(cmath.exp(1j * guide.angle)), TableLaw(stroke, table, turns=1))
-
-
-def _over_way(load: file.OverWay, driver: file.Driver) -> WayLaw:
-    """How a force or a torque varies over the way of a sliding driver."""
-    unit = load.torque_unit if load.at is None else load.unit
-    assert unit is not None, "a table without its unit is refused by the kind's checks"
-    assert isinstance(driver, file.SlideDriver), "a file with another driver is refused by the kind's checks"
-    return WayLaw(tuple(way.si for way in load.way), tuple(value * unit.si for value in load.values), driver.span)

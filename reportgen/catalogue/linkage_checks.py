@@ -12,12 +12,12 @@ import numpy as np
 from reportgen.assignment.common import Draft, Positions
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
-from reportgen.catalogue import assembly
+from reportgen.catalogue import assembly, declared_loads
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.assembly import Member
-from reportgen.catalogue.declared_loads import Constant, OverAngle, listed, on_link, over_cycle, pins, sized, table
+from reportgen.catalogue.declared_loads import Constant, OverWay, listed, on_link, pins, table
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, mobility
-from reportgen.machine.laws import STEPS
+from reportgen.machine.laws import FULL_TURN, STEPS
 from reportgen.machine.loads import crank_motion
 from reportgen.machine.motion import Motion, solve_motion
 
@@ -166,13 +166,14 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
     points = pins(given.linkage)
     rails = (rail for group in given.groups for rail in file.rails(group))
     sliders = {link for link, guide, _ in rails if guide.on == GROUND}
+    slides = isinstance(given.driver, file.SlideDriver)
+    end = given.driver.span if isinstance(given.driver, file.SlideDriver) else given.turns * FULL_TURN
     for index, load in enumerate(given.loads):
         at = (*TOP, "loads", index)
-        slides = isinstance(given.driver, file.SlideDriver)
-        if slides and not isinstance(load, Constant | file.OverWay):
+        if slides and not isinstance(load, Constant | OverWay):
             yield Finding("needs-a-crank", (*at, "by"))
             continue
-        if isinstance(load, file.OverWay) and not slides:
+        if isinstance(load, OverWay) and not slides:
             yield Finding("needs-a-slide", (*at, "by"))
             continue
         if isinstance(load, file.OverStroke | file.Gas):
@@ -183,15 +184,7 @@ def _loads(given: file.Parameters) -> Iterator[Finding]:
             elif given.turns != 2:
                 yield Finding("gas-needs-two-turns", (*at, "by"))
             continue
-        yield from on_link(points, load.link, load.at, at)
-        if not isinstance(load, Constant):
-            if isinstance(load, OverAngle):
-                yield from over_cycle(load, given.turns, at)
-            else:
-                assert isinstance(given.driver, file.SlideDriver)
-                ways = tuple(way.si * 1e3 for way in load.way)
-                yield from table(at, "way", ways, given.driver.span * 1e3, " mm", values=load.values)
-        yield from sized(load, at)
+        yield from declared_loads.faults(load, points, end, at)
 
 
 # --- structure as declared ------------------------------------------------------------------------

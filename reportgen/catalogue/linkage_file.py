@@ -19,10 +19,7 @@ from reportgen.assignment.fields import (
     Length,
     Mass,
     MomentOfInertia,
-    Nodes,
-    Offset,
     RotationalSpeed,
-    UnitOf,
     Values,
     Weight,
     Whole,
@@ -30,7 +27,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Where
 from reportgen.base.units import Given
-from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle
+from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle, OverWay
 from reportgen.catalogue.given_loads import Diagram
 from reportgen.catalogue.parameters import Flywheel, UnderGravity
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
@@ -40,7 +37,6 @@ MOST_NAMES = 60
 Carrier = Annotated[int, Whole(0, LAST_LINK)]
 GroupLink = Annotated[int, Whole(2, LAST_LINK)]
 Speed = Annotated[Given, quantity("m/s", least=1e-6, most=1e3)]
-DriverWays = Annotated[tuple[Offset, ...], Nodes]
 
 NOWHERE = Given(0.0, 0.0, "mm", "0 mm")
 
@@ -278,19 +274,6 @@ class Body(Part):
     def mass(self, g: float) -> float:
         """m = G/g (kg)."""
         return self.G.si / g if self.G is not None and g else self.m.si if self.m is not None else 0.0
-
-
-class OverWay(Part):
-    """A force or a torque over the way of a sliding driver from its start."""
-
-    by: Literal["way"]
-    link: Link
-    at: Name | None = None
-    direction: Angle = LEVEL
-    unit: ForceUnit | None = None
-    torque_unit: Annotated[Given, UnitOf("N m")] | None = None
-    way: DriverWays
-    values: Values
 
 
 class OverStroke(Part):

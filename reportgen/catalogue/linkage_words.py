@@ -198,8 +198,4 @@ def _load(load: file.Loading, name: str) -> LoadRow:
             return LoadRow(name, load.link, "stroke", False, nodes=load.s, rows=(load.inward, load.outward))
         case file.Gas():
             return LoadRow(name, load.link, "gas", False, bore=as_typed(load.D), intake=load.intake)
-        case file.OverWay():
-            nodes = tuple(way.value for way in load.way)
-            torque, direction = load.at is None, as_typed(load.direction)
-            return LoadRow(name, load.link, load.by, torque, load.at or "", direction, nodes=nodes, rows=(load.values,))
     return row_of(load, name)

@@ -9,6 +9,7 @@ import atexit
 import multiprocessing.util
 import os
 import shutil
+import tempfile
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -19,11 +20,31 @@ SOCKETS, OUT = "REPORTGEN_SOCKETS", "REPORTGEN_OUT"
 """By these names in its environment it knows the folder of the sockets of all processes, and that of the results."""
 
 
-def environment(out: Path | None) -> Mapping[str, str]:
-    """What the process has to know, for its environment."""
-    # The folder that multiprocessing makes; a run that ends by itself removes it.
-    sockets = multiprocessing.util.get_temp_dir()
-    return {SOCKETS: sockets, OUT: "" if out is None else os.path.abspath(out)}
+LONGEST = 103 - len("/pymp-12345678/listener-12345678")
+"""Bytes of the folder of temporary files within which a socket has a name: 103 on macOS, 107 on Linux."""
+SHORT = ("/tmp", "/var/tmp")
+"""Where the sockets go if that folder's own name is longer."""
+
+
+def sockets() -> str | None:
+    """The folder that multiprocessing makes for sockets; None if there is no place whose name is short enough."""
+    usual = tempfile.tempdir
+    places = (tempfile.gettempdir(), *SHORT)
+    try:
+        # A run that ends by itself removes it.
+        tempfile.tempdir = next(filter(_takes_sockets, places), None)
+        return None if tempfile.tempdir is None else multiprocessing.util.get_temp_dir()
+    finally:
+        tempfile.tempdir = usual
+
+
+def _takes_sockets(folder: str) -> bool:
+    return len(os.fsencode(folder)) <= LONGEST and os.access(folder, os.W_OK | os.X_OK)
+
+
+def environment(folder: str, out: Path | None) -> Mapping[str, str]:
+    """What the process has to know, for its environment, the `folder` of sockets among it."""
+    return {SOCKETS: folder, OUT: "" if out is None else os.path.abspath(out)}
 
 
 def _tidy_up() -> None:

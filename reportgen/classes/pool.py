@@ -239,7 +239,8 @@ def _context(
     loaded: Sequence[str] = LOADED, kinds: Iterable[str] = (), out: Path | None = None
 ) -> ForkServerContext | SpawnContext:
     """New processes come from a server that has imported everything already, where the system allows it."""
-    if "forkserver" not in multiprocessing.get_all_start_methods():
+    folder = leavings.sockets() if "forkserver" in multiprocessing.get_all_start_methods() else None
+    if folder is None:
         return multiprocessing.get_context("spawn")
     from multiprocessing import forkserver, resource_tracker
 
@@ -247,7 +248,7 @@ def _context(
     context.set_forkserver_preload([leavings.__name__, *loaded])
     # It lets Ctrl-C through again once it has started, which the server would do first.
     resource_tracker.ensure_running()
-    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.environment(out)}
+    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **leavings.environment(folder, out)}
     before = {name: os.environ.get(name) for name in surroundings}
     os.environ |= surroundings
     try:

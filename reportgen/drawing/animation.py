@@ -9,11 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
 from reportgen.base.units import nice_up
-from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, style
+from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, springs, style
 from reportgen.drawing.charts import Plotted
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.plan import BEYOND, PENS, Construction
@@ -21,6 +22,7 @@ from reportgen.drawing.scheme import Looks, Skeleton, ground_guides, parts_of, s
 from reportgen.formula import Number, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import Crank, Linkage
+from reportgen.machine.coils import Coil
 from reportgen.machine.motion import Motion
 
 ROOM = 9.0
@@ -265,6 +267,8 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
         for link in linkage.links
     }
     items: list[MovingItem] = [Still(ground_guides(bones, looks)), *_crank_circle(linkage, bones)]
+    for coil in looks.coils:
+        items += spring_items(coil, linkage, motion, at, scale, bones.pivots)
     for layer in ("rails", "bars", "blocks"):
         for link, (origin, angle) in frames.items():
             if drawn := getattr(parts[link], layer):
@@ -282,6 +286,29 @@ def linkage_items(linkage: Linkage, motion: Motion, at: int, scale: float, looks
         for name, place in places.items()
     ]
     return items
+
+
+def spring_items(
+    coil: Coil, linkage: Linkage, motion: Motion, at: int, scale: float, pivots: Sequence[str]
+) -> list[MovingItem]:
+    """A spring that is stretched, its ground as at the sample `at`; or one wound about its pin, which turns."""
+    start, end = (place * scale for place in coil.at(motion))
+    if coil.wound:
+        turned = np.angle(end - start)
+        known = np.isfinite(turned)
+        turned[known] = np.unwrap(turned[known])
+        behind = Track(start - springs.OUTER * np.exp(1j * turned))
+        return [
+            MovingBody((springs.spiral(),), Track(start), Track(turned)),
+            MovingName(springs.named(coil), behind, (Track(start),)),
+        ]
+    corners = list(map(Track, springs.zigzag(start, end)))
+    ground = springs.mounts(coil, linkage, complex(start[at]), complex(end[at]), pivots)
+    return [
+        Still(tuple(ground)),
+        *(MovingVector(*ends, style.VISIBLE, 0.0) for ends in pairwise(corners)),
+        MovingName(springs.named(coil), Track((start + end) / 2), (corners[0], corners[-1]), springs.SIDE + 0.5),
+    ]
 
 
 def _crank_circle(linkage: Linkage, bones: Skeleton) -> list[MovingItem]:

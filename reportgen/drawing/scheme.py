@@ -15,8 +15,10 @@ from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pe
 from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
 from reportgen.drawing.labels import Request, joined, label
+from reportgen.drawing.springs import springs
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
+from reportgen.machine.coils import Coil
 from reportgen.machine.motion import Motion
 
 
@@ -152,12 +154,14 @@ class Looks:
     """How a machine is drawn.
 
     `blocks` gives the length (along the guide) and width of a slider's block in mm of paper (a piston's
-    bore, say); `centres` are points drawn as mass centres; `scale` is the figure's own μ_l, printed below.
+    bore, say); `centres` are points drawn as mass centres; `scale` is the figure's own μ_l, printed below.  The whole
+    machine shows its springs, the `coils`.
     """
 
     blocks: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     centres: tuple[str, ...] = ()
     scale: Content | None = None
+    coils: tuple[Coil, ...] = ()
 
     @property
     def notes(self) -> tuple[Content, ...]:
@@ -173,7 +177,8 @@ def scheme(linkage: Linkage, motion: Motion, index: int, scale: float, looks: Lo
     """The kinematic scheme at position `index`, `scale` mm of paper per m."""
     bones = skeleton(linkage, motion, index, scale)
     draft = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
-    return finish(draft, notes=looks.notes)
+    hung = springs(looks.coils, linkage, motion, index, scale, bones.pivots)
+    return finish(hung + draft, notes=looks.notes)
 
 
 def groups(
@@ -340,7 +345,7 @@ def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex,
         return (Line(*_carried(slide, size), style.HEAVY),)
     if abs(slide.high - slide.low) > 1e-6:
         return style.guide(slide.low, slide.high, size, bars)
-    return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size)
+    return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size, bars)
 
 
 def _body_points(bones: Skeleton, link: int) -> list[complex]:

@@ -13,12 +13,12 @@ import numpy as np
 from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
+from reportgen.machine.coils import Coil
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import (
     Forces,
     Load,
     inertia_loads,
-    mean_over,
     reaction_name,
     solve_forces,
     virtual_work_torque,
@@ -28,6 +28,7 @@ from reportgen.machine.gas import indicated_work, stroke_at
 from reportgen.machine.laws import FULL_TURN, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque, carriers
 from reportgen.machine.motion import Motion, cross, solve_motion
+from reportgen.machine.quadrature import mean_over
 
 
 @dataclass(frozen=True)
@@ -296,6 +297,11 @@ class Machine:
     def loads(self) -> tuple[Applied | Torque, ...]:
         """The forces and torques that act on it, beside weights and inertia."""
         return (*self.applied, *self.torques)
+
+    @property
+    def coils(self) -> tuple[Coil, ...]:
+        """The springs that act on it, in the order of their numbers."""
+        return tuple(sorted({coil for load in self.loads if (coil := load.law.coil)}, key=lambda coil: coil.number))
 
     @property
     def way(self) -> float:

@@ -9,7 +9,7 @@ J_d = (a − b)/(δ ω_m²).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ from reportgen.machine.analysis import Analysis, Machine, analyse, breaks
 from reportgen.machine.forces import Load, virtual_work_torque
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
+from reportgen.machine.quadrature import accumulated
 
 Floats = NDArray[np.float64]
 ORDER = 8
@@ -47,15 +48,6 @@ class RegulatedCycle:
     slowest: float
     high: int
     low: int
-
-
-def accumulated(function: Callable[[Floats], Floats], angle: Floats) -> Floats:
-    """∫ f dφ from the first angle to each [N]; f is smooth between neighbouring angles, which rise."""
-    nodes, factors = np.polynomial.legendre.leggauss(ORDER)
-    half = np.diff(angle)[:, None] / 2
-    inside = angle[:-1, None] + half * (nodes + 1)
-    values = np.asarray(function(inside.ravel())).reshape(inside.shape)
-    return np.concatenate(([0.0], np.cumsum((half * factors * values).sum(axis=1))))
 
 
 def regulate(
@@ -136,7 +128,7 @@ def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
     return regulate(
         angle,
         np.zeros_like(torque) if idle else torque,
-        np.zeros_like(torque) if idle else accumulated(lambda angle: reduced_torque(analyse(machine, angle)), angle),
+        np.zeros_like(torque) if idle else accumulated(lambda at: reduced_torque(analyse(machine, at)), angle, ORDER),
         reduced_inertia(machine, analysis.motion),
         machine.speed,
         unevenness,

@@ -9,7 +9,7 @@ the same loads gives the torque a second time, without any reaction.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,13 +18,6 @@ import numpy as np
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
 from reportgen.machine.motion import Complexes, Floats, Motion, cross, dot, solve2
-
-CONVERGED = 1e-12
-ORDER = 16
-AT_ALL = 1e-9
-MOST_PARTS = 4096
-MOST_HALVINGS = 50
-"""A part so often halved is below the spacing of floats beside it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +97,7 @@ def percussion_points(
     return k, s + along * a_a
 
 
-# --- work and means -------------------------------------------------------------------------------
+# --- work -------------------------------------------------------------------------------
 
 
 def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> Floats:
@@ -119,52 +112,6 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
     for load in loads:
         power = power + load.power(motion)
     return -power / motion.rate
-
-
-def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float) -> float:
-    """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`, in the unit of f.
-
-    Every part between breaks must be smooth.  Parts are halved, those alone where it matters, as beside a dead point,
-    until halving no longer changes them: by 1e-12 of the mean of |f| in all, or by 1e-9 where rounding allows no more.
-    Raises `ValueError` on an empty interval or when it does not settle.
-    """
-    if not stop > start:
-        raise ValueError("the interval is empty")
-    edges = np.array(sorted({start, stop, *(float(x) for x in breaks if start < x < stop)}))
-    low, high = edges[:-1], edges[1:]
-    whole, _ = _gauss(function, low, high)
-    settled = settled_size = 0.0
-    best, least = np.nan, np.inf
-    for _ in range(MOST_HALVINGS):
-        middle = (low + high) / 2
-        low, high = np.stack((low, middle), 1).ravel(), np.stack((middle, high), 1).ravel()
-        halves, sizes = _gauss(function, low, high)
-        size = settled_size + float(sizes.sum())
-        off = np.abs(halves[::2] + halves[1::2] - whole)
-        if off.sum() < least * size:
-            best, least = (settled + float(halves.sum())) / (stop - start), float(off.sum()) / size
-        if off.sum() <= CONVERGED * size:
-            return best if size else 0.0
-        # A part that is off by less than its even share of all that is allowed is not halved again.
-        open_ = np.repeat(off > CONVERGED * size / MOST_PARTS, 2)
-        settled += float(halves[~open_].sum())
-        settled_size += float(sizes[~open_].sum())
-        low, high, whole = low[open_], high[open_], halves[open_]
-        if low.size > MOST_PARTS:
-            break
-    if least <= AT_ALL:
-        return best
-    raise ValueError("the quadrature does not settle")
-
-
-def _gauss(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> tuple[Floats, Floats]:
-    """∫ f dx and ∫ |f| dx of each part, from one call of the function at all nodes in order."""
-    nodes, factors = np.polynomial.legendre.leggauss(ORDER)
-    half = (high - low)[:, None] / 2
-    x = low[:, None] + half * (nodes + 1)
-    values = np.asarray(function(x.ravel()), dtype=np.float64).reshape(x.shape)
-    parts = half * factors
-    return np.sum(parts * values, axis=1), np.sum(parts * np.abs(values), axis=1)
 
 
 NO_FORCE = 1e-12

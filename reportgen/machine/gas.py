@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.formula import Expression, Fraction, Symbol
+from reportgen.machine.quadrature import gauss
 
 Floats = NDArray[np.float64]
 Stroke = Literal["intake", "compression", "expansion", "exhaust"]
@@ -233,11 +234,9 @@ class AngleIndicator:
         nodes between table nodes, on parts of at most 15°: exact to rounding for a slider-crank.
         """
         edges = np.array(sorted({*self.angles, *np.linspace(0.0, CYCLE, 49)}))
-        x, factors = np.polynomial.legendre.leggauss(16)
-        half = np.diff(edges)[:, None] / 2
-        nodes = edges[:-1, None] + half * (x + 1)
-        rate = np.asarray(volume_rate(nodes.ravel())).reshape(nodes.shape)
-        return float(np.sum(half * factors * rate * np.interp(nodes, self.angles, self.pressures)))
+        angle, weights = gauss(edges[:-1], edges[1:])
+        rate = np.asarray(volume_rate(angle.ravel())).reshape(angle.shape)
+        return float(np.sum(weights * rate * np.interp(angle, self.angles, self.pressures)))
 
 
 Indicator = StrokeIndicator | AngleIndicator

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.sheet import Sheet
+from reportgen.machine.coils import Coil
 from reportgen.machine.gas import AngleIndicator, Indicator, StrokeIndicator, Tabled, crossings
 from reportgen.machine.motion import Motion
 
@@ -147,6 +148,11 @@ class Law(ABC):
         """The course of the slider by whose way its table is read, if it has one."""
         return None
 
+    @property
+    def coil(self) -> Coil | None:
+        """The spring that exerts it, if one does."""
+        return None
+
     def formula(self, q: Sheet, link: int) -> Expression | None:
         """The size written out of what stands on a sheet of the load on `link`; None where it is read or given."""
         return None
@@ -213,22 +219,12 @@ class GasLaw(TableLaw):
 
 
 @dataclass(frozen=True)
-class AngleLaw(Law):
-    """Values at cycle angles from 0 to the end of the cycle, linear between.
+class ListedLaw(Law):
+    """`values` (N or N·m) at `nodes`, linear between; of what the nodes are values its kinds say."""
 
-    The last value closes the cycle, or jumps to the first.
-    """
-
-    angles: tuple[float, ...]
+    nodes: tuple[float, ...]
     values: tuple[float, ...]
     kind = "tabled"
-
-    def value(self, angle: Floats, motion: Motion) -> Floats:
-        within = np.maximum(np.mod(angle + BEFORE_A_TURN, self.angles[-1]) - BEFORE_A_TURN, 0.0)
-        return np.asarray(np.interp(within, self.angles, self.values))
-
-    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        return self.angles
 
     @property
     def sizes(self) -> tuple[float, ...]:
@@ -237,38 +233,39 @@ class AngleLaw(Law):
     @property
     def constant(self) -> bool:
         return len({*self.values}) == 1
-
-    @property
-    def tabled(self) -> Tabled:
-        return Tabled(Symbol("φ"), "angle", self.angles, (self.values,))
 
 
 @dataclass(frozen=True)
-class WayLaw(Law):
-    """Values over the way (m) of a sliding driver from its start, linear between; `span` is the whole way."""
-
-    ways: tuple[float, ...]
-    values: tuple[float, ...]
-    span: float
-    kind = "tabled"
+class AngleLaw(ListedLaw):
+    """Over cycle angles (rad) from 0 to the end of the cycle; the last value closes it, or jumps to the first."""
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        return np.asarray(np.interp(angle * self.span / FULL_TURN, self.ways, self.values))
+        within = np.maximum(np.mod(angle + BEFORE_A_TURN, self.nodes[-1]) - BEFORE_A_TURN, 0.0)
+        return np.asarray(np.interp(within, self.nodes, self.values))
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
-        return (way / self.span * FULL_TURN for way in self.ways)
-
-    @property
-    def sizes(self) -> tuple[float, ...]:
-        return self.values
-
-    @property
-    def constant(self) -> bool:
-        return len({*self.values}) == 1
+        return self.nodes
 
     @property
     def tabled(self) -> Tabled:
-        return Tabled(Symbol("s"), "segment", self.ways, (self.values,))
+        return Tabled(Symbol("φ"), "angle", self.nodes, (self.values,))
+
+
+@dataclass(frozen=True)
+class WayLaw(ListedLaw):
+    """Over the way (m) of a sliding driver from its start; `span` is the whole way, which is no cycle."""
+
+    span: float
+
+    def value(self, angle: Floats, motion: Motion) -> Floats:
+        return np.asarray(np.interp(angle * self.span / FULL_TURN, self.nodes, self.values))
+
+    def breaks(self, motion_at: MotionAt) -> Iterable[float]:
+        return (way / self.span * FULL_TURN for way in self.nodes)
+
+    @property
+    def tabled(self) -> Tabled:
+        return Tabled(Symbol("s"), "segment", self.nodes, (self.values,))
 
 
 @dataclass(frozen=True)

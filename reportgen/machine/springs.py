@@ -8,8 +8,9 @@ from typing import TypeVar
 
 import numpy as np
 
-from reportgen.formula import PI, Expression, Number, Ref, arg, cis, ids, quotient
+from reportgen.formula import PI, Expression, Number, arg, cis, ids, quotient
 from reportgen.formula.sheet import Sheet
+from reportgen.machine.coils import Anchor, Coil
 from reportgen.machine.laws import Floats, Law, MotionAt
 from reportgen.machine.loads import Direction
 from reportgen.machine.motion import Complexes, Motion
@@ -21,24 +22,6 @@ Size = TypeVar("Size", Floats, Expression)
 def pull(c: Size, length: Size, free: Size) -> Size:
     """F = c(l − l₀), positive where the spring is stretched and pulls."""
     return c * (length - free)
-
-
-@dataclass(frozen=True, slots=True)
-class Anchor:
-    """An end of a spring: a named point, or a place (m) of the frame that has no name."""
-
-    name: str = ""
-    place: complex = 0j
-
-    def at(self, motion: Motion) -> Complexes | complex:
-        return motion.points[self.name].p if self.name else self.place
-
-    def on(self, q: Sheet, number: int) -> Ref:
-        """The end as it is drawn (m)."""
-        if self.name:
-            return q[ids.place(self.name)]
-        id = ids.spring_anchor(number)
-        return q.find(id) or q.give(id, self.place, id, "length", hidden=True)
 
 
 @dataclass(frozen=True)
@@ -78,6 +61,10 @@ class SpringLaw(Law):
     def sizes(self) -> tuple[float, ...]:
         return (self.c,)
 
+    @property
+    def coil(self) -> Coil:
+        return Coil(self.number, self.ends)
+
     def formula(self, q: Sheet, link: int) -> Expression:
         """F = c(l − l₀) with l measured on the drawing."""
         number, first = self.number, self.ends[0].on(q, self.number)
@@ -113,6 +100,10 @@ class TorsionLaw(Law):
     @property
     def sizes(self) -> tuple[float, ...]:
         return (self.c,)
+
+    @property
+    def coil(self) -> Coil:
+        return Coil(self.number, (Anchor(self.pin), Anchor(self.point)), wound=True)
 
     def formula(self, q: Sheet, link: int) -> Expression:
         """M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""

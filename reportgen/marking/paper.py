@@ -29,6 +29,8 @@ SYMBOL, UNIT, VALUE = 16.0, 22.0, 15.3
 """Widths (mm) of the columns of the answer sheet."""
 WIDEST = 30.0
 """Width (mm) of a column to be filled in by hand, where there is room."""
+LAST = 12
+"""So many rows of a sheet stand on its last page at least, which is never nearly empty."""
 LEAST_WHAT = 50.0
 """Width (mm) that the words of a row need at least, if they have no longer formula."""
 TABLE_SIZE, PADDING = 10.0, 4.0
@@ -175,21 +177,17 @@ def _sections(key: Key) -> Iterator[Block]:
 
 
 def answer_tables(key: Key, only: Chapter | None = None) -> Iterator[Table]:
-    """The empty sheet as tables to fill in by hand, a table or more for each part, or for `only` one of them."""
-    words, open_at = words_of(key), open_cells(key)
-    for part, members in groupby(key.rows, lambda row: row.part):
-        if only not in (None, part):
-            continue
-        caption = (Text(str(words["parts"][part])),)
-        rows = [row for row in members if row.positions]
-        shared = shared_symbols(rows)
-        singles = [row for row in rows if row.single]
-        many = [row for row in rows if not row.single]
-        for group, positions in ((singles, [0]), (many, sorted({k for row in many for k in row.positions}))):
-            for some in _split(positions, MOST_FILLED):
-                asked = [row for row in group if set(row.positions) & set(some)]
-                if asked:
-                    yield _answer_table(_heads(key, words, some), asked, some, shared, open_at, caption)
+    """The empty sheet as tables to fill in by hand, or `only` a part of it: one for as many positions as have room.
+
+    The first one has what is asked for once, in a cell across all positions.
+    """
+    rows = [row for row in key.rows if row.positions and only in (None, row.part)]
+    positions = sorted({k for row in rows if not row.single for k in row.positions})
+    for some in list(_split(positions, MOST_FILLED)) or [()]:
+        first = list(some) == positions[: len(some)]
+        asked = [row for row in rows if (first if row.single else set(row.positions) & set(some))]
+        if asked:
+            yield _answer_table(key, asked, some, only is None)
 
 
 def _known_tables(key: Key, positions: Sequence[int]) -> Iterator[Table]:
@@ -216,48 +214,37 @@ def _split(positions: Sequence[int], most: int) -> Iterator[Sequence[int]]:
         yield positions[start * len(positions) // count : (start + 1) * len(positions) // count]
 
 
-def _heads(key: Key, words: Mapping[str, Any], positions: Sequence[int]) -> tuple[str, ...]:
+def _heads(key: Key, positions: Sequence[int]) -> tuple[str, ...]:
     """The words over the columns of a table."""
+    words = words_of(key)
     table, sheet = words["table"], words["answer_sheet"]
-    labels = [key.label(k) for k in positions if k]
+    labels = [key.label(k) for k in positions]
     if len(labels) == 1:
         labels = [sheet["at"].format(label=labels[0])]
     return (table["symbol"], sheet["what"], table["unit"], *(labels or [table["value"]]))
 
 
-def _answer_table(
-    heads: Sequence[str],
-    rows: Sequence[KeyRow],
-    positions: Sequence[int],
-    shared: Container[Symbol],
-    open_at: Mapping[str, Container[int]],
-    caption: Inlines,
-) -> Table:
-    """Quantities below one another, each with what it is in words.
-
-    `open_at` are the positions at which each row has a cell to fill in, by id.
-    """
+def _answer_table(key: Key, rows: Sequence[KeyRow], positions: Sequence[int], headed: bool) -> Table:
+    """Quantities below one another, each with what it is in words, those of a part below its name if it is `headed`."""
+    shared, open_at = shared_symbols(rows), open_cells(key)
+    count = max(len(positions), 1)
     symbol = symbol_width(rows, shared, SYMBOL)
     rest = tree.TEXT_WIDTH - symbol - UNIT
     # A formula is broken at its equals sign at most.
     formulas = (one.expression for row in rows for one in row.described if isinstance(one, InlineMath))
     least = max((LEAST_WHAT, *(box(formula, TABLE_SIZE).width + PADDING for formula in formulas)))
-    value = min((rest - least) / len(positions), WIDEST)
-    columns = (
-        Column(symbol),
-        Column(rest - value * len(positions), "left"),
-        Column(UNIT),
-        *(Column(value),) * len(positions),
-    )
-    body = (
-        cells(
-            (
-                symbol_inlines(row, row.symbol in shared),
-                row.described,
-                row.unit,
-                *("" if k in open_at[row.id] else DASH for k in positions),
-            )
-        )
-        for row in rows
-    )
-    return Table(columns, (cells(heads),), tuple(body), caption)
+    value = min((rest - least) / count, WIDEST)
+    columns = (Column(symbol), Column(rest - value * count, "left"), Column(UNIT), *(Column(value),) * count)
+
+    def fill_in(row: KeyRow) -> tuple[Cell, ...]:
+        what = cells((symbol_inlines(row, row.symbol in shared), row.described, row.unit))
+        if row.single:
+            return (*what, Cell((Text("" if 0 in open_at[row.id] else DASH),), span=count))
+        return (*what, *cells("" if k in open_at[row.id] else DASH for k in positions))
+
+    body: list[tuple[Cell, ...]] = []
+    for part, members in groupby(rows, lambda row: row.part):
+        if headed:
+            body.append((Cell((tree.Strong((Text(str(words_of(key)["parts"][part])),)),), span=len(columns)),))
+        body += map(fill_in, members)
+    return Table(columns, (cells(_heads(key, positions)),), tuple(body), last=LAST)

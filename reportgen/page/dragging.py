@@ -1,7 +1,7 @@
 """Samples of a machine while one of its values is drawn: those of the same animation, without a new page.
 
 The animation keeps its structure, its knots, scales and boxes; what no sample depends on is that of the machine as it
-was.  Only samples go to the page, as numbers of four bytes.
+was.  Only samples that have changed go to the page, as numbers of four bytes.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ SAME = 1e-6
 
 
 class Resident:
-    """The machine of a case, ready to be sampled with other values."""
+    """The machine of a case, ready to be sampled with other values; of a revision, by its number."""
 
-    def __init__(self, case: MachineAnalysis) -> None:
-        self.case = case
+    def __init__(self, case: MachineAnalysis, number: int = 0) -> None:
+        self.case, self.number = case, number
         self.samples = Samples(case)
         animation = self.samples.animation()
         writer = PanelWriter(animation, case.assignment.language, case.words["page"])
@@ -43,10 +43,10 @@ class Resident:
         self.numbers = [writer.tracks.number(track) for track in tracks(animation.panes, animation.values)]
 
     @classmethod
-    def of(cls, case: Case) -> Resident | None:
+    def of(cls, case: Case, number: int = 0) -> Resident | None:
         """The machine of a case, that of a coursework among its parts; None for a case of another kind."""
         machine = getattr(case, "machine", case)
-        return cls(machine) if isinstance(machine, MachineAnalysis) and machine.animations() else None
+        return cls(machine, number) if isinstance(machine, MachineAnalysis) and machine.animations() else None
 
     def bodies(self, pane: Pane) -> list[str]:
         """What is drawn of each item of a pane about its own origin; "" of arrows and names."""
@@ -54,10 +54,12 @@ class Resident:
         return list(map(self.painter.items, solid))
 
     def sampled(self, assignment: Assignment) -> bytes:
-        """What another assignment changes: bodies of other shape by their places, as JSON, and all samples.
+        """What another assignment changes: as JSON `bodies` of other shape by their places and `runs`, then samples.
 
-        The length of the JSON stands in front of it, in four bytes, blanks behind it up to the next four.  Nothing
-        comes where the animation would have other parts.  Raises what solving raises for a machine that cannot be.
+        It is a change `of` the machine with this number.  A run is the place of a sample among all and the number of
+        those from it on.  The length of the JSON stands in front of it, in four bytes, blanks behind it up to the next
+        four.  Nothing comes where the animation would have other parts.  Raises what solving raises for a machine that
+        cannot be.
         """
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
@@ -76,10 +78,18 @@ class Resident:
         if list(map(bool, bodies)) != list(map(bool, self.drawn)):
             return b""
         before = dict(self._by_place(panes[0], self.drawn))
-        changed = {place: body for place, body in self._by_place(panes[0], bodies) if body != before[place]}
-        head = json.dumps(changed, ensure_ascii=False, separators=(",", ":")).encode()
+        reshaped = {place: body for place, body in self._by_place(panes[0], bodies) if body != before[place]}
+        runs = self._runs(values)
+        changes = {"of": self.number, "bodies": reshaped, "runs": [(run.start, run.stop - run.start) for run in runs]}
+        head = json.dumps(changes, ensure_ascii=False, separators=(",", ":")).encode()
         head += b" " * (-len(head) % 4)
-        return len(head).to_bytes(4, "little") + head + values.tobytes()
+        return b"".join((len(head).to_bytes(4, "little"), head, *(values[run].tobytes() for run in runs)))
+
+    def _runs(self, values: np.ndarray) -> list[slice]:
+        """Where samples are others than those of the machine as it is: whole tracks, those side by side in one."""
+        other = np.logical_or.reduceat(values.view("<u4") != self.values.view("<u4"), self.starts[:-1])
+        edges = np.flatnonzero(np.diff(np.concatenate(([False], other, [False]))))
+        return [slice(int(first), int(end)) for first, end in self.starts[edges].reshape(-1, 2)]
 
     def _by_place(self, pane: Pane, bodies: list[str]) -> Iterator[tuple[int, str]]:
         """The bodies by the places of their elements: an item without anything to draw has none."""

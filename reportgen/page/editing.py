@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from errno import errorcode
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,7 @@ from reportgen.base.source import (
     encoding_of,
     read_own,
     read_text,
+    text_in,
 )
 from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
 from reportgen.base.source_text import at, put
@@ -45,7 +47,6 @@ from reportgen.page.html import Live
 from reportgen.page.live import PART, LiveSession, empty_document
 from reportgen.page.making import Maker
 from reportgen.page.ownership import owners
-from reportgen.report.case import Case
 
 PART_KEYS = "kind", "parameters"
 """What is begun of a part."""
@@ -65,11 +66,22 @@ class Change:
 
 
 class RefusedChangeError(Exception):
-    """What is asked for cannot be done; the key of the words that say why, and what fills them."""
+    """What is asked for cannot be done; the key of the words that say why, and what fills them.
 
-    def __init__(self, key: str, **arguments: str) -> None:
+    Of what the system refuses the reason is the name of its number, which has words, else what the system says.
+    """
+
+    def __init__(self, key: str, system: OSError | None = None, /, **arguments: str) -> None:
         super().__init__(key)
-        self.key, self.arguments = key, arguments
+        self.key, self.arguments, self.system = key, arguments, system
+
+    def in_words(self, words: Mapping[str, Any]) -> str:
+        """The refusal in words, those of the form."""
+        arguments = dict(self.arguments)
+        if self.system is not None:
+            said = self.system.strerror or str(self.system)
+            arguments["reason"] = words["reasons"].get(errorcode.get(self.system.errno or 0), said)
+        return str(words["refused"][self.key]).format(**arguments)
 
 
 @dataclass
@@ -81,13 +93,14 @@ class EditSession(LiveSession):
     """The commands that make something of the file, by the names of their products."""
     of_part: Callable[[Path], EditSession] | None = None
     """Begins the form of a part's file; None where none is opened."""
-    whole: str = ""
-    """Of a part, the name of the coursework's file."""
+    whole: Path | None = None
+    """Of a part, the coursework's file, from whose machine it takes what that says."""
     lock: threading.RLock = field(default_factory=threading.RLock)
     done: list[Change] = field(default_factory=list)
     undone: list[Change] = field(default_factory=list)
     dragging: threading.Lock = field(default_factory=threading.Lock)
-    _resident: tuple[Case, Resident | None] | None = None
+    _resident: tuple[int, Resident | None] = 0, None
+    """The machine as it moves, by the number of its revision."""
     _opening: threading.Lock = field(default_factory=threading.Lock)
     _parts: dict[Path, tuple[int, EditSession | None]] = field(default_factory=dict)
     """The files of parts by the numbers under which they are served, which stay when parts are moved."""
@@ -144,12 +157,14 @@ class EditSession(LiveSession):
         """The files of parts that the text names and that may be opened."""
         if source is None:
             with self.lock:
-                text = self._text()
+                text = text_in(self.path)
             source = Source("") if isinstance(text, Fault) else read_text(text)
         return [file for file in parts.files(source, self.path) if file.is_file()]
 
     def _pages(self, source: Source) -> Mapping[str, tuple[str, str]]:
-        """The address of each part's own page and the name of its file, by its path."""
+        """The address of each part's own page, or of the coursework's, and the name of its file, by its path."""
+        if self.whole is not None:
+            return {str(self.whole): ("../../", self.whole.name)}
         if self.of_part is None:
             return {}
         files = self._part_files(source)
@@ -162,16 +177,17 @@ class EditSession(LiveSession):
         """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
         with self.lock:
             language, words = self._spoken()
-            text = self._text()
+            text = text_in(self.path)
             source = (
                 Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
             )
-            problems = self._problems(source, language)
+            given = catalogue.with_taken(source, self.path, self.whole)
+            problems = catalogue.problems_of(given, self.path, language)
         kind = at(source.top, ("kind",))
         known = isinstance(kind, Scalar) and kind.text in kinds()
         form = (
-            Form(catalogue.kind(kind.text), language, source.top)
-            if known and isinstance(kind, Scalar) and isinstance(source.top, MappingNode)
+            Form(catalogue.kind(kind.text), language, given.top, source.top)
+            if known and isinstance(kind, Scalar) and isinstance(given.top, MappingNode)
             else None
         )
         return html.template("form.html.j2").render(
@@ -184,11 +200,12 @@ class EditSession(LiveSession):
             faults=_by_place(problems, source),
             can_undo=bool(self.done),
             can_redo=bool(self.undone),
-            products=list(self.products),
+            # What takes something from a machine cannot be made without it.
+            products=[] if given.top is not source.top else list(self.products),
             part_kinds=part_kinds(),
             pages=self._pages(source),
             folder=self.path.parent,
-            whole=self.whole,
+            whole=self.whole and self.whole.name,
             kind_titles=titles(language),
         )
 
@@ -197,7 +214,7 @@ class EditSession(LiveSession):
         with self.dragging:
             resident = self._resident_machine()
         with self.lock:
-            text = self._text()
+            text = text_in(self.path)
         top = None if isinstance(text, Fault) else read_own(text).top
         if resident is None or not isinstance(top, MappingNode):
             return {"fields": [], "ground": {}}
@@ -211,17 +228,13 @@ class EditSession(LiveSession):
 
     def _resident_machine(self) -> Resident | None:
         """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
-        case = self.case
-        if case is not None and (self._resident is None or self._resident[0] is not case):
-            self._resident = case, Resident.of(case)
-        return self._resident[1] if self._resident else None
+        now = self.revision
+        if now.case is not None and self._resident[0] != now.moving:
+            self._resident = now.moving, Resident.of(now.case, now.moving)
+        return self._resident[1]
 
     def _spoken(self) -> tuple[Language, Mapping[str, Any]]:
         return self.revision.language, self.revision.words
-
-    def _problems(self, source: Source, language: Language) -> list[Problem]:
-        """The faults of a text as it stands; of one without, its warnings."""
-        return catalogue.problems_of(source, self.path, language)
 
     # --- what is asked
 
@@ -239,8 +252,7 @@ class EditSession(LiveSession):
                 else:
                     self._change(operation, where, asked)
             except RefusedChangeError as refusal:
-                words = self._spoken()[1]["edit"]["refused"]
-                said["refused"] = str(words[refusal.key]).format(**refusal.arguments)
+                said["refused"] = refusal.in_words(self._spoken()[1]["edit"])
                 if refusal.key == "meanwhile":
                     said["meanwhile"] = refusal.arguments["there"]
         self.touched.set()
@@ -258,7 +270,7 @@ class EditSession(LiveSession):
         try:
             changed = _changed(text, operation, where, asked)
         except EditError as error:
-            raise RefusedChangeError("cannot", reason=str(error)) from error
+            raise RefusedChangeError(error.key, **error.arguments) from error
         # Only a text of that many characters can hold more than a file may: of another no form could be made.
         if len(changed) > MOST_TOKENS and read_text(changed).faults:
             raise RefusedChangeError("too_large")
@@ -267,7 +279,7 @@ class EditSession(LiveSession):
             try:
                 after = mark + changed.encode(codec)
             except UnicodeEncodeError as error:
-                raise RefusedChangeError("cannot", reason=str(error.reason)) from error
+                raise RefusedChangeError("no_letter", codec=codec) from error
             self._write(Change(before, after))
             self.undone.clear()
 
@@ -301,7 +313,7 @@ class EditSession(LiveSession):
             if resident is None:
                 return {}
             with self.lock:
-                text = self._text()
+                text = text_in(self.path)
             top = None if isinstance(text, Fault) else read_own(text).top
             old = at(top, where)
             if not isinstance(old, Scalar) or top is None:
@@ -321,21 +333,15 @@ class EditSession(LiveSession):
         try:
             data = contents(self.path, LARGEST + 1)
         except OSError as error:
-            raise RefusedChangeError("unreadable", reason=error.strerror or str(error)) from error
+            raise RefusedChangeError("unreadable", error) from error
         if len(data) > LARGEST:
             raise RefusedChangeError("too_large")
         return data
 
-    def _text(self) -> str | Fault:
-        try:
-            return decoded(self._bytes(), str(self.path))
-        except RefusedChangeError as refusal:
-            return Fault("unreadable", Mark(str(self.path)), {"reason": refusal.arguments.get("reason", str(refusal))})
-
     def _decoded(self, data: bytes) -> str:
         text = decoded(data, str(self.path))
         if isinstance(text, Fault):
-            raise RefusedChangeError("cannot", reason=text.code)
+            raise RefusedChangeError("no_table")
         return text
 
     def _write(self, change: Change) -> None:
@@ -349,7 +355,7 @@ class EditSession(LiveSession):
         try:
             renew_file(self.path, content)
         except OSError as error:
-            raise RefusedChangeError("unwritten", reason=error.strerror or str(error)) from error
+            raise RefusedChangeError("unwritten", error) from error
 
 
 # --- what is meant ------------------------------------------------------------------------------------

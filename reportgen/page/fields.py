@@ -10,15 +10,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from reportgen.assignment import parts
 from reportgen.assignment.checks import OneOf
 from reportgen.assignment.common import PARTS, Kind
 from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY, UNIT_NAME_KEY
-from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema
+from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema, places
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
 from reportgen.base.kinds import kinds
-from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode
-from reportgen.base.source_text import flow, path_text
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source
+from reportgen.base.source_text import at, flow, path_text
 from reportgen.base.units import Language
 
 SCALARS = {"string", "number", "integer", "boolean", "null"}
@@ -45,6 +46,8 @@ class FieldLine:
     """Keys by which the same may be said, with what they are called."""
     most: int | None = None
     """A list takes no more items."""
+    taken: bool = False
+    """Whether the text does not stand in the file: a part takes it from the machine."""
 
     @property
     def key(self) -> str:
@@ -96,6 +99,8 @@ class Form:
     kind: Kind
     language: Language
     top: MappingNode
+    own: Node | None = None
+    """Of a part, the nodes of its file without what it takes."""
     root: Schema = field(init=False)
     words: Mapping[str, FieldWords] = field(init=False)
 
@@ -270,14 +275,25 @@ class Form:
             if isinstance(file, Scalar) and not file.null:
                 title = self._node(item, "title")
                 called = title.text if isinstance(title, Scalar) and not title.null else file.text
-                made.append(FieldGroup(where, called, file=file.text, of_list=True))
+                entries = tuple(self._about(where, item))
+                made.append(FieldGroup(where, called, entries=entries, file=file.text, of_list=True))
             elif isinstance(kind, Scalar) and kind.text in kinds():
-                inner = Form(catalogue.kind(kind.text), self.language, item)
-                title = self._node(item, "title")
-                own = self._entry((*where, "title"), f"{PARTS}.title", "", {"type": "string"}, title, False)
+                given = parts.taking(Source("", top=item), self.top, index, catalogue.kind).top
+                assert isinstance(given, MappingNode), "what is taken is put into the table"
+                inner = Form(catalogue.kind(kind.text), self.language, given, item)
                 data = [_below(group, where) for group in inner.groups if group.where[:1] == ("parameters",)]
-                made.append(FieldGroup(where, f"{index + 1}. {kind.text}", entries=(own, *data), of_list=True))
+                entries = (*self._about(where, item), *data)
+                made.append(FieldGroup(where, f"{index + 1}. {kind.text}", entries=entries, of_list=True))
         return FieldGroup((PARTS,), words.label, words.remark, tuple(made), there=bool(made), can_grow=True)
+
+    def _about(self, where: Where, item: MappingNode) -> Iterator[FieldLine | FieldGroup]:
+        """The title of a part, and what it takes from the machine."""
+        (table,) = (schema for schema in places(self.root, self.root, where) if "properties" in schema)
+        for key in ("title", "from"):
+            path, node = f"{PARTS}.{key}", self._node(item, key)
+            entry = self._at((*where, key), path, table["properties"][key], node, False)
+            if isinstance(entry, FieldLine) or (entry is not None and entry.there):
+                yield entry
 
     # --- one line
 
@@ -303,6 +319,7 @@ class Form:
             high=facts.get("high"),
             default="" if default is None or isinstance(default, list | dict) else _spelled(default),
             most=next((schema["maxItems"] for schema in allowed if "maxItems" in schema), None),
+            taken=self.own is not None and node is not None and at(self.own, where) is None,
         )
 
 

@@ -120,9 +120,10 @@ def write(
     rules = {"moving": rules_of(panels), "report": written.rules}
     # Rules that change while the page is read are the script's to put in.
     styles += [] if live else rules.values()
-    scripts = [read(name) for name in (*SCRIPTS, *moving_scripts, *(live.scripts if live else ()))]
+    scripts = [read(name) for name in (*SCRIPTS, *moving_scripts)]
     if live and live.form:
-        scripts = [EXTENDED, *(script.replace(GIVES, f"{read(FEED)}{GIVES}") for script in scripts)]
+        scripts = [EXTENDED, *(script.replace(GIVES, f"{lean(FEED)}{GIVES}") for script in scripts)]
+    scripts += [lean(name) if live.form else read(name) for name in live.scripts] if live else []
     style, script = "\n".join(styles), "\n".join(scripts)
     policy = [
         "default-src 'none'",
@@ -181,6 +182,12 @@ def read(name: str) -> str:
         return path.read_text(encoding="utf-8")
     except OSError as error:
         raise TypesetterError(f"{path}: {error.strerror}") from error
+
+
+def lean(name: str) -> str:
+    """A script of a form without indents and lines of comments, which are for readers of its source."""
+    lines = map(str.lstrip, read(name).splitlines(keepends=True))
+    return "".join(line for line in lines if not line.startswith("//"))
 
 
 def data(content: Mapping[str, Any]) -> str:

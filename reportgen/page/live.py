@@ -38,6 +38,8 @@ class Revision:
     panels: tuple[Panel, ...] = ()
     report: WrittenReport | None = None
     document: tree.Document | None = None
+    case: Case | None = None
+    """What moves: that of the file as it was right last."""
     fault: str = ""
     moving: int = 0
     reports: int = 0
@@ -75,8 +77,6 @@ class LiveSession:
     def __post_init__(self) -> None:
         first = self.language or spoken()
         self.revision = Revision(first, load_words(search_path(first)))
-        self.case: Case | None = None
-        """That of the file as it was right last."""
         self._asked = 0
         self._worker = threading.Thread(target=self._write_reports, daemon=True)
         self._to_write: tuple[int, Case] | None = None
@@ -110,9 +110,8 @@ class LiveSession:
             self._to_write = None
             self._publish(fault=self._in_words(error), busy=False)
             return
-        self.case = case
         count = self.revision.moving + 1
-        self._publish(language=language, words=words, panels=moving, moving=count, fault="", busy=True)
+        self._publish(language=language, words=words, panels=moving, case=case, moving=count, fault="", busy=True)
         with self.changed:
             self._to_write = number, case
             self.changed.notify_all()

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from functools import lru_cache, partial
 from pathlib import Path
-from typing import TextIO
+from typing import Protocol, TextIO
 
 from reportgen.assignment import parts
 from reportgen.base.errors import ReportgenError
@@ -20,6 +20,7 @@ from reportgen.base.files import reported
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
+from reportgen.base.words import language_of
 from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession
 from reportgen.page.live import LiveSession
@@ -39,8 +40,12 @@ _ONE_AT_A_TIME = threading.Lock()
 
 Products = Callable[[Path], Mapping[str, Sequence[str]]]
 """The commands that make something of a file, by the names of their products."""
-Opener = Callable[[Path, Language | None], Case]
-"""Opens the case of an assignment file; raises `AssignmentError` with its faults."""
+
+
+class Opener(Protocol):
+    """Opens the case of an assignment file, or of a part of a `whole`; raises `AssignmentError` with its faults."""
+
+    def __call__(self, path: Path, language: Language | None = None, whole: Path | None = None) -> Case: ...
 
 
 def nobody(case: Case, document: Document) -> None:
@@ -84,9 +89,22 @@ def edit(
     """As `watch`, with a form beside what moves, by which the file is changed and its `products` are made."""
     if not path.is_file():
         opens(path, language)
-    path = path.absolute()
-    with _with_parts(path, opens, language, products) as session:
-        serve(session, path, opens, browser, port, stream)
+    with suppress(KeyboardInterrupt), edited(path.absolute(), opens, language, products, port) as server:
+        _announce(server, browser, stream)
+        _wait()
+
+
+@contextmanager
+def edited(
+    path: Path, opens: Opener, language: Language | None = None, products: Products = nothing, port: int = 0
+) -> Iterator[Server]:
+    """The server of a file's form, which answers and is renewed meanwhile."""
+    with (
+        _with_parts(path, opens, language, products) as session,
+        _served(session, port) as server,
+        _followed(session, path, opens),
+    ):
+        yield server
 
 
 def choose(
@@ -117,10 +135,12 @@ def _with_parts(path: Path, opens: Opener, language: Language | None, products: 
     with ExitStack() as followed:
 
         def of_part(file: Path) -> EditSession:
+            # It is told in the language of the coursework, which its file need not say.
+            spoken = language or language_of(read_source(path))
             part = EditSession(
-                partial(opens, file, language), language, path=file, products=products(file), whole=path.name
+                partial(opens, file, spoken, path), spoken, path=file, products=products(file), whole=path
             )
-            followed.enter_context(_followed(part, file, opens))
+            followed.enter_context(_followed(part, file, opens, path))
             return part
 
         yield EditSession(partial(opens, path, language), language, path=path, products=products(path), of_part=of_part)
@@ -151,11 +171,11 @@ def _served(session: LiveSession, port: int) -> Iterator[Server]:
 
 
 @contextmanager
-def _followed(session: LiveSession, path: Path, opens: Opener) -> Iterator[None]:
-    """A session that is open and renewed meanwhile."""
-    stop = threading.Event()
+def _followed(session: LiveSession, path: Path, opens: Opener, *beside: Path) -> Iterator[None]:
+    """A session that is open and renewed meanwhile, with its file and with those `beside` it."""
+    stop, states = threading.Event(), partial(_states, path, *beside)
     threads = (
-        threading.Thread(target=_follow, args=(path, session, stop, _states(path)), daemon=True),
+        threading.Thread(target=_follow, args=(states, session, stop, states()), daemon=True),
         threading.Thread(target=_follow_templates, args=(session, stop, _school(path, opens)), daemon=True),
     )
     try:
@@ -189,27 +209,27 @@ def _school(path: Path, opens: Opener) -> Path | None:
     return None
 
 
-def _follow(path: Path, session: LiveSession, stop: threading.Event, shown: object) -> None:
-    """Renew the live session whenever the file of a path is not as it was `shown`.
+def _follow(states: Callable[[], object], session: LiveSession, stop: threading.Event, shown: object) -> None:
+    """Renew the live session whenever the states of its files are not as they were `shown`.
 
-    The path is asked again and again: what watches files holds on to a folder that was renamed, does not follow links
-    and hears nothing of changes that another computer makes.
+    Their paths are asked again and again: what watches files holds on to a folder that was renamed, does not follow
+    links and hears nothing of changes that another computer makes.
     """
     while not stop.is_set():
         # What the form itself has written need not be waited for.
         own = session.touched.wait(LOOKING)
         session.touched.clear()
-        if _states(path) != shown:
+        if states() != shown:
             stop.wait(0 if own else QUIET / 1000)
-            shown = _states(path)
+            shown = states()
             with _ONE_AT_A_TIME:
                 session.renew()
 
 
-def _states(path: Path) -> tuple[tuple[float, ...], ...]:
-    """What changes with a file and with the files of its parts."""
+def _states(path: Path, *beside: Path) -> tuple[tuple[float, ...], ...]:
+    """What changes with a file and with the files of its parts, and with further ones."""
     own = _state(path)
-    return own, *map(_state, _beside(path, own))
+    return own, *map(_state, (*_beside(path, own), *beside))
 
 
 @lru_cache(maxsize=4)

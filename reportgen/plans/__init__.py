@@ -176,7 +176,8 @@ def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol |
     """The size of a load by the formula of its law, or as it is given."""
     formula = load.law.formula(q, load.link)
     if formula is not None:
-        q.define(load.name, formula, symbol)
+        with q.within(Chapter.loads):
+            q.define(load.name, formula, symbol)
     else:
         size = load.law.value(analysis.cycle_angle, analysis.motion)
         q.give(load.name, size, symbol, exact=is_short(size))

@@ -137,7 +137,8 @@ class Cell:
 class Table:
     """A ruled table; where it continues on the next page, its number and its `head` rows repeat.
 
-    A cell spans columns only.  One that is `framed` has a frame around its head and rows, as a boxed answer has.
+    A cell spans columns only; one across the whole table heads the rows below it.  One that is `framed` has a frame
+    around its head and rows, as a boxed answer has.  Where it runs over pages, `last` rows at least stand on the last.
     """
 
     columns: tuple[Column, ...]
@@ -147,6 +148,7 @@ class Table:
     key: str = ""
     number: str = ""
     framed: bool = False
+    last: int = 3
 
 
 @dataclass(frozen=True, slots=True)

@@ -92,6 +92,7 @@ class DesignCase(LoadedAssignment):
         names = {
             **page.names(),
             "answer_tables": asked.answers,
+            "sheet_apart": asked.by_section,
             "is_part": self.assignment.is_part,
             **page.asked(asked),
         }

@@ -44,6 +44,7 @@ OF_A_TURN = frozenset(
     (
         # what is worked out for the other positions of a turn, curves over the turn
         *("velocity-plates", "acceleration-plates", "force-plates", "polar", "mean-positions"),
+        *("diagrams", "torque-curve", "spring-curves"),
         # how quantities go over the turn
         *("comments/velocity", "comments/acceleration", "comments/loads", "comments/inertia"),
         *("comments/reactions", "comments/torque"),

@@ -52,6 +52,7 @@ LARGER = tuple(
     size for short, long in ((420.0, 594.0), (594.0, 841.0), (841.0, 1189.0)) for size in ((long, short), (short, long))
 )
 """Sheets A2, A1, A0, lying and standing."""
+PLATES = (A3_ACROSS, A3_UPRIGHT, *LARGER)
 FIGURE_ROOM = (TEXT_WIDTH, FIGURE_HEIGHT)
 """What of an A4 page a figure may fill."""
 TURNED_ROOM = (254.0, 150.5)
@@ -123,16 +124,28 @@ def on_paper(*scenes: Scene) -> FigureScenes:
         if len(shown) == 1 and across(shown[0]):
             return FigureScenes(shown, turned=True)
     width, height = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
-    papers = (paper for paper in (A3_ACROSS, A3_UPRIGHT, *LARGER) if fits(width, height, paper))
+    papers = (paper for paper in PLATES if fits(width, height, paper))
     return FigureScenes(scenes, next(papers, (width + WHITE[0], height + WHITE[1])))
 
 
 def beside_one_another(*scenes: Scene) -> FigureScenes:
-    """Scenes close together if they fit a text block so, else as they are; on pages of their own if they must."""
+    """Scenes close together if they fit a text block so, else as they are; on a page of their own if they must.
+
+    That is one for all, turned or as large as they need: what is small takes no large page for itself.
+    """
     together = sheets(scenes, *FIGURE_ROOM, trim=CLOSE)
     if in_text(*together):
         return FigureScenes(together)
-    return FigureScenes(scenes, None if all(map(in_text, scenes)) else A3_ACROSS)
+    if all(map(in_text, scenes)):
+        return FigureScenes(scenes)
+    turned = sheets(scenes, *TURNED_ROOM, trim=CLOSE)
+    if len(turned) == 1 and across(turned[0]):
+        return FigureScenes(turned, turned=True)
+    for paper in PLATES:
+        shown = sheets(scenes, paper[0] - WHITE[0], paper[1] - WHITE[1], trim=CLOSE)
+        if len(shown) == 1 and fits(shown[0].width, shown[0].height, paper):
+            return FigureScenes(shown, paper)
+    return on_paper(*scenes)
 
 
 def drawing_scale(report: Report) -> float:
@@ -147,14 +160,14 @@ def scale_note(report: Report, id: str, factor: float = 1.0, k: int | None = Non
 
 
 def looks(report: Report, scale: float, factor: float = 1.0) -> Looks:
-    """Pistons with their bore, mass centres, the figure's scale, by a factor of enlargement."""
+    """Pistons with their bore, mass centres, the figure's scale by a factor of enlargement, springs."""
     blocks = {
         piston.link: (min(0.6 * piston.bore * scale, 24.0), min(piston.bore * scale, 40.0) * 0.5)
         for piston in report.machine.pistons
     }
     jointed = {name for group in report.groups for name in (group.P, group.Q)}
     centres = tuple(body.centre for body in report.machine.linkage.inertias if body.centre not in jointed)
-    return Looks(blocks=blocks, centres=centres, scale=scale_note(report, "mu.l", factor))
+    return Looks(blocks, centres, scale_note(report, "mu.l", factor), report.machine.coils)
 
 
 def short(number: Number) -> Number:
@@ -205,7 +218,9 @@ def _shown_at(report: Report) -> int:
 
 def _reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
-    points = np.array([report.place(name, _shown_at(report) + 1) for name in report.analysis.motion.points])
+    index, motion = _shown_at(report), report.analysis.motion
+    hung = [place[index] for coil in report.machine.coils for place in coil.at(motion)]
+    points = np.array([*(report.place(name, index + 1) for name in motion.points), *hung])
     size = points[np.isfinite(points)] * drawing_scale(report) * report.enlarged
     needed = max(np.ptp(size.real) / SCHEME_BOX[0], np.ptp(size.imag) / SCHEME_BOX[1], 1.0)
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)

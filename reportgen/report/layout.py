@@ -54,9 +54,13 @@ OWN_LETTER = Letter()
 WHOLE_TABLE = 12
 """A table with no more rows than this is kept on one page."""
 TOGETHER = 3
-"""A longer table has at least this many rows on each of its pages."""
+"""A longer table has at least this many rows on its first page, and below a heading in it."""
 UNIT = re.compile(r"\b([A-Za-zµ]{1,3}[²³]?/\(?[A-Za-zµ·²³]{1,8}\)?)")
 """A unit with a slash inside a text."""
+FILE = re.compile(r"\b(\w+\.(?:yaml|xlsx))\b")
+"""The name of a file inside a text: a hyphen at the end of its line would seem to be typed."""
+UNBROKEN = re.compile(f"{UNIT.pattern}|{FILE.pattern}")
+"""Either of them."""
 
 TITLE = 5.0
 """What the titles of a row of scenes take below it (mm)."""
@@ -158,6 +162,26 @@ def leads(block: Block, following: Block | None, language: Language) -> bool:
             return text.endswith(":") or (goes_on and not text.endswith((".", "!", "?", "…")))
         case _:
             return False
+
+
+def held(table: Table) -> tuple[int, ...]:
+    """How many rows of a table stay on one page, group by group: all of a short one, a heading and what it heads."""
+    count = len(table.rows)
+    if count <= max(WHOLE_TABLE, TOGETHER + table.last):
+        return (count,)
+    groups: list[int] = []
+    begun = 0
+    while True:
+        size = TOGETHER if begun == 0 or len(table.rows[begun]) == 1 < len(table.columns) else 1
+        if begun + size > count - table.last:
+            return (*groups, count - begun)
+        groups.append(size)
+        begun += size
+
+
+def stays(table: Table) -> list[bool]:
+    """Of each row of a table whether it stands on one page with the next one."""
+    return [row < size - 1 for size in held(table) for row in range(size)]
 
 
 def parted(block: List) -> tuple[List, ...]:

@@ -25,6 +25,7 @@ from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
 from reportgen.report.case import Case, MachineAnalysis
+from reportgen.report.chapters import spring_lines
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
 from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
@@ -215,6 +216,14 @@ def _indicator_of_several(sources: Sources) -> Iterator[Drawn]:
         yield Drawn("indicator", "indicator", indicator(sources.small).scenes)
 
 
+def _springs(sources: Sources) -> Iterator[Drawn]:
+    """The machine with its springs, their loads over the cycle, and their lengths at the positions."""
+    if sources.report.machine.coils:
+        over_cycle = curves.springs(sources.small).scenes if sources.report.parts("spring-curves") else ()
+        lengths = _grids(sources.report, (spring_lines,), cycle=True)
+        yield Drawn("springs", "scheme", (*scheme(sources.small).scenes, *over_cycle, *lengths))
+
+
 def _worked_forces(sources: Sources) -> Iterator[Drawn]:
     """Of each group, as they are solved, its separated links and its force plan; the same of the driver; the lever."""
     report, small = sources.report, sources.small
@@ -261,7 +270,8 @@ def _motion(sources: Sources) -> Iterator[Drawn]:
 
 
 def _torque(sources: Sources) -> Iterator[Drawn]:
-    yield Drawn("torque", "curves", curves.torque(sources.small).scenes)
+    if sources.report.parts("torque-curve"):
+        yield Drawn("torque", "curves", curves.torque(sources.small).scenes)
 
 
 def _polar(sources: Sources) -> Iterator[Drawn]:
@@ -310,8 +320,11 @@ Listed = Callable[[Report], Sequence[str]]
 
 
 def _table(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = False) -> Iterator[Drawn]:
+    yield Drawn(name, "tables", _grids(sources.report, listed, cycle))
+
+
+def _grids(report: Report, listed: Sequence[Listed], cycle: bool = False) -> list[Scene]:
     """Quantities at the positions of one turn or of the cycle, as many tables as they need."""
-    report = sources.report
     at = report.all_positions if cycle else report.positions
     tabulated = dict.fromkeys(id for columns in listed for id in columns(report))
     shown = [id for id in tabulated if not all(report.is_zero(id, k) for k in at)]
@@ -327,7 +340,7 @@ def _table(sources: Sources, name: str, listed: Sequence[Listed], cycle: bool = 
             columns.append([])
             right = ENLARGED * (first + width)
         columns[-1].append(id)
-    yield Drawn(name, "tables", [grid(*_quantities(report, some, at)) for some in columns for at in rows])
+    return [grid(*_quantities(report, some, at)) for some in columns for at in rows]
 
 
 def _quantities(
@@ -396,7 +409,7 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
         *(_velocity_table, _acceleration_table),
     ),
     "forces": (
-        *(_indicator, _worked_forces, _force_plates, _torque, _polar, _flywheel, _flywheel_speed),
+        *(_indicator, _springs, _worked_forces, _force_plates, _torque, _polar, _flywheel, _flywheel_speed),
         *(_reaction_table, _load_table),
     ),
 }

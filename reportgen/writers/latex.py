@@ -222,7 +222,7 @@ class _Writer:
     def inline(self, inline: tree.Inline) -> str:
         match inline:
             case tree.Text(text):
-                return escape(text)
+                return layout.FILE.sub(r"\\mbox{\1}", escape(text))
             case tree.Emph(of):
                 return rf"\emph{{{self.inlines(of)}}}"
             case tree.Strong(of):
@@ -372,18 +372,15 @@ class _Writer:
             head = f"{title}\n{head}"
         environment.append(NoEscape(head + r"\endhead"))
         environment.append(NoEscape(r"\bottomrule\endfoot"))
-        unbroken = len(block.rows) <= layout.WHOLE_TABLE
-        for index, row in enumerate(block.rows):
+        for index, (row, stays) in enumerate(zip(block.rows, layout.stays(block), strict=True)):
             end = r"\\*[0pt]"
             # A rule between rows would leave gaps in the sides of a frame.
             if index < len(block.rows) - 1 and not block.framed:
-                # The first and the last rows never stand alone on a page.
-                together = unbroken or not layout.TOGETHER - 1 <= index < len(block.rows) - layout.TOGETHER
-                end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if together else 0}}}"
+                end += rf"\rowrule{{{len(block.columns)}}}{{{10000 if stays else 0}}}"
             environment.append(NoEscape(self.row(row, block.columns) + end))
         framed = r"\framedtable" if block.framed else ""
         room = _command("needed", f"{_height(block):g}mm")
-        if not unbroken:
+        if len(layout.held(block)) > 1:
             room = _command("figuresbefore", f"{TITLE + ROW * (len(block.head) + len(block.rows)):g}mm") + room
         return f"{room}\\begin{{belowfigures}}\\tablesize{framed}\n{environment.dumps()}\n\\end{{belowfigures}}"
 
@@ -427,8 +424,7 @@ def _beginning(block: tree.Block | None) -> float:
 
 def _height(block: tree.Table) -> float:
     """About how much paper (mm) a table needs with its caption, up to its first possible break."""
-    rows = len(block.rows) if len(block.rows) <= layout.WHOLE_TABLE else layout.TOGETHER
-    return TITLE + ROW * (len(block.head) + rows)
+    return TITLE + ROW * (len(block.head) + layout.held(block)[0])
 
 
 def _column(width: float, align: str) -> str:

@@ -295,12 +295,12 @@ class _Blocks:
         aligns = _array(column.align for column in table.columns)
         head = _array(_array(self.cell(cell, "U") for cell in row) for row in table.head)
         rows = ",\n".join(_array(self.cell(cell, "X") for cell in row) for row in table.rows)
-        whole = "0" if len(table.rows) <= layout.WHOLE_TABLE else str(layout.TOGETHER)
+        together = _together(layout.held(table))
         again = self.again(self.words.table, table) if table.number else "none"
         framed = "framed:true," if table.framed else ""
         low = [not self.letter.font and self.is_low(row, table.columns) for row in table.rows]
         framed += f"low:{'true' if all(low) else _array(map(str, map(int, low)))}," if any(low) else ""
-        return f"#R({framed}{label},{again},{columns},{aligns},{head},{whole},\n{rows})" + _label(table.key)
+        return f"#R({framed}{label},{again},{columns},{aligns},{head},{together},\n{rows})" + _label(table.key)
 
     def is_low(self, row: Sequence[tree.Cell], columns: Sequence[tree.Column]) -> bool:
         """Whether a row of a table is one line of plain texts and symbols high beyond doubt."""
@@ -350,11 +350,18 @@ def _doubt(width: float) -> float:
     return 4.0 + 0.05 * width if width < math.inf else 0.0
 
 
+def _together(groups: Sequence[int]) -> str:
+    """The rows of a table that stay together: 0 for all, one number for the first and the last, or each group's."""
+    first, *between, last = groups if len(groups) > 1 else (0, 0)
+    return str(first) if first == last and set(between) <= {1} else _array(map(str, groups))
+
+
 def _text(text: str) -> str:
-    """A text as a string, but its units in boxes: lines would break behind a slash."""
-    parts = layout.UNIT.split(text)
+    """A text as a string, but its units and names of files in boxes: lines would break behind a slash."""
+    parts = layout.UNBROKEN.split(text)
+    # Behind each piece of text both groups, of which one is what was found.
     return "".join(
-        f"#box({literal(part)})" if index % 2 else f"#{literal(part)}"
+        f"#box({literal(part)})" if index % 3 else f"#{literal(part)}"
         for index, part in enumerate(parts)
         if part or len(parts) == 1
     )

@@ -361,12 +361,10 @@ class _Blocks:
     def table(self, table: tree.Table) -> str:
         """A ruled table below its caption; its head is repeated on each page, a short one stays on one."""
         caption = self.caption(self.words.table, table)
-        whole = len(table.rows) <= layout.WHOLE_TABLE
         rows = [self.table_row(row, table, True, index == len(table.head) - 1) for index, row in enumerate(table.head)]
-        for index, row in enumerate(table.rows):
-            left = len(table.rows) - 1 - index
-            kept = left > 0 and (whole or index < layout.TOGETHER - 1 or left < layout.TOGETHER)
-            rows.append(self.table_row(row, table, False, kept))
+        rows += [
+            self.table_row(row, table, False, kept) for row, kept in zip(table.rows, layout.stays(table), strict=True)
+        ]
         sides = rule("left", HEAVY), rule("right", HEAVY)
         outer = (rule("top", HEAVY), sides[0], rule("bottom", HEAVY), sides[1], rule("insideH", 0))
         frame = f"<w:tblBorders>{''.join(outer)}</w:tblBorders>" if table.framed else ""

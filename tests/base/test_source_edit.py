@@ -77,6 +77,15 @@ def test_what_was_taken_out_comes_back_as_it_was() -> None:
     assert said(without(TEXT, ("parameters", "H")), ("parameters", "H"), "420 mm") == TEXT
 
 
+def test_remarks_that_are_set_deeper_stay_with_their_table() -> None:
+    """A new section, a new item stand behind them; a remark of the whole file, and a blank line, is no table's."""
+    text = "parameters:\n  a: 270 mm\n\n  # G3: 200 N\n\n# end\n"
+    assert said(text, ("variant",), "3") == text.replace("N\n\n# end", "N\nvariant: 3\n\n# end")
+    assert said(said(text, ("variant",), "3"), ("parameters", "G3"), "2 N").count("  G3: 2 N\n") == 1
+    text = "parts:\n- a: 1\n  # b: 2\n# end"
+    assert said(text, ("parts", 1), "3") == text.replace("# end", "- 3\n# end")
+
+
 def test_a_key_gives_way_to_another_that_says_the_same() -> None:
     changed = with_key(TEXT, ("parameters", "a"), "b", Scalar("27 cm", Mark("")))
     assert changed == TEXT.replace("a: 270 mm", "b: 27 cm")

@@ -10,9 +10,7 @@ import sys
 
 import numpy as np
 
-from reportgen.cases import opened
-from tests.marking import students
-from tests.marking.test_mistakes import MACHINES, WORKED, Rates, possible_mistakes
+from tests.marking.test_mistakes import MACHINES, Rates, possible_mistakes, variant
 
 
 def main(variants: int) -> None:
@@ -20,7 +18,7 @@ def main(variants: int) -> None:
     for name in MACHINES:
         rates = Rates()
         for _ in range(variants):
-            scheme = students.marking_scheme(opened(students.varied(name, rng, WORKED)))
+            scheme = variant(name, rng)
             for mistake in possible_mistakes(scheme):
                 rates.inject(scheme, mistake, rng)
         print(f"{name}, {variants} random variants\n{rates}\n", flush=True)

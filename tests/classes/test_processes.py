@@ -6,8 +6,10 @@ import io
 import multiprocessing
 import os
 import signal
+import socket
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import closing
@@ -21,6 +23,7 @@ import pytest
 from reportgen.api import Engine, Maker
 from reportgen.base.files import put_file, put_set
 from reportgen.base.units import Language
+from reportgen.classes import leavings
 from reportgen.classes import pool as pools
 from reportgen.classes.pool import Job, local, making, run_job
 from reportgen.classes.run import Order, run_batch
@@ -97,6 +100,38 @@ def test_each_job_has_a_process_of_its_own() -> None:
     assert len(starters) == 1
     if "forkserver" in multiprocessing.get_all_start_methods():
         assert os.getpid() not in starters
+
+
+named_sockets = pytest.mark.skipif(not hasattr(socket, "AF_UNIX"), reason="no sockets with names")
+
+
+@named_sockets
+def test_sockets_have_a_place_however_long_the_way_to_temporary_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / ("t" * 90)))
+    monkeypatch.setitem(multiprocessing.current_process()._config, "tempdir", None)
+    folder = leavings.sockets()
+    assert folder is not None
+    with closing(socket.socket(socket.AF_UNIX)) as listener:
+        listener.bind(f"{folder}/listener-12345678")
+
+
+@proof
+@named_sockets
+@pytest.mark.parametrize("method", ["forkserver", "spawn"])
+def test_a_long_way_to_temporary_files_stops_no_batch(method: str, tmp_path: Path) -> None:
+    """The name of a socket has a hundred letters; where it finds no short place, processes begin without one."""
+    write_class(tmp_path, {"K1": "seconds: 0"})
+    temporary = tmp_path / ("t" * 90)
+    temporary.mkdir()
+    out = tmp_path / "out"
+    nowhere = "leavings.SHORT = (); " if method == "spawn" else ""
+    code = f"from reportgen.classes import leavings; {nowhere}import sys, tests.classes.little as l; sys.exit(l.main())"
+    command = (sys.executable, "-c", code, tmp_path / "roster.csv", tmp_path / "given", out)
+    ended = subprocess.run(list(map(str, command)), cwd=ROOT, env=os.environ | {"TMPDIR": str(temporary)}, text=True)
+    assert (ended.returncode, [*temporary.iterdir()]) == (0, [])
+    assert (out / "K1" / "a.pdf").is_file()
 
 
 def deaf(_path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:

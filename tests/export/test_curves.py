@@ -67,6 +67,10 @@ def test_over_time_the_last_point_is_the_time_of_a_cycle() -> None:
     x = np.asarray(diagram.curves[0].x)
     with pytest.raises(NotOfferedError):
         diagrams([open_case(ASSIGNMENTS / "cam" / "knife-01.yaml")], ["cam.s"], "time")
+    # The speed of a crank that accelerates holds at each position by itself.
+    accelerated = open_case(ASSIGNMENTS / "four-bar-03.yaml")
+    with pytest.raises(NotOfferedError):
+        diagrams([accelerated], ["v.C"], "time")
     # Millimetres from the first position.
     assert (x[0], x[-1]) == (0.0, pytest.approx(abs(slide.analysis.machine.span) * 1e3))
     assert not diagram.turn

@@ -12,7 +12,7 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.units import Language, write
-from reportgen.marking.key import key_of
+from reportgen.marking.key import key_of, words_of
 from reportgen.marking.paper import answer_tables, task_of
 from reportgen.marking.sheet import answer_book, number_format
 from reportgen.report import Document, Table, plain, text_of
@@ -126,18 +126,21 @@ def test_a_task_has_a_place_for_every_value_that_is_asked(name: str) -> None:
     key, tree = handout(name, "en")
     (last,) = [i for i, block in enumerate(tree.blocks) if "Answer sheet" in str(getattr(block, "title", ""))]
     tables = [block for block in tree.blocks[last:] if isinstance(block, Table)]
-    empty = 0
+    empty, parts = 0, []
     for table in tables:
         for line in table.rows:
-            head = [plain(cell.inlines, "en") for cell in table.head[0]]
-            symbol = ""
-            for title, cell in zip(head, line, strict=True):
-                text = plain(cell.inlines, "en")
-                if title == "Symbol":
-                    symbol = text
-                elif title != "Unit" and symbol and not text:
-                    empty += 1
+            # What is asked for once has a cell across all positions, a part's name the whole line.
+            assert sum(cell.span for cell in line) == len(table.columns)
+            symbol, *others = (plain(cell.inlines, "en") for cell in line)
+            if not others:
+                parts.append(symbol)
+                continue
+            _, _, *values = others
+            assert symbol
+            empty += values.count("")
     assert empty == sum(len(row.positions) for row in key.asked)
+    words = words_of(key)["parts"]
+    assert set(parts) == {words[row.part] for row in key.asked}
 
 
 @pytest.mark.parametrize(

@@ -17,6 +17,9 @@ import pytest
 from reportgen import catalogue
 from reportgen.base.source import read_text
 from reportgen.base.source_text import at
+from reportgen.base.units import Language
+from reportgen.cases import opener
+from reportgen.page.watch import edited
 from tests.lanes import proof
 from tests.page.browser import Browser, axe
 
@@ -42,6 +45,13 @@ const clipboardData = new DataTransfer();
 clipboardData.setData("text", arguments[1]);
 const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-column="1"]`);
 cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+"""
+POINTED = """
+const spot = (name) => extended.get(moving.root).spotAt(name), [a, b] = [spot(arguments[0]) ?? [0, 0], spot(arguments[1])];
+const drawing = document.querySelector("[data-stage=machine] svg");
+const { x, y } = new DOMPoint((a[0] + b[0]) / 2, (a[1] + b[1]) / 2).matrixTransform(drawing.getScreenCTM());
+drawing.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
+return [...document.querySelectorAll(".field.own [data-w]")].map((one) => one.id);
 """
 REFUSED = "return document.getElementById('refused').textContent"
 IN_SIGHT = """
@@ -90,21 +100,22 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
         browser.run(SLIDE, "f:parameters.r", 160)
         until(lambda: browser.run(PLACE) != here)
         assert file.read_text(encoding="utf-8") == begun, "nothing is written while a value is drawn"
-        browser.run(TYPE, "f:parameters.r", "95")
-        until(lambda: written(file, "r") == "95")
+        assert "f:parameters.r" in browser.run(POINTED, "A", "B"), "the crank is its length's own"
+        browser.run(TYPE, "f:parameters.l", "650")
+        until(lambda: written(file, "l") == "650")
         until(lambda: browser.run("return document.querySelector('#problems li')?.textContent || ''"))
         assert browser.run("return document.body.classList.contains('stale')")
         browser.run("document.querySelector('[data-goto]').click()")
-        assert browser.run("return document.activeElement.id") == "f:parameters.r"
+        assert browser.run("return document.activeElement.id") == "f:parameters.l"
         browser.run("document.querySelector('[data-remedy]').click()")
-        until(lambda: written(file, "r") == "95 mm")
+        until(lambda: written(file, "l") == "650 mm")
         browser.run("document.getElementById('undo').click()")
         browser.run("document.getElementById('undo').click()")
         until(lambda: file.read_text(encoding="utf-8") == begun)
         browser.run("document.querySelector('[data-make=pdf]').click()")
         # What an editor writes meanwhile is in the form.
         file.write_text(begun.replace("r: 150 mm", "r: 160 mm"), encoding="utf-8")
-        until(lambda: browser.run("return document.getElementById('f:parameters.r').value") == "160 mm")
+        until(lambda: browser.run("return document.getElementById('f:parameters.r')?.value") == "160 mm")
         until(lambda: browser.run("return document.querySelector('#making a')?.textContent || ''"))
         assert (tmp_path / "out" / "mine" / "report.pdf").read_bytes().startswith(b"%PDF-")
         assert not [message for message in browser.messages() if "favicon" not in message]
@@ -116,13 +127,13 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
     [("engine-twin", "H", "vi", 360, True), ("shaper", "a", "en", 1440, False)],
 )
 def test_the_form_can_be_used_by_all(
-    browser: Browser, tmp_path: Path, kind: str, key: str, language: str, width: int, dark: bool
+    browser: Browser, tmp_path: Path, kind: str, key: str, language: Language, width: int, dark: bool
 ) -> None:
     """axe finds nothing, nothing is scrolled sideways, a key alone changes a value, cells of a workbook are taken."""
-    file = tmp_path / "mine.yaml"
-    with editing(kind, "-o", file, "--lang", language) as address:
+    (file := tmp_path / "mine.yaml").write_text(catalogue.sample(kind, language), encoding="utf-8")
+    with edited(file, opener()) as server:
         before = written(file, key)
-        browser.show(address, width=width, height=800, dark=dark, still=True)
+        browser.show(server.address, width=width, height=800, dark=dark, still=True)
         assert browser.run("return document.documentElement.scrollWidth <= innerWidth")
         browser.run(PRESS, f"f:parameters.{key}", ["ArrowUp", "Enter"])
         until(lambda: re.fullmatch(r"\d+ mm", written(file, key)) and written(file, key) != before)
@@ -137,5 +148,8 @@ def test_the_form_can_be_used_by_all(
             until(lambda: re.findall(r"\d+", browser.run(REFUSED)) == ["3001", "2000"])
             assert browser.run(IN_SIGHT), "where the table is"
             assert file.read_text(encoding="utf-8") == changed
+            # Of a ratio it is the lower number that is changed: 1/3.6.
+            browser.run(PRESS, "f:parameters.lambda", ["ArrowUp", "ArrowUp", "Enter"])
+            until(lambda: written(file, "lambda") == "1/3.8")
         # What stands beside the form is looked at by itself.
         assert browser.violations(axe(), "#form") == []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import http.client
+import inspect
 import json
 import os
 import re
@@ -21,15 +22,17 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.assignment.schema import alternatives, file_schema
-from reportgen.base import source
+from reportgen.base import source, source_edit
 from reportgen.base.errors import Where
 from reportgen.base.kinds import kinds
 from reportgen.base.source import LARGEST, MappingNode, read_text
+from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
+from reportgen.base.words import load_words
 from reportgen.cases import open_case
-from reportgen.page import editing
+from reportgen.page import editing, html
 from reportgen.page.choosing import Chooser
-from reportgen.page.editing import EditSession
+from reportgen.page.editing import EditSession, RefusedChangeError
 from reportgen.page.fields import FieldGroup, FieldLine, Form
 from reportgen.page.making import Maker
 from reportgen.page.serving import Server
@@ -86,6 +89,15 @@ def _written(node: Any, where: Where = ()) -> Iterator[tuple[Where, str]]:
             yield from _written(value, (*where, key.text))
         elif hasattr(value, "text"):
             yield (*where, key.text), "" if value.null else value.text
+
+
+def test_the_form_is_small(tmp_path: Path) -> None:
+    """The longest form has 60 kB, what only a form needs of scripts and styles 25 kB."""
+    edited = session(tmp_path, catalogue.sample("linkage", "vi"))
+    assert len(edited.form().encode()) < 60_000
+    scripts = [html.lean(name) for name in (*editing.SCRIPTS, html.FEED) if name != "live.js"]
+    styles = [html.read(name) for name in editing.STYLES if name != "live.css"]
+    assert sum(len(text.encode()) for text in (*scripts, *styles)) < 25_000
 
 
 def test_a_quantity_knows_unit_bounds_and_what_may_stand_instead() -> None:
@@ -151,6 +163,8 @@ def test_one_key_gives_way_to_another(tmp_path: Path) -> None:
     assert catalogue.check(edited.path) == []
     edited.edit({"op": "instead", "where": ["parameters", "G3"], "key": "m3", "value": ""})
     assert "  m3:   " in edited.path.read_text(encoding="utf-8")
+    there = edited.edit({"op": "instead", "where": ["parameters", "a"], "key": "b", "value": "1 mm"})
+    assert there["refused"].startswith("parameters.a cannot give way to b")
 
 
 def test_parts_are_added_moved_and_removed(tmp_path: Path) -> None:
@@ -218,10 +232,25 @@ def test_a_full_disk_is_told_and_leaves_the_file(tmp_path: Path, monkeypatch: py
     with monkeypatch.context() as disk:
         disk.setattr(Path, "write_bytes", full)
         refused = put(edited, ("parameters", "a"), "275 mm")["refused"]
-    assert os.strerror(errno.ENOSPC) in refused
+    assert refused == "The file cannot be written: the disk is full."
     assert (list(tmp_path.iterdir()), edited.done) == ([edited.path], [])
     assert edited.path.read_text(encoding="utf-8") == SHAPER
     assert "refused" not in put(edited, ("parameters", "a"), "275 mm"), "there is room again"
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_what_is_refused_is_told_in_the_language_of_the_form(language: Language) -> None:
+    """Every reason that the code names has its words, and no words are left over."""
+    words = load_words(search_path(language))["edit"]
+    named = re.compile(r'(?:EditError|RefusedChangeError)\("(\w+)"')
+    keys = {key for module in (source_edit, editing) for key in named.findall(inspect.getsource(module))}
+    assert keys == words["refused"].keys()
+    assert {"ENOSPC", "EACCES", "EROFS"} <= words["reasons"].keys() <= set(errno.errorcode.values())
+    full = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    full_disk = {"en": "the disk is full", "vi": "đĩa đã đầy"}[language]
+    assert full_disk in RefusedChangeError("unwritten", full).in_words(words)
+    unknown = OSError(errno.EXDEV, "what the system says")
+    assert "what the system says" in RefusedChangeError("unwritten", unknown).in_words(words)
 
 
 def test_more_rows_than_a_list_takes_are_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -252,7 +281,7 @@ def whole_of_two(folder: Path) -> Iterator[EditSession]:
     parts: list[EditSession] = []
 
     def of_part(file: Path) -> EditSession:
-        parts.append(EditSession(partial(open_case, file), "en", path=file, whole=whole.path.name))
+        parts.append(EditSession(partial(open_case, file), "en", path=file, whole=whole.path))
         return parts[-1]
 
     whole.of_part = of_part
@@ -281,6 +310,29 @@ def test_a_part_in_a_file_of_its_own_has_its_own_form(tmp_path: Path) -> None:
         assert whole.below(page) is part
         whole.edit({"op": "remove", "where": ["parts", 0]})
         assert whole.below(page) is None
+
+
+def test_a_part_has_on_its_page_what_it_takes_from_the_machine(tmp_path: Path) -> None:
+    """Half of the machine's 89 rpm, not to be typed there; its own page follows the machine."""
+    without_speed = re.sub(r"(?m)^  n:.*\n", "", catalogue.sample("cam", "en"))
+    (file := tmp_path / "cam.yaml").write_text(without_speed, encoding="utf-8")
+    taking = "from: {n: {of: n, times: 1/2}}"
+    whole = session(tmp_path, f"{SHAPER}\nparts:\n  - {{file: cam.yaml, {taking}}}\n")
+    part = EditSession(partial(open_case, file, "en", whole.path), "en", path=file, whole=whole.path)
+    shown = r'<input id="f:parameters.n" value="([^"]*)"[^>]* readonly>'
+    assert re.findall(shown, part.form()) == ["44.5 rpm"]
+    assert "data-goto" not in part.form()
+    assert open_case(file, "en", whole.path).assignment.parameters.n.text == "44.5 rpm"
+    put(whole, ("parameters", "n"), "100 rpm")
+    assert re.findall(shown, part.form()) == ["50 rpm"]
+    put(part, ("parameters", "n"), "60 rpm")
+    assert 'aria-invalid="true"' in re.findall(r'id="f:parameters.n"[^>]*', part.form())[0]
+    # So it is of one that stands in the coursework's file.
+    inside = session(tmp_path, f"{SHAPER}\nparts:\n  - {taking}\n" + re.sub("(?m)^", "    ", without_speed))
+    assert re.findall(shown.replace(":p", ":parts.0.p"), inside.form()) == ["44.5 rpm"]
+    assert [problem for problem in catalogue.check(inside.path) if problem.level == "error"] == []
+    put(inside, ("parts", 0, "from", "n", "times"), "1/4")
+    assert re.findall(shown.replace(":p", ":parts.0.p"), inside.form()) == ["22.25 rpm"]
 
 
 def test_no_page_leads_to_a_part_outside_the_folder(tmp_path: Path) -> None:

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reportgen.machine.forces import mean_over
 from reportgen.machine.gas import AngleIndicator, StrokeIndicator, indicated_work, stroke_at
+from reportgen.machine.quadrature import mean_over
 
 ROUNDING = 1e-12
 ROD = 3.6  # L/R

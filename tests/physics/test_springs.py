@@ -16,10 +16,11 @@ from hypothesis import strategies as st
 import reportgen
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Analysis
+from reportgen.machine.coils import Anchor
 from reportgen.machine.forces import inertia_loads, solve_forces, weights
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.motion import Motion, solve_motion
-from reportgen.machine.springs import Anchor, SpringLaw, TorsionLaw
+from reportgen.machine.springs import SpringLaw, TorsionLaw
 from tests.lanes import proof
 
 TEXT = """

@@ -13,13 +13,13 @@ from reportgen.machine.forces import (
     Load,
     as_single_force,
     inertia_loads,
-    mean_over,
     percussion_points,
     solve_forces,
     virtual_work_torque,
     weights,
 )
 from reportgen.machine.motion import Motion, cross, solve_motion
+from reportgen.machine.quadrature import mean_over
 
 COUNT = 256
 """Positions of a turn: the machines' spectra fall below rounding long before the 128th harmonic."""

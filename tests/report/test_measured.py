@@ -32,9 +32,11 @@ def walk(blocks: Sequence[tree.Block]) -> Iterator[tree.Figure | tree.Plate]:
 def names(document: tree.Document) -> dict[str, set[Content]]:
     """What is written in the figures of a document, by their keys; all plates of one figure under the first key."""
     found: dict[str, set[Content]] = {}
+    key = ""
     for block in walk(document.blocks):
         scenes = block.scenes if isinstance(block, tree.Figure) else (block.scene,)
-        key = re.sub(r"^(fig\.centres\.\w+)\.\d+$", r"\1", block.key)
+        if not (isinstance(block, tree.Plate) and block.continues):
+            key = re.sub(r"^(fig\.centres\.\w+)\.\d+$", r"\1", block.key)
         own = found.setdefault(key, set())
         own |= {item.content for scene in scenes for item in scene.items if isinstance(item, Label)}
     return found

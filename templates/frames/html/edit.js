@@ -5,39 +5,44 @@
   const machine = typeof panels === "undefined" ? undefined : panels[0];
   const post = (name, body) => fetch(name, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) });
   const place = (element) => JSON.parse(element.closest("[data-w]").dataset.w);
-  const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => one.dataset.w === JSON.stringify(where));
-  const NUMBER = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(.*)$/;
+  const byPlace = (where) => [...form.querySelectorAll("input[data-w], select[data-w], fieldset[data-w]")].find((one) => JSON.stringify(place(one)) === JSON.stringify(where));
 
   // --- numbers with their units
 
-  // A number as it is written to the file: no more figures than it needs, never a thousand that looks like decimals.
-  const written = (number, unit) => `${Number(number.toPrecision(4))}${unit}`;
-  const within = (input, number) => {
+  // A number as typed, the lower one of a ratio as 1/3.6: what stands before it, its digits, its unit.
+  const DIGITS = "[+-]?(?:\\d+\\.?\\d*|\\.\\d+)(?:[eE][+-]?\\d+)?", TYPED = new RegExp(`^\\s*(${DIGITS}\\s*/\\s*)?(${DIGITS})(.*)$`);
+  const typed = (text) => {
+    const [, over = "", digits, unit] = TYPED.exec(text) || [];
+    return digits && { over, digits, unit, number: Number(digits) };
+  };
+  // As it is written to the file: no more figures than it needs, never a thousand that looks like decimals.
+  const written = ({ over, unit }, number, figures) => `${over}${Number(number.toPrecision(figures))}${unit}`;
+  const within = (input, { over, unit }, number) => {
     // Bounds are those in the unit of the field; in another one they are left to the program.
-    const own = (NUMBER.exec(input.value) || [])[2];
-    if (input.dataset.unit && own !== undefined && own.trim() !== input.dataset.unit) return number;
+    if (input.dataset.unit && unit.trim() !== input.dataset.unit) return number;
     const low = Number(input.dataset.low ?? -Infinity), high = Number(input.dataset.high ?? Infinity);
-    return Math.min(Math.max(number, low), high);
+    const bounded = (value) => Math.min(Math.max(value, low), high);
+    return over ? parseFloat(over) / bounded(parseFloat(over) / number) : bounded(number);
   };
   const stepped = (input, sense) => {
-    const parts = NUMBER.exec(input.value);
+    const parts = typed(input.value);
     if (!parts) return null;
-    const number = Number(parts[1]), decimals = (parts[1].split(".")[1] || "").length;
+    const { number, digits } = parts, decimals = (digits.split(".")[1] || "").length;
     const step = 10 ** -decimals * (Math.abs(number) >= 100 && !decimals ? 5 : 1);
-    return written(within(input, Number((number + sense * step).toFixed(decimals))), parts[2]);
+    return written(parts, within(input, parts, Number((number + sense * step).toFixed(decimals))), 7);
   };
   const slider = (input) => {
-    const parts = NUMBER.exec(input.value);
-    if (!parts || parts[2].includes("/")) return;
-    const number = Number(parts[1]), reach = Math.abs(number) / 2 || 10;
+    const parts = typed(input.value);
+    if (!parts) return;
+    const { number } = parts, reach = Math.abs(number) / 2 || 10;
     const bar = document.createElement("input");
     bar.type = "range";
-    bar.min = within(input, number - reach);
-    bar.max = within(input, number + reach);
+    bar.min = within(input, parts, number - reach);
+    bar.max = within(input, parts, number + reach);
     bar.step = Number((reach / 100).toPrecision(1));
     bar.value = number;
     bar.setAttribute("aria-label", `${words.slide}: ${input.labels[0].textContent}`);
-    const value = () => written(Number(bar.value), parts[2]);
+    const value = () => written(parts, Number(bar.value), 4);
     bar.addEventListener("input", () => { input.value = value(); drag(input); });
     bar.addEventListener("change", () => { input.value = value(); commit(input); });
     input.closest(".field").querySelector(".box").after(bar);
@@ -81,8 +86,10 @@
         document.body.classList.toggle("stale", !known);
         if (!known) continue;
         const length = new DataView(samples).getUint32(0, true);
-        const bodies = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
-        extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), bodies);
+        const changes = JSON.parse(new TextDecoder().decode(new Uint8Array(samples, 4, length)));
+        // Changes of another machine than the page shows are no changes of that; its own come with the next value.
+        if (String(changes.of) !== document.body.dataset.moving) continue;
+        extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes);
       } catch { /* the server tells of itself */ }
     }
     asking = false;
@@ -204,7 +211,8 @@
     const cells = text.replace(/\r/g, "").replace(/\n+$/, "").split("\n").map((line) => line.split("\t").map((one, column) => {
       let cell = one.trim();
       if (/^[+-]?\d+,\d+(?!\d)/.test(cell)) { cell = cell.replace(",", "."); turned = true; }
-      return NUMBER.test(cell) && !NUMBER.exec(cell)[2].trim() && unit(column) ? `${cell} ${unit(column)}` : cell;
+      const parts = typed(cell);
+      return parts && !parts.over && !parts.unit.trim() && unit(column) ? `${cell} ${unit(column)}` : cell;
     }));
     return { cells, turned };
   };
@@ -241,7 +249,7 @@
       if (!/[\t\n]/.test(text)) return;
       event.preventDefault();
       const from = Number(event.target.dataset.row), first = Number(event.target.dataset.column);
-      const unit = (column) => ((NUMBER.exec(columns[first + column]?.[0] || "") || [])[2] || "").trim();
+      const unit = (column) => (typed(columns[first + column]?.[0] || "")?.unit || "").trim();
       const { cells, turned } = paste(text, unit), all = rows();
       cells.forEach((line, index) => {
         all[from + index] ??= columns.map(() => "0");

@@ -1,10 +1,14 @@
   // Put into each panel where a form stands beside it: other samples of the same machine while a value is drawn, bodies
   // in their new shape, and where a point is on the drawing.
   const reshaped = new Map();
+  let mounted, fed;
   extended.set(root, {
-    feed: (samples, bodies) => {
-      if (samples.length !== values.length) return;
-      values = samples;
+    // Samples stand in runs, [place, number] each, among those of the machine as it was mounted.
+    feed: (samples, { bodies, runs }) => {
+      if (values !== fed) mounted = values;
+      fed = values = mounted.slice();
+      let taken = 0;
+      for (const [place, number] of runs) values.set(samples.subarray(taken, taken += number), place);
       shown = {};
       const items = drawing.parts[0].element.querySelector("svg").children;
       const next = new Map(Object.entries(bodies).map(([place, body]) => [items[place], body]));

@@ -4,7 +4,10 @@
   const given = JSON.parse(document.getElementById("live").textContent);
   const fault = document.getElementById("fault"), state = document.getElementById("state");
   const report = document.getElementById("report");
-  const shown = { moving: given.moving, report: given.report, language: document.documentElement.lang };
+  const shown = { report: given.report, language: document.documentElement.lang };
+  // What is told of a machine is of the one with this number.
+  const showing = (moving) => { document.body.dataset.moving = shown.moving = moving; };
+  showing(given.moving);
   const looks = { moving: new CSSStyleSheet(), report: new CSSStyleSheet() };
   const moves = typeof panels === "undefined" ? [] : panels;
   document.adoptedStyleSheets = Object.values(looks);
@@ -81,7 +84,7 @@
         fault.setAttribute("aria-label", said);
         if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { leave(); return; }
         if (now.moving !== shown.moving) await renewMoving();
-        shown.moving = now.moving;
+        showing(now.moving);
         if (now.report !== shown.report) await renewReport();
         shown.report = now.report;
         state.textContent = now.busy ? given.words.waiting : now.fault ? "" : given.words.ready;

@@ -1,0 +1,82 @@
+"""Springs in the figures of a machine: a zigzag between two ends, a spiral about a pin."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Sequence
+
+import numpy as np
+
+from reportgen.drawing import Circle, Item, Polyline, style
+from reportgen.drawing.canvas import Canvas
+from reportgen.drawing.geometry import Complexes, polar, unit
+from reportgen.drawing.labels import Request, label
+from reportgen.formula import Symbol
+from reportgen.machine import Linkage
+from reportgen.machine.coils import Coil
+from reportgen.machine.motion import Motion
+
+LEAD, TEETH, SIDE = 0.18, 8, 1.7
+"""Straight pieces at both ends (shares of the length), corners between them, and how far these stand out (mm)."""
+TURNS, INNER, OUTER = 2.25, style.JOINT, 5.6
+"""Of the spiral about a pin: its turns, its radii (mm)."""
+PER_TURN = 24
+MOUNT = 4.6
+"""Half the strip of ground at which a spring hangs (mm), as broad as that below a pivot."""
+
+
+def zigzag(start: Complexes, end: Complexes) -> list[Complexes]:
+    """The corners (mm) [N] of a spring between two ends [N]: its turns come apart as it is stretched."""
+    along = end - start
+    length = np.abs(along)
+    across = 1j * SIDE * along / np.where(length > 0, length, 1.0)
+    shares = (LEAD + (1 - 2 * LEAD) * (n + 0.5) / TEETH for n in range(TEETH))
+    teeth = [start + share * along + (-1) ** n * across for n, share in enumerate(shares)]
+    return [start, start + LEAD * along, *teeth, end - LEAD * along, end]
+
+
+def spiral() -> Polyline:
+    """A torsion spring about the origin (mm), which holds a link along +x."""
+    rising = np.linspace(0.0, 1.0, round(TURNS * PER_TURN) + 1)
+    places = (INNER + (OUTER - INNER) * rising) * np.exp(2j * math.pi * TURNS * (rising - 1))
+    return Polyline((*map(complex, places),), style.VISIBLE)
+
+
+def named(coil: Coil) -> Symbol:
+    """What a spring is called in figures: by its stiffness."""
+    return Symbol("c", str(coil.number))
+
+
+def mounts(coil: Coil, linkage: Linkage, start: complex, end: complex, pivots: Collection[str]) -> list[Item]:
+    """The ground at the ends (mm) of a spring that are fixed and no pivots."""
+    items: list[Item] = []
+    for anchor, at, other in zip(coil.ends, (start, end), (end, start), strict=True):
+        if not anchor.name or (anchor.name in linkage.ground and anchor.name not in pivots):
+            along = -1j * unit(at - other) if at != other else 1.0
+            items += style.ground(at - MOUNT * along, at + MOUNT * along, 1)
+            items.append(Circle(at, style.POINT, style.VISIBLE, style.PAPER))
+    return items
+
+
+def springs(
+    coils: Sequence[Coil], linkage: Linkage, motion: Motion, index: int, scale: float, pivots: Collection[str]
+) -> Canvas:
+    """All springs at position `index`, `scale` mm of paper per m, with what they are called."""
+    items: list[Item] = []
+    requests: list[Request] = []
+    for coil in coils:
+        start, end = (complex(place[index]) * scale for place in coil.at(motion))
+        if coil.wound:
+            towards = unit(end - start)
+            wound = spiral()
+            items.append(Polyline(tuple(start + point * towards for point in wound.points), style.VISIBLE))
+            places = [start + OUTER * towards * polar(turn) for turn in (math.pi, 2.2, -2.2, 1.2, -1.2)]
+            requests.append(label(places, named(coil)))
+            continue
+        items += mounts(coil, linkage, start, end, pivots)
+        corners = zigzag(np.array(start), np.array(end))
+        items.append(Polyline(tuple(map(complex, corners)), style.VISIBLE))
+        places = [start + share * (end - start) for share in (0.5, 0.4, 0.6, 0.3, 0.7)]
+        across = float(np.angle(end - start)) + math.pi / 2
+        requests.append(label(places, named(coil), prefer=(across, across + math.pi), gap=SIDE + 0.5))
+    return Canvas(tuple(items), tuple(requests))

@@ -1,0 +1,44 @@
+"""Springs as bodies: where they hang, whatever force they exert."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.formula import Ref, ids
+from reportgen.formula.sheet import Sheet
+from reportgen.machine.motion import Complexes, Motion
+
+
+@dataclass(frozen=True, slots=True)
+class Anchor:
+    """An end of a spring: a named point, or a place (m) of the frame that has no name."""
+
+    name: str = ""
+    place: complex = 0j
+
+    def at(self, motion: Motion) -> Complexes | complex:
+        return motion.points[self.name].p if self.name else self.place
+
+    def on(self, q: Sheet, number: int) -> Ref:
+        """The end as it is drawn (m)."""
+        if self.name:
+            return q[ids.place(self.name)]
+        id = ids.spring_anchor(number)
+        return q.find(id) or q.give(id, self.place, id, "length", hidden=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Coil:
+    """A spring by its number, from one end to the other; one that is `wound` lies about its first end,
+    a pin of the frame, and holds the line to the second."""
+
+    number: int
+    ends: tuple[Anchor, Anchor]
+    wound: bool = False
+
+    def at(self, motion: Motion) -> tuple[Complexes, Complexes]:
+        """Both ends (m) [N]."""
+        first, last = (np.broadcast_to(end.at(motion), motion.driver.shape) for end in self.ends)
+        return first, last

@@ -1,0 +1,109 @@
+"""A class whose machines stand at single instants: drawn, set as tasks, filled in, marked; new mistakes have names."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from reportgen.cases import open_case
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.run import Order, run_batch
+from reportgen.classes.variants import make_variants
+from reportgen.marking.key import Ask
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
+from reportgen.workbook import read, write_xlsx
+from tests.lanes import proof
+from tests.marking import students
+from tests.marking.test_mistakes import possible_mistakes
+
+FOUR_BAR = """
+kind: four-bar
+variant: 2026-B
+salt: springs
+report: {language: vi, extent: short}
+positions: {at: [{from: 40 deg, to: 80 deg, step: 10 deg}]}
+parameters:
+  {AB: {from: 100 mm, to: 120 mm, step: 10 mm}, BC: [340 mm, 350 mm], CD: 300 mm, AD: 400 mm, omega1: 12 rad/s,
+   epsilon1: {from: 40 rad/s2, to: 80 rad/s2, step: 20 rad/s2}, g: 0 m/s2, m1: 3 kg, m2: 5 kg, m3: 4 kg,
+   loads: [{by: constant, link: 3, M: 200 N m, against: motion}],
+   springs: [{link: 3, at: C, to: [300 mm, 420 mm], c: {from: 2 N/mm, to: 5 N/mm, step: 1 N/mm}, free: 90 mm},
+             {link: 3, about: D, c: 20 N m/rad, free: [80 deg, 100 deg]}]}
+"""
+SHAPER = """
+kind: shaper
+variant: 2026-C
+salt: faces
+report: {language: en, extent: short}
+positions: {at: [60 deg, 120 deg]}
+parameters:
+  {a: 270 mm, b: 520 mm, l3: 550 mm, l4: 100 mm, H: {from: 300 mm, to: 420 mm, step: 20 mm}, n: [60 rpm, 75 rpm],
+   cutting: {F: {from: 800 N, to: 1200 N, step: 100 N}, free: 0.05}, G3: 200 N, G5: 600 N,
+   loads: [{by: constant, link: 5, M: -42 N m}], faces: {5: {from: -90 mm, to: [20 mm, 30 mm, 40 mm], below: 60 mm}}}
+"""
+MISTAKES = (("a.B.t", "no-tangential"), ("P3", "no-free-length"), ("M.Pqt1", "no-couple-of-driver"))
+REVERSED = (*MISTAKES, ("turn.eps.1", "direction-reversed"))
+
+
+def drawn(spec: str, count: int, folder: Path) -> tuple[Path, Path]:
+    """The roster of a class and the folder of its assignments."""
+    (folder / "spec.yaml").write_text(spec, encoding="utf-8")
+    roster = folder / "roster.csv"
+    roster.write_text("id,name\n" + "".join(f"S{n:02},Student {n}\n" for n in range(count)), encoding="utf-8")
+    make_variants(folder / "spec.yaml", roster, folder / "given")
+    return roster, folder / "given"
+
+
+def handed_in(given: Path, into: Path, made: Sequence[tuple[str, str]]) -> Mapping[str, tuple[str, str]]:
+    """Sheets filled in from first to last cell, those of the first students each with one of the mistakes `made`."""
+    into.mkdir()
+    slips = {}
+    for number, file in enumerate(sorted(given.glob("S*.yaml"))):
+        scheme = marking_scheme(open_case(file))
+        scheme = replace(scheme, key=Ask().of(scheme.key))
+        mistake = None
+        if number < len(made):
+            mistake = next(one for one in possible_mistakes(scheme) if (one.where, one.name) == made[number])
+            slips[file.stem] = made[number]
+        sheet = students.written(scheme, students.worked_out(scheme, mistake))
+        (into / f"{file.stem}.xlsx").write_bytes(write_xlsx(students.filled_book(scheme.key, sheet)))
+    return slips
+
+
+def told(graded: Graded) -> dict[str, list[tuple[str, str]]]:
+    """The first mistakes of each student, by the places where they are made."""
+    assert graded.problems == ()
+    return {one.key.id: [(cell.where, cell.mistake) for cell in one.first_errors] for one in graded.markings}
+
+
+def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
+    """One mistake costs one mark, whatever follows from it."""
+    _, given = drawn(FOUR_BAR, 3, tmp_path)
+    slips = handed_in(given, tmp_path / "in", MISTAKES)
+    graded = assess.grade([tmp_path / "in"], given, Policy())
+    assert told(graded) == {id: [slip] for id, slip in slips.items()}
+    assert [one.out_of - one.points for one in graded.markings] == [1, 1, 1]
+
+
+@proof
+@pytest.mark.parametrize(
+    ("spec", "count", "made", "asked"), [(FOUR_BAR, 12, REVERSED, "spring.l.1"), (SHAPER, 3, (), "face.05.1")]
+)
+def test_a_class_goes_from_its_variants_to_its_marks(
+    tmp_path: Path, spec: str, count: int, made: Sequence[tuple[str, str]], asked: str
+) -> None:
+    roster, given = drawn(spec, count, tmp_path)
+    order = Order(roster, None, given, tmp_path / "out", ("task",), language="vi", jobs=1)
+    done = run_batch(order, io.StringIO())
+    assert (done.made, done.exit_code) == (count, 0)
+    paper = read(tmp_path / "out" / "S00" / "answers.xlsx", "vi")[0]
+    assert asked in {str(row[0].value) for row in paper.rows if row}
+    slips = handed_in(given, tmp_path / "in", made)
+    graded = assess.grade([tmp_path / "in"], given, Policy(), roster=roster)
+    assert told(graded) == {f"S{n:02}": [slips[f"S{n:02}"]] if n < len(made) else [] for n in range(count)}
+    assert [one.out_of - one.points for one in graded.markings] == [1] * len(made) + [0] * (count - len(made))
