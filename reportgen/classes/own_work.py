@@ -18,7 +18,8 @@ from reportgen.classes.platforms import Handed, changed
 from reportgen.classes.reading_sheets import names_in, read_own
 from reportgen.classes.roster import comparable
 from reportgen.handin import FileReading, submission
-from reportgen.handin.files import content, kinds
+from reportgen.handin.drawing_reader import WantedPlans
+from reportgen.handin.files import DRAWING, content, kinds
 from reportgen.handin.reading_book import NAME
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice
@@ -54,10 +55,15 @@ class OwnWorks:
         self.problems += problems
 
 
+PlansOf = Callable[[Key, Sequence[FileReading]], WantedPlans | None]
+"""The plans that a drawing for a key may have, also by the values of files that were read before."""
+
+
 def own_works(
     handed: Sequence[Handed],
     keys: Mapping[str, Key],
     student_of: Callable[[Handed], Key | None],
+    plans_of: PlansOf,
     twice: Twice,
     language: Language | None,
 ) -> OwnWorks:
@@ -79,13 +85,21 @@ def own_works(
     chosen = list(_chosen(of_assignment, keys, gathered, twice, language))
     known = {key.id: key for key in keys.values()}
     read: dict[str, list[tuple[Handed, FileReading]]] = {}
-    assignments = iter([assignment for assignment, _ in chosen])
-    for file, reading in read_own(((file, known[assignment]) for assignment, file in chosen), language):
-        assignment = next(assignments)
-        if isinstance(reading, list):
-            gathered.refuse(file, reading)
-        else:
-            read.setdefault(assignment, []).append((file, reading))
+    drawings = [one for one in chosen if one[1].path.suffix.lower() == DRAWING]
+    # A report says by which values its drawings may be found.
+    for several in ([one for one in chosen if one not in drawings], drawings):
+        sought = {
+            assignment: plans_of(known[assignment], [reading for _, reading in read.get(assignment, ())])
+            for assignment, _ in (several if several is drawings else ())
+        }
+        assignments = iter([assignment for assignment, _ in several])
+        calls = ((file, known[assignment], sought.get(assignment)) for assignment, file in several)
+        for file, reading in read_own(calls, language):
+            assignment = next(assignments)
+            if isinstance(reading, list):
+                gathered.refuse(file, reading)
+            else:
+                read.setdefault(assignment, []).append((file, reading))
     gathered.works |= {assignment: OwnWork(tuple(files)) for assignment, files in read.items()}
     return gathered
 

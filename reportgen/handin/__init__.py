@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from reportgen.base.errors import Fault
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.marking.marks import Answer, Measured, Place, Submission
+from reportgen.marking.marks import Answer, Place, ReadOff, Submission
 
 FEWEST_FIGURES = 2
 """Figures that a number has been written with at least."""
@@ -37,7 +37,7 @@ class FileReading:
     values: Mapping[Place, Answer]
     unread: Mapping[Place, Fault] = field(default_factory=dict)
     notes: tuple[Fault, ...] = ()
-    measured: Mapping[Place, Measured] = field(default_factory=dict)
+    measured: Mapping[Place, ReadOff] = field(default_factory=dict)
     """How the values of a drawing were read."""
     drawn: frozenset[Place] = frozenset()
     """The places of which a drawing has to show something."""
@@ -57,7 +57,7 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
     """
     values: dict[Place, Answer] = {}
     unread: dict[Place, Fault] = {}
-    measured: dict[Place, Measured] = {}
+    measured: dict[Place, ReadOff] = {}
     readings = sorted(readings, key=lambda reading: bool(reading.measured))
     for reading in readings:
         if reading.measured:

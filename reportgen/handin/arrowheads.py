@@ -1,4 +1,4 @@
-"""Arrowheads among the lines of a drawing: two short strokes, or two sides of a triangle, on both sides of a line's end.
+"""Arrowheads among the lines of a drawing: two short strokes, or two sides of a triangle, about the end of a line.
 
 However they were drawn, they say where a vector ends, and they are no vectors.
 """

@@ -23,7 +23,7 @@ from reportgen.handin.plan_labels import Labels
 from reportgen.handin.plan_shapes import PlanShape, PlanSketch, Values
 from reportgen.handin.wrong_vectors import WrongVector, wrong_vectors
 from reportgen.marking.bands import PAPER_ERROR
-from reportgen.marking.marks import Answer, Measured, Place
+from reportgen.marking.marks import Answer, Place, ReadOff
 from reportgen.report.key import Key
 from reportgen.workbook.package import RefusedError
 
@@ -37,10 +37,15 @@ USUAL = (1.0, 10.0, 1000.0, 25.4)
 
 @dataclass(frozen=True)
 class DrawnMark(Mark):
-    """Where a vector begins in a drawing, in its own units, and where it should end to be right."""
+    """Where a vector begins in a drawing, in its own units of so many mm, and where it should end.
+
+    A `wrong` one does not end there.
+    """
 
     at: complex = 0j
     right: complex = 0j
+    unit: float = 1.0
+    wrong: bool = False
 
     def __str__(self) -> str:
         return f"{self.file}:({self.at.real:.6g}, {self.at.imag:.6g})"
@@ -55,6 +60,7 @@ class DrawnMark(Mark):
 class WantedPlans:
     """What is looked for in a drawing: the plans of an assignment, from the key's values and from a student's own."""
 
+    key: Key
     sketches: Sequence[PlanSketch]
     known: Values
     worlds: Sequence[Values] = ()
@@ -64,12 +70,12 @@ class WantedPlans:
     def shapes(self, values: Values) -> list[PlanShape]:
         return [shape for sketch in self.sketches for shape in sketch.shapes(values)]
 
-    def labels(self, texts: Sequence[DrawnText], key: Key) -> Labels:
-        names = {label.casefold(): k for k, label in enumerate(key.labels, start=1)}
+    def labels(self, texts: Sequence[DrawnText]) -> Labels:
+        names = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
         return Labels(tuple(texts), self.words, names)
 
 
-def read_drawing(drawn: DrawnLines, file: str, key: Key, wanted: WantedPlans) -> FileReading:
+def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
     """What a drawing shows of the plans that are wanted, in the unit that it names or else in a usual one.
 
     Raises `RefusedError` where it has more lines than any drawing of plans.
@@ -78,11 +84,11 @@ def read_drawing(drawn: DrawnLines, file: str, key: Key, wanted: WantedPlans) ->
         raise RefusedError("drawing-lines", Mark(file), most=str(MOST_LINES))
     searches: list[_Search] = []
     for unit in dict.fromkeys((*((drawn.unit,) if drawn.unit else ()), *USUAL)):
-        searches.append(_Search.of(drawn, unit, key, wanted))
-        if searches[-1].found.plans:
+        searches.append(_Search.of(drawn, unit, wanted))
+        if searches[-1].plans.plans:
             break
-    best = searches[-1] if searches[-1].found.plans else searches[0]
-    return _Reading(best, key, file).read(drawn.notes)
+    best = searches[-1] if searches[-1].plans.plans else searches[0]
+    return _Reading(best, wanted.key, file).read(drawn.notes)
 
 
 @dataclass(frozen=True)
@@ -91,45 +97,45 @@ class _Search:
 
     unit: float
     lines: Lines
-    found: FoundPlans
+    plans: FoundPlans
     wrong: tuple[WrongVector, ...] = ()
 
     @classmethod
-    def of(cls, drawn: DrawnLines, unit: float, key: Key, wanted: WantedPlans) -> _Search:
+    def of(cls, drawn: DrawnLines, unit: float, wanted: WantedPlans) -> _Search:
         ends = drawn.ends * unit
         every = Lines(ends[np.abs(ends[:, 1] - ends[:, 0]) > OFF], OFF)
         marked = arrowheads(every)
         kept = ~marked.strokes & (np.abs(every.ends[:, 1] - every.ends[:, 0]) > 2 * every.reach)
         lines, heads = Lines(every.ends[kept], OFF), marked.heads[kept]
         texts = [DrawnText(text.text, text.at * unit, text.height * unit) for text in drawn.texts]
-        labels = wanted.labels(texts, key)
-        found = find(wanted.shapes(wanted.known), lines, labels)
+        labels = wanted.labels(texts)
+        plans = find(wanted.shapes(wanted.known), lines, labels)
         for world in wanted.worlds:
-            found = _with_own(found, wanted.shapes(world), lines, labels)
-        return cls(unit, lines, found, wrong_vectors(found, lines, heads, labels))
+            plans = _with_own(plans, wanted.shapes(world), lines, labels)
+        return cls(unit, lines, plans, wrong_vectors(plans, lines, heads, labels))
 
 
-def _with_own(found: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labels: Labels) -> FoundPlans:
+def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labels: Labels) -> FoundPlans:
     """The same with plans of own values in place of those that were not found, or of which vectors are missing.
 
     They are sought among the lines that no complete plan has.
     """
     least = SEEN * lines.error
-    before = {(fit.shape.scale, fit.shape.position): fit for fit in found.plans}
+    before = {(fit.shape.scale, fit.shape.position): fit for fit in plans.plans}
     whole = {place for place, fit in before.items() if not fit.missing(least)}
     used = [line for place in whole for line in before[place].used]
     index = np.setdiff1d(np.arange(len(lines.ends)), np.array(used, dtype=int))
     left = [shape for shape in shapes if (shape.scale, shape.position) not in whole]
     own = find(left, Lines(lines.ends[index], lines.error), labels)
-    plans = {place: (fit, sure) for (place, fit), sure in zip(before.items(), found.sure, strict=True)}
+    placed = {place: (fit, sure) for (place, fit), sure in zip(before.items(), plans.sure, strict=True)}
     for fit, sure in zip(own.plans, own.sure, strict=True):
         place, full = (fit.shape.scale, fit.shape.position), replace(fit, lines=np.append(index, -1)[fit.lines])
         if place not in before or fit.missing(least) < before[place].missing(least):
-            plans[place] = full, sure
-    taken = {line for fit, _ in plans.values() for line in fit.used}
-    doubtful = [several for several in found.doubtful if not several[0].used & taken]
-    fits, sures = zip(*plans.values(), strict=True) if plans else ((), ())
-    return FoundPlans(fits, sures, tuple(doubtful), max(found.deviation, own.deviation))
+            placed[place] = full, sure
+    taken = {line for fit, _ in placed.values() for line in fit.used}
+    doubtful = [several for several in plans.doubtful if not several[0].used & taken]
+    fits, sures = zip(*placed.values(), strict=True) if placed else ((), ())
+    return FoundPlans(fits, sures, tuple(doubtful), max(plans.deviation, own.deviation))
 
 
 # --- what the vectors say -------------------------------------------------------------------------
@@ -142,14 +148,14 @@ class _Reading:
     file: str
 
     def read(self, notes: Sequence[Fault]) -> FileReading:
-        found = self.search.found
+        plans = self.search.plans
         values: dict[Place, Answer] = {}
-        measured: dict[Place, Measured] = {}
+        measured: dict[Place, ReadOff] = {}
         unread: dict[Place, Fault] = {}
         wrong = {(id(one.plan), one.vector): (one.start, one.end) for one in self.search.wrong}
-        for fit, sure in zip(found.plans, found.sure, strict=True):
+        for fit, sure in zip(plans.plans, plans.sure, strict=True):
             lengths = np.abs(fit.shape.ends - fit.shape.starts)
-            longest = fit.found[lengths[fit.found].argmax()]
+            longest = fit.present[lengths[fit.present].argmax()]
             for number, vector in enumerate(fit.shape.vectors):
                 line = wrong.get((id(fit), number), self.ends(fit, number) if sure[number] else None)
                 if line is None:
@@ -162,17 +168,22 @@ class _Reading:
                     (self.place(vector.direction, fit), *_direction(fit, number, *line)),
                 ):
                     if place is not None:
-                        text = f"{value:.4g} {self.key.row(place[0]).unit}"
-                        values[place] = Answer(value, text, self.mark(fit, number, line[0]))
-                        measured[place] = Measured(fit.scale, error)
-        for fit in (fit for several in found.doubtful for fit in several):
+                        # A length is quoted as it is drawn.
+                        shown = value * fit.scale if place is own else value
+                        text = f"{shown:.4g} {self.key.row(place[0]).unit}"
+                        mark = self.mark(fit, number, line[0], (id(fit), number) in wrong)
+                        values[place] = Answer(value, text, mark)
+                        measured[place] = ReadOff(fit.scale, error)
+        for fit in (fit for several in plans.doubtful for fit in several):
             for number, vector in enumerate(fit.shape.vectors):
                 for place in filter(None, (self.place(name, fit) for name in (vector.length, vector.direction))):
                     unread.setdefault(place, Fault("unread-two-plans", self.mark(fit, number)))
-        nothing = () if found.plans or found.doubtful else (Fault("drawing-no-plans", Mark(self.file)),)
+        nothing = () if plans.plans or plans.doubtful else (Fault("drawing-no-plans", Mark(self.file)),)
         unread = {place: fault for place, fault in unread.items() if place not in values}
         drawn = frozenset((*values, *unread))
-        return FileReading(self.key.id, self.file, values, unread, (*notes, *nothing), measured, drawn)
+        return FileReading(
+            self.key.id, self.file, values, unread, notes=(*notes, *nothing), measured=measured, drawn=drawn
+        )
 
     def place(self, id: str, fit: Fit) -> Place | None:
         """The place of a quantity at a plan's position, if the key has a cell for it there.
@@ -190,7 +201,7 @@ class _Reading:
         return (complex(second), complex(first)) if fit.turned[number] else (complex(first), complex(second))
 
     def doubts(self, fit: Fit, number: int) -> dict[Place, Fault]:
-        """Why a vector of a plan that was found is not read; nothing of one that is too short, or need not be drawn."""
+        """Why a vector of a plan is not read; nothing of one that is too short, or need not be drawn."""
         vector = fit.shape.vectors[number]
         length = fit.scale * abs(fit.shape.ends[number] - fit.shape.starts[number])
         here = fit.lines[number] >= 0
@@ -199,11 +210,11 @@ class _Reading:
         fault = Fault("unread-beside" if here else "unread-vector", self.mark(fit, number))
         return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
 
-    def mark(self, fit: Fit, number: int, start: complex | None = None) -> DrawnMark:
+    def mark(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnMark:
         """Where a vector begins, as drawn or as it should, and where it should end."""
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
-        way = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
-        return DrawnMark(self.file, at=a / unit, right=(a + way) / unit)
+        along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
+        return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong)
 
 
 def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float]:

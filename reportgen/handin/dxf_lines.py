@@ -55,16 +55,16 @@ class DrawnLines:
 
 def read_lines(data: bytes, file: str) -> DrawnLines:
     """The lines and texts of a DXF.  Raises `RefusedError`."""
-    found = read_entities(data, file)
-    encoding = encoding_of(found.header)
-    model = _pieces(found.model, encoding)
-    unfolding = _Unfolding(found, encoding, file)
+    contents = read_entities(data, file)
+    encoding = encoding_of(contents.header)
+    model = _pieces(contents.model, encoding)
+    unfolding = _Unfolding(contents, encoding, file)
     unfolding.check(model)
     whole = unfolding.unfolded(model)
-    unit = UNITS.get(int(float(found.header.get(b"$INSUNITS", b"0") or 0)))
+    unit = UNITS.get(int(float(contents.header.get(b"$INSUNITS", b"0") or 0)))
     mark = Mark(file)
-    notes = [Fault("drawing-pictures", mark, {"count": f"{found.pictures}"})] if found.pictures else []
-    names = [name.decode(encoding, "replace") for name, block in found.blocks.items() if block.external]
+    notes = [Fault("drawing-pictures", mark, {"count": f"{contents.pictures}"})] if contents.pictures else []
+    names = [name.decode(encoding, "replace") for name, block in contents.blocks.items() if block.external]
     notes += [Fault("drawing-external", mark, {"text": name}) for name in names]
     return DrawnLines(whole.lines, tuple(whole.texts), unit, tuple(notes))
 
@@ -118,7 +118,7 @@ class Pieces:
 
 @dataclass
 class _Unfolding:
-    found: Entities
+    contents: Entities
     encoding: str
     file: str
     pieces: dict[bytes, Pieces] = field(default_factory=dict)
@@ -146,7 +146,7 @@ class _Unfolding:
         return total
 
     def block(self, name: bytes) -> Pieces | None:
-        block = self.found.blocks.get(name)
+        block = self.contents.blocks.get(name)
         if block is None or block.external:
             return None
         if name not in self.pieces:
@@ -197,7 +197,9 @@ def _pieces(entities: list[Entity], encoding: str) -> Pieces:
         if entity.type == b"VERTEX":
             if corners is not None and polyline is not None:
                 widths = polyline.get(40), polyline.get(41)
-                corners.append(_Corner(_at(entity), entity.get(40, widths[0]), entity.get(41, widths[1]), _bulge(entity)))
+                corners.append(
+                    _Corner(_at(entity), entity.get(40, widths[0]), entity.get(41, widths[1]), _bulge(entity))
+                )
             continue
         if polyline is not None and corners:
             lines += _seen(polyline, _path(corners, bool(polyline.whole(70) & 1)))
@@ -281,12 +283,12 @@ def _path(corners: list[_Corner], closed: bool) -> list[Line]:
     heads: list[Line] = []
     joined = False
     for first, second in pairwise(ring):
-        way = second.at - first.at
-        if first.bent or not way:
+        along = second.at - first.at
+        if first.bent or not along:
             joined = joined and not first.bent
             continue
         last = lines[-1][1] - lines[-1][0] if lines and joined else 0j
-        if last and abs(cmath.phase(way / last)) < STRAIGHT:
+        if last and abs(cmath.phase(along / last)) < STRAIGHT:
             lines[-1] = (lines[-1][0], second.at)
         else:
             lines.append((first.at, second.at))
@@ -300,9 +302,9 @@ def _path(corners: list[_Corner], closed: bool) -> list[Line]:
 
 def _head(back: complex, tip: complex, width: float, whole: bool = False) -> list[Line]:
     """The two strokes of an arrowhead, as long as its piece or only as its width."""
-    way = (back - tip) / abs(back - tip) if back != tip else 0j
-    base = back if whole else tip + 1.5 * width * way
-    return [(tip, base + side * width / 2 * 1j * way) for side in (1, -1)]
+    along = (back - tip) / abs(back - tip) if back != tip else 0j
+    base = back if whole else tip + 1.5 * width * along
+    return [(tip, base + side * width / 2 * 1j * along) for side in (1, -1)]
 
 
 def _seen(entity: Entity, lines: list[Line]) -> list[Line]:
@@ -334,9 +336,9 @@ _SIGN = re.compile("%%[cdpuoCDPUO]")
 
 def _text(entity: Entity, plane: Affine, encoding: str) -> DrawnText:
     written = b"".join(value for code, value in entity.tags if code in (3, 1))
-    text = _CODE.sub(lambda found: chr(int(found[1], 16)), written.decode(encoding, "replace"))
+    text = _CODE.sub(lambda code: chr(int(code[1], 16)), written.decode(encoding, "replace"))
     if entity.type == b"MTEXT":
-        text = _STACKED.sub(lambda found: found[1].replace("^", "").replace(" ", ""), text)
+        text = _STACKED.sub(lambda stacked: stacked[1].replace("^", "").replace(" ", ""), text)
         text = _ORDER.sub("", text.replace("\\P", "\n"))
     else:
         text = _SIGN.sub("", text)

@@ -16,9 +16,7 @@ LARGEST = 50_000_000
 """Bytes of a drawing."""
 MOST = 300_000
 """Lines and texts of a drawing, its blocks unfolded."""
-KEPT = frozenset(
-    "LINE LWPOLYLINE POLYLINE VERTEX SEQEND SOLID TRACE LEADER INSERT TEXT MTEXT ATTRIB".encode().split()
-)
+KEPT = frozenset(b"LINE LWPOLYLINE POLYLINE VERTEX SEQEND SOLID TRACE LEADER INSERT TEXT MTEXT ATTRIB".split())
 """Entities that are read."""
 PICTURES = frozenset(b"IMAGE OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY".split())
 """Entities that are left alone, and told."""
@@ -85,7 +83,7 @@ def read_entities(data: bytes, file: str) -> Entities:
         raise refuse("drawing-dwg")
     if data.startswith(BINARY):
         raise refuse("drawing-binary")
-    found, kept = Entities(), 0
+    contents, kept = Entities(), 0
     section = variable = b""
     block: Block | None = None
     entity: Entity | None = None
@@ -101,32 +99,32 @@ def read_entities(data: bytes, file: str) -> Entities:
                 block = Block() if value == b"BLOCK" else None
                 entity = Entity(value, [], line) if block else None
             elif section == b"ENTITIES" or block is not None:
-                found.pictures += value in PICTURES
+                contents.pictures += value in PICTURES
                 if value in KEPT:
                     kept += 1
                     if kept > MOST:
                         raise refuse("drawing-elements", line, most=f"{MOST}")
                     entity = Entity(value, [], line)
-                    (found.model if block is None else block.entities).append(entity)
+                    (contents.model if block is None else block.entities).append(entity)
         elif section == b"?":
             section = value.upper() if code == 2 else section
         elif section == b"HEADER":
             if code == 9:
                 variable = value
             else:
-                found.header.setdefault(variable, value)
+                contents.header.setdefault(variable, value)
         elif entity is not None:
             if entity.type == b"BLOCK":
                 if code in (10, 20, 70) and not _is_number(value):
                     raise refuse("drawing-damaged", line + 1)
-                _of_block(found, block or Block(), code, value)
+                _of_block(contents, block or Block(), code, value)
             else:
                 if code in _NUMBERS and not _is_number(value):
                     raise refuse("drawing-damaged", line + 1)
                 entity.tags.append((code, value))
     if not sections:
         raise refuse("drawing-none")
-    return found
+    return contents
 
 
 Refuse = Callable[..., RefusedError]
@@ -162,10 +160,10 @@ def _is_number(value: bytes) -> bool:
         return False
 
 
-def _of_block(found: Entities, block: Block, code: int, value: bytes) -> None:
+def _of_block(contents: Entities, block: Block, code: int, value: bytes) -> None:
     """What a pair says of the block that begins with it."""
     if code == 2:
-        found.blocks.setdefault(value.upper(), block)
+        contents.blocks.setdefault(value.upper(), block)
     elif code == 70:
         block.external = bool(int(float(value)) & EXTERNAL)
     elif code == 10:

@@ -89,18 +89,18 @@ def _closer(fit: Fit, lines: Lines, deviation: float) -> Fit | None:
 
 
 def _distinct(several: Sequence[Fit]) -> list[Fit]:
-    found: dict[tuple[int, frozenset[int]], Fit] = {}
+    distinct: dict[tuple[int, frozenset[int]], Fit] = {}
     for fit in several:
         key = id(fit.shape), fit.used
-        if key not in found or fit.square < found[key].square:
-            found[key] = fit
-    return list(found.values())
+        if key not in distinct or fit.square < distinct[key].square:
+            distinct[key] = fit
+    return list(distinct.values())
 
 
 def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
-    """The standard deviation (mm) of ends from their places in each direction, over all plans; at most that expected."""
+    """The standard deviation (mm) of ends from their places in each direction over all plans, not above the usual."""
     usual = lines.error / np.sqrt(3)
-    count = sum(4 * len(fit.found) - 3 for fit in plans)
+    count = sum(4 * len(fit.present) - 3 for fit in plans)
     if count < 4 * MANY:
         return float(usual)
     square = sum(fit.square for fit in plans)
@@ -168,7 +168,7 @@ class _Judge:
         return first[long] % count, second[long] % count
 
     def by_chance(self, taken: Collection[int], left: int) -> float:
-        """How many placings can be tried, as a logarithm: two lines with a common end that no plan has, for each left."""
+        """How many placings can be tried, as a logarithm: two lines that meet and that no plan has, for each left."""
         free = np.ones(len(self.lines.ends), dtype=bool)
         free[list(taken)] = False
         first, second = self._long

@@ -1,8 +1,8 @@
 """Where a plan of known shape lies among the lines of a drawing: found by its corners, fitted by least squares.
 
-A plan may be drawn at any place and to any scale, but not turned: a corner z of the report's figure lies at f z + t, with
-a real f > 0.  Two lines that share an end are tried for each two vectors that share a corner; what they say of f and t
-is tested at all other corners, and fitted to all lines that lie there.
+A plan may be drawn at any place and to any scale, but not turned: a corner z of the report's figure lies at f z + t,
+with a real f > 0.  Two lines that share an end are tried for each two vectors that share a corner; what they say of f
+and t is tested at all other corners, and fitted to all lines that lie there.
 """
 
 from __future__ import annotations
@@ -57,19 +57,19 @@ class Lines:
     def touching(self) -> tuple[np.ndarray, np.ndarray]:
         """The numbers of all two ends, of two lines, that may be one, each pair in either order."""
         first, second = _near(self.points, 2 * self.reach)
-        other = np.flatnonzero(first % len(self.ends) != second % len(self.ends))[:MOST_PAIRS]
-        first, second = first[other], second[other]
+        several = np.flatnonzero(first % len(self.ends) != second % len(self.ends))[:MOST_PAIRS]
+        first, second = first[several], second[several]
         return np.concatenate((first, second)), np.concatenate((second, first))
 
     @cached_property
     def ways(self) -> np.ndarray:
         """The lines as vectors from each of their ends [2 M]."""
-        way = self.ends[:, 1] - self.ends[:, 0]
-        return np.concatenate((way, -way))
+        along = self.ends[:, 1] - self.ends[:, 0]
+        return np.concatenate((along, -along))
 
     @cached_property
     def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """All two lines with a common end: the first's angle, that end, both as vectors from it; sorted by the angle."""
+        """Two lines each with a common end: the first angle, that end, both as vectors from it, by the angle."""
         first, second = self.touching
         along, beside = self.ways[first], self.ways[second]
         at = (self.points[first] + self.points[second]) / 2
@@ -102,14 +102,15 @@ class Lines:
 
 
 _FACTORS = tuple(np.int64(factor) for factor in (1, 0x1F123BB5, 0x2545F4914F6CDD1D, 0x369DEA0F31A53F85))
-"""What the numbers of rows and columns of two cells are multiplied by: a sum that no other two cells are likely to have."""
+"""What rows and columns of two cells are multiplied by: it is unlikely that two others have the same sum."""
 
 
 def _between(starts: np.ndarray, ends: np.ndarray, cell: float) -> np.ndarray:
     """A number for the cells that each line starts and ends in."""
     numbers = (np.floor(part / cell).astype(np.int64) for part in (starts.real, starts.imag, ends.real, ends.imag))
     with np.errstate(over="ignore"):
-        total: np.ndarray = sum((n * factor for n, factor in zip(numbers, _FACTORS, strict=True)), np.int64(0))
+        parts = [number * factor for number, factor in zip(numbers, _FACTORS, strict=True)]
+        total: np.ndarray = np.sum(parts, axis=0)
     return total
 
 
@@ -166,7 +167,7 @@ class Fit:
     """How far the ends of each vector may lie off their places (mm) [E]."""
 
     @property
-    def found(self) -> np.ndarray:
+    def present(self) -> np.ndarray:
         """The numbers of the vectors that have a line."""
         return np.flatnonzero(self.lines >= 0)
 
@@ -191,13 +192,13 @@ class Fit:
         return self.scale * corners + self.shift
 
     def corners_met(self, apart: float) -> tuple[np.ndarray, float]:
-        """The corners [n] (mm) that the lines have, those nearer than `apart` (mm) being one, and how far off these lie.
+        """The corners [n] (mm) that the lines have, those nearer than `apart` (mm) being one, and how far off they lie.
 
         The second is the sum over the corners of the squared mean distance of their ends, each as often as it has ends
         (mm²): how far the ends of one corner lie from each other speaks neither for this plan nor against it.
         """
-        shape, found = self.shape, self.found
-        met = [shape.vectors[number].start for number in found] + [shape.vectors[number].end for number in found]
+        shape, present = self.shape, self.present
+        met = [shape.vectors[number].start for number in present] + [shape.vectors[number].end for number in present]
         places = (self.scale * shape.corners).tolist()
         kept: list[complex] = []
         at: list[int] = []
@@ -227,20 +228,20 @@ def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[F
     met = (lines.run_between(starts, ends) & seen).sum(axis=1)
     enough = np.flatnonzero(met >= np.maximum(2, HALF * seen.sum(axis=1)))
     enough = enough[np.argsort(-met[enough], kind="stable")]
-    found: dict[frozenset[int], Fit] = {}
-    seen: set[tuple[int, int, int]] = set()
+    placed: dict[frozenset[int], Fit] = {}
+    tried_about: set[tuple[int, int, int]] = set()
     for number in enough:
         step = lines.cell / 2
         about = (round(np.log(scale[number]) * 50), round(shift[number].real / step), round(shift[number].imag / step))
-        if about in seen:
+        if about in tried_about:
             continue
-        seen.add(about)
-        if len(seen) > MOST_TRIED:
+        tried_about.add(about)
+        if len(tried_about) > MOST_TRIED:
             break
         fit = fitted(shape, lines, float(scale[number]), complex(shift[number]))
-        if fit is not None and (fit.used not in found or fit.square < found[fit.used].square):
-            found[fit.used] = fit
-    return list(found.values())
+        if fit is not None and (fit.used not in placed or fit.square < placed[fit.used].square):
+            placed[fit.used] = fit
+    return list(placed.values())
 
 
 def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
@@ -290,8 +291,8 @@ def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarra
     """Shifts of a plan of known scale by every line that is as long as one of its vectors, and of its direction."""
     starts, ways = shape.starts, scale * (shape.ends - shape.starts)
     shifts = []
-    for way, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):
-        along = way * (lines.ends[:, 1] - lines.ends[:, 0])
+    for sense, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):
+        along = sense * (lines.ends[:, 1] - lines.ends[:, 0])
         vector, line = np.nonzero(np.abs(ways[:, None] - along) <= 2 * lines.reach)
         shifts.append(start[line] - scale * starts[vector])
     shift = np.concatenate(shifts)
@@ -335,7 +336,8 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
         reach = np.maximum(reach, lines.cell / 2) if turn == 0 else reach
     numbers = np.where(seen, near[line], -1)
     extent = float(np.abs(w[:, None] - w).max())
-    return Fit(shape, scale, shift, numbers, turned[rows, line], w - (scale * z + shift), extent, off_centre, reach)
+    rest = w - (scale * z + shift)
+    return Fit(shape, scale, shift, numbers, turned[rows, line], rest, size=extent, off_centre=off_centre, reach=reach)
 
 
 def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -401,7 +403,7 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
     near = _around(lines, fit.at(fit.shape.corners))
     farthest, _, squares = off_place(lines.ends[near], a, b)
     place = {int(line): column for column, line in enumerate(near)}
-    own = {int(number): place[int(fit.lines[number])] for number in fit.found}
+    own = {int(number): place[int(fit.lines[number])] for number in fit.present}
     fits_there = farthest <= fit.reach[:, None]
     least = 2 * odds * deviation**2
     sure = (fit.lines >= 0) & (np.abs(b - a) >= SEEN * lines.error)
@@ -420,7 +422,7 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
                 against += squares[i, own[int(j)]] - squares[j, own[int(j)]]
             if against < least:
                 sure[i] = False
-    return sure
+    return np.asarray(sure)
 
 
 def _off_place_of(a: np.ndarray, b: np.ndarray, first: int, second: int) -> float:

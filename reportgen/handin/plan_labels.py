@@ -36,9 +36,15 @@ def plain(text: str) -> str:
     return _DROPPED.sub("", "".join(one for one in letters if not unicodedata.combining(one)))
 
 
+def spoken(text: str) -> str:
+    """A text in small letters without accents."""
+    letters = unicodedata.normalize("NFKD", text.translate(_SAME)).casefold()
+    return "".join(one for one in letters if not unicodedata.combining(one))
+
+
 @dataclass(frozen=True)
 class Labels:
-    """The texts of a drawing, in mm; `words` are those for “position” and `labels` what positions are called, plain."""
+    """The texts of a drawing, in mm; `words` are those for “position” and `labels` what positions are called."""
 
     texts: tuple[DrawnText, ...]
     words: frozenset[str] = frozenset()
@@ -66,10 +72,11 @@ class Labels:
         """The positions that texts name, each with the number of its text."""
         titles = []
         for number, text in enumerate(self.texts):
-            letters = unicodedata.normalize("NFKD", text.text.translate(_SAME)).casefold()
-            said = "".join(one for one in letters if not unicodedata.combining(one))
+            said = spoken(text.text)
             named = {
-                found[1] for word in self.words for found in re.finditer(rf"{re.escape(word)}\s*[:=]?\s*(\w+[′']?)", said)
+                match[1]
+                for word in self.words
+                for match in re.finditer(rf"{re.escape(word)}\s*[:=]?\s*(\w+[′']?)", said)
             }
             known = {position for name in named if (position := (self.labels or {}).get(name.replace("'", "′")))}
             if len(known) == 1:
@@ -80,9 +87,9 @@ class Labels:
         """Whether one of some names stands beside a line, or beside a point where both ends are one."""
         for name in names:
             for number in self.by_text.get(name, ()):
-                way, to = end - start, self.places[number] - start
-                share = float(np.clip((to * way.conjugate()).real / (abs(way) ** 2 or 1.0), 0.0, 1.0))
-                if abs(to - share * way) <= BESIDE * self.heights[number]:
+                along, to = end - start, self.places[number] - start
+                share = float(np.clip((to * along.conjugate()).real / (abs(along) ** 2 or 1.0), 0.0, 1.0))
+                if abs(to - share * along) <= BESIDE * self.heights[number]:
                     return True
         return False
 
@@ -91,10 +98,10 @@ class Labels:
         if not len(self.texts):
             return 0.0
         shape = fit.shape
-        corners = {end for number in fit.found for end in (shape.vectors[number].start, shape.vectors[number].end)}
+        corners = {end for number in fit.present for end in (shape.vectors[number].start, shape.vectors[number].end)}
         places = fit.at(shape.corners)
         count = sum(self.beside(letters_of(shape, corner), places[corner], places[corner]) for corner in corners)
-        for number in fit.found:
+        for number in fit.present:
             vector = shape.vectors[number]
             count += self.beside(names_of(shape, int(number)), places[vector.start], places[vector.end])
         return LETTER * count

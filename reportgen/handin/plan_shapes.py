@@ -7,15 +7,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.formula import Symbol, ids
 from reportgen.report.case import Case, MachineAnalysis
-from reportgen.report.plans import POLE, Construction, Polygon, force_construction, motion_construction
+from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
+
+if TYPE_CHECKING:
+    from reportgen.drawing.plan import Construction
+    from reportgen.plans.loads import Polygon
 
 What = Literal["v", "a"]
 

@@ -88,7 +88,7 @@ class _Layout:
     @classmethod
     def of(cls, data: bytes) -> _Layout:
         reader = _Layouting(cls())
-        for code, value, line, offset in pairs(data, lambda code, line: RefusedError(code, Mark("", line))):
+        for code, value, _, offset in pairs(data, lambda code, line: RefusedError(code, Mark("", line))):
             reader.pair(code, value, offset, data)
         if reader.layout.entities_end < 0:
             raise RefusedError("drawing-none", Mark(""))
@@ -143,7 +143,7 @@ class _Layouting:
 
     def finish(self, offset: int) -> None:
         """What an object of the tables that ends here says."""
-        names = {code: value for code, value in reversed(self.tags)}
+        names = dict(reversed(self.tags))
         if self.kind == b"TABLE" and (name := names.get(2, b"")) in _RECORDS:
             self.table = _Table(name, _RECORDS[name], owner=names.get(5, b""))
             self.layout.tables[name] = self.table

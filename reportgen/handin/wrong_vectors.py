@@ -27,13 +27,13 @@ class WrongVector:
     end: complex
 
 
-def wrong_vectors(found: FoundPlans, lines: Lines, heads: np.ndarray, labels: Labels) -> tuple[WrongVector, ...]:
+def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: Labels) -> tuple[WrongVector, ...]:
     """The wrong vectors of the plans that were found; `heads` [M, 2] says which ends have an arrowhead."""
-    used = {line for plan in found.plans for line in plan.used}
-    used |= {line for several in found.doubtful for fit in several for line in fit.used}
+    used = {line for plan in plans.plans for line in plan.used}
+    used |= {line for several in plans.doubtful for fit in several for line in fit.used}
     free = np.array([line for line in range(len(lines.ends)) if line not in used], dtype=int)
     search = _Search(lines, heads, labels, free)
-    return tuple(wrong for plan in found.plans for wrong in search.of(plan))
+    return tuple(wrong for plan in plans.plans for wrong in search.of(plan))
 
 
 @dataclass(frozen=True)
@@ -82,10 +82,10 @@ class _Search:
 
     def _may_be(self, plan: Fit, vector: int, line: _Begun) -> bool:
         """Whether a line has the length or the direction of a vector, as far as it can be told."""
-        way = plan.scale * complex(plan.shape.ends[vector] - plan.shape.starts[vector])
+        along = plan.scale * complex(plan.shape.ends[vector] - plan.shape.starts[vector])
         drawn, off = line.end - line.start, 2 * self.lines.reach
-        across = abs((drawn * way.conjugate()).imag) / abs(way)
-        return abs(abs(drawn) - abs(way)) <= off or across <= off
+        across = abs((drawn * along.conjugate()).imag) / abs(along)
+        return abs(abs(drawn) - abs(along)) <= off or across <= off
 
     def _alike(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:
         """The one of several vectors that a line has the length or the direction of.

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from reportgen.formula.ledger import Ledger
-from reportgen.marking.bands import half_unit
+from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.guard import Classmate, guard, not_from_own
 from reportgen.marking.key import Ask, symbol_text, words_of
 from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict
@@ -66,10 +66,11 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
 def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
     """All values (SI) [N] as a student has them who went wrong: from what is written, and with the data misread.
 
-    None where nothing is wrong.
+    None where nothing is wrong.  Of a coursework they are those of its machine.
     """
     if scheme.parts:
-        return ()
+        machine = next(iter(sheets_of(scheme, submission, ())))
+        return own_worlds(machine.scheme, machine.submission)
     working = lay_out(scheme, submission)
     _, mistakes = _verdicts(working)
     changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
@@ -89,14 +90,14 @@ def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
     }
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
-    told: list[Mistake] = []
+    named: list[Mistake] = []
     for search in SEARCHES:
         mistakes = search(working, cells)
-        told += mistakes.values()
+        named += mistakes.values()
         for place, mistake in mistakes.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, mistakes)
-    return cells, told
+    return cells, named
 
 
 def _judged(working: Working, submission: Submission, row: KeyRow, position: int, possible: Sequence[Values]) -> Marked:
@@ -106,10 +107,11 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     unit, worth = float(working.unit(row.id)[index]), scheme.policy.worth(row.id)
     bands = working.bands[row.id]
     band = float(bands[index if len(bands) > 1 else 0])
-    if place in submission.measured:
+    drawn = submission.measured.get(place)
+    if drawn is not None:
         # What the drawing's own fit may be off by counts where that is more.
-        band = max(band, submission.measured[place].error * family.how.scale)
-        unit = family.how.scale
+        band = max(band, drawn.error * family.how.scale)
+        unit = family.how.scale / (1.0 if is_direction(row.id) else drawn.times)
     key = float(family.at(position).real)
     following = [_own(scheme.ledger, values, row.id, index) for values in possible]
     following += working.also(row, position)
@@ -136,7 +138,7 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         points=points,
         worth=worth * scheme.policy.right,
         unit=unit,
-        written=None if np.isnan(value) else submission.values[place].value,
+        written=None if np.isnan(value) else value / unit if drawn else submission.values[place].value,
     )
 
 

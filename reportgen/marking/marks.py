@@ -24,7 +24,7 @@ class Answer:
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class ReadOff:
     """How a length or a direction was read off a drawing: `times` as large as the report draws it.
 
     A length is given as the report draws it; `error` is how far it may be off, in the printed unit.
@@ -54,7 +54,7 @@ class Submission:
     rows: frozenset[str] = frozenset()
     unread: Mapping[Place, Problem] = field(default_factory=dict)
     own_files: bool = False
-    measured: Mapping[Place, Measured] = field(default_factory=dict)
+    measured: Mapping[Place, ReadOff] = field(default_factory=dict)
     drawn: frozenset[Place] = frozenset()
     fingerprint: str = ""
     """Of a sheet that was filled with what was read of such files: what it held when it was written."""

@@ -191,7 +191,9 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
     report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
     is not the plan's own is a wrong value like any other.
     """
-    sheet = replace(submission, values={at: one for at, one in submission.values.items() if at not in submission.measured})
+    sheet = replace(
+        submission, values={at: one for at, one in submission.values.items() if at not in submission.measured}
+    )
     values = {row.id: _column(scheme, row, sheet) for row in scheme.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
     asked = [row.id for row in scheme.key.asked if row.role is Role.scale and row.kind != "segment"]

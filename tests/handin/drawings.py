@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import cmath
 import io
-import math
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -227,7 +226,11 @@ def _draw_plan(document, model, plan, factor, shift, manner, rng, truth, number)
         a, b = (factor * plan.corners[end] + shift for end in plan.vectors[names[0]])
         if key == bad:
             way = b - a
-            turns = {"length": rng.choice([0.75, 1.3]), "reversed": -1, "turned": cmath.rect(1, rng.choice([0.25, -0.25]))}
+            turns = {
+                "length": rng.choice([0.75, 1.3]),
+                "reversed": -1,
+                "turned": cmath.rect(1, rng.choice([0.25, -0.25])),
+            }
             b = a + way * turns[kind]
         a, b = a + off(), b + off()
         for place in places:
