@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Fault
+from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.marking.marks import Answer, Place, ReadOff, Submission
@@ -41,6 +41,8 @@ class FileReading:
     """How the values of a drawing were read."""
     drawn: frozenset[Place] = frozenset()
     """The places of which a drawing has to show something."""
+    beside: Mapping[Place, Mark] = field(default_factory=dict)
+    """Where a drawing has a wrong vector, by its length, that nothing asks for."""
 
     @property
     def share(self) -> float:

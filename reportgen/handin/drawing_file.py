@@ -78,6 +78,11 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
             lines.append(_told(cell, marking, cell_comment(cell, marking, words, policy.show_answers)))
         elif judged and answer.mark.wrong:
             said.setdefault(answer.mark, [])
+    for (id, position), mark in reading.beside.items():
+        row = marking.key.find(id)
+        if isinstance(mark, DrawnMark) and row is not None:
+            named = f"{symbol_text(row, marking.key)} ({marking.key.label(position, id)})"
+            said.setdefault(mark, []).append(f"{named}: {words['drawing']['wrong']}")
     if not policy.show_answers:
         vectors = [RedVector(mark.at, None, tuple(lines)) for mark, lines in said.items() if lines]
     else:

@@ -152,6 +152,7 @@ class _Reading:
         values: dict[Place, Answer] = {}
         measured: dict[Place, ReadOff] = {}
         unread: dict[Place, Fault] = {}
+        beside: dict[Place, Mark] = {}
         wrong = {(id(one.plan), one.vector): (one.start, one.end) for one in self.search.wrong}
         for fit, sure in zip(plans.plans, plans.sure, strict=True):
             lengths = np.abs(fit.shape.ends - fit.shape.starts)
@@ -163,6 +164,8 @@ class _Reading:
                     continue
                 # The longest vector says what scale the plan has, and so says nothing of its own length.
                 own = self.place(vector.length, fit) if number != longest else None
+                if (id(fit), number) in wrong and not (own or self.place(vector.direction, fit)):
+                    beside[vector.length, fit.shape.position] = self.mark(fit, number, line[0], wrong=True)
                 for place, value, error in (
                     (own, *_length(fit, number, *line)),
                     (self.place(vector.direction, fit), *_direction(fit, number, *line)),
@@ -182,7 +185,14 @@ class _Reading:
         unread = {place: fault for place, fault in unread.items() if place not in values}
         drawn = frozenset((*values, *unread))
         return FileReading(
-            self.key.id, self.file, values, unread, notes=(*notes, *nothing), measured=measured, drawn=drawn
+            self.key.id,
+            self.file,
+            values,
+            unread,
+            notes=(*notes, *nothing),
+            measured=measured,
+            drawn=drawn,
+            beside=beside,
         )
 
     def place(self, id: str, fit: Fit) -> Place | None:

@@ -182,9 +182,14 @@ class _Writer:
             length = min(HEAD * self.millimetre, abs(vector.end - vector.start) / 2)
             for side in (SLIM, -SLIM):
                 yield self.line(vector.end, vector.end + length * back * cmath.rect(1.0, side))
-        middle = vector.start if vector.end is None else (vector.start + vector.end) / 2
+        at = vector.start
+        if vector.end is not None and vector.end != vector.start:
+            across = 1j * (vector.end - vector.start) / abs(vector.end - vector.start)
+            across = across if across.real + across.imag > 0 else -across
+            # Beside its middle, on the right or above.
+            at = (vector.start + vector.end) / 2 + HEAD * self.millimetre * across
         for number, text in enumerate(vector.lines):
-            yield self.text(middle + self.millimetre * complex(HEAD, -LINE * number), text)
+            yield self.text(at - 1j * LINE * self.millimetre * number, text)
 
     def line(self, start: complex, end: complex) -> bytes:
         ends = [(10, start.real), (20, start.imag), (30, 0.0), (11, end.real), (21, end.imag), (31, 0.0)]

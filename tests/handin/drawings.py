@@ -169,7 +169,7 @@ def draw(plans: Sequence[TruePlan], manner: Manner, seed: int) -> tuple[bytes, T
         _line(model, start, start + complex(rng.uniform(-60, 60), rng.uniform(-60, 60)), manner)
     stream = io.StringIO()
     document.write(stream)
-    return stream.getvalue().encode(document.output_encoding, "replace"), truth
+    return stream.getvalue().encode(document.output_encoding, "dxfreplace"), truth
 
 
 def _factors(plans, rng):
