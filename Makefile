@@ -41,6 +41,7 @@ bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench
 	$(BIN)/python -m tests.bench.batch
 	$(BIN)/python -m tests.bench.page
+	$(BIN)/python -m tests.bench.form
 	$(BIN)/python -m tests.bench.reading
 	$(BIN)/python -m tests.bench.growth --plot docs/growth.png
 

@@ -191,6 +191,7 @@ class MachineCase(MachineAnalysis):
             "answer_tables": asked.answers,
             "asks_scales": asked.scales,
             "sheet_apart": asked.by_section,
+            "self_check": asked.self_check,
             "asked": asked.positions,
             "known_tables": asked.known,
         }

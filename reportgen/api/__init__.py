@@ -14,12 +14,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from reportgen import catalogue
-from reportgen.assignment import Assignment, parts
+from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs, placed
 from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
-from reportgen.base.files import contents, reported, scratch, version
+from reportgen.base.files import put_files, reported, scratch, version
 from reportgen.base.source import read_source
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
@@ -308,10 +308,11 @@ def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping
 
 
 def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
-    """The student's handout, the answer sheet of what is to be asked, and the assignment to check oneself by.
+    """The student's handout, the answer sheet of what is to be asked, and the data to check oneself by, if wanted.
 
-    No answer is in them.  The files of a coursework's parts keep their names.
+    No answer is in them.
     """
+    from reportgen.assignment.handed_out import handed_out
     from reportgen.marking.key import Ask, key_of
     from reportgen.marking.paper import task_of
     from reportgen.marking.sheet import answer_book
@@ -321,11 +322,10 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     chosen = ask or Ask()
     key = chosen.on_paper(key_of(case))
     letter = letter_of(case.assignment, engine)
-    task = task_of(case, key, chosen.by_section)
+    task = task_of(case, key, chosen.by_section, chosen.self_check)
     files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}
-    files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section))
-    own = {part.name: contents(part) for part in parts.files(read_source(path), path) if part.parent == path.parent}
-    return {**files, **own, "assignment.yaml": contents(path)}
+    files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section, chosen.self_check))
+    return files | ({"assignment.yaml": handed_out(path).encode()} if chosen.self_check else {})
 
 
 def key_files(
@@ -415,15 +415,33 @@ def policy(path: Path | None, language: Language | None) -> Policy:
 
 
 def compare(
-    path: Path, sheet: Path, hint: bool = False, language: Language | None = None
+    path: Path, files: Sequence[Path], hint: bool = False, language: Language | None = None
 ) -> tuple[tuple[str, ...], bool]:
-    """What a student is told of a filled answer sheet, and whether it agrees with the assignment as far as it goes.
+    """What a student is told of a filled answer sheet, or of a report and drawings, and whether they agree so far.
 
     Raises `AssignmentError`.
     """
-    from reportgen.marking import marking
+    from reportgen.handin import checking
 
-    return marking.compare(open_case(path, language), sheet, hint)
+    return checking.compare(open_case(path, language), files, hint)
+
+
+def read(
+    path: Path, files: Sequence[Path], out: Path, ask: Ask | None = None, language: Language | None = None
+) -> tuple[Path, str]:
+    """Write what was read of a report and drawings to `out`/<id>/reading.xlsx; gives the path and a line about it.
+
+    Raises `AssignmentError` also where somebody has completed the sheet that stands there, and `OutputError`.
+    """
+    from reportgen.handin import checking, reading_book
+    from reportgen.marking.key import Ask
+
+    case = open_case(path, language)
+    key, own = checking.read(case, files, ask or Ask(), language)
+    folder = out / case.assignment.id
+    book = checking.reading(key, own, folder / reading_book.NAME, language)
+    (written,) = put_files(folder, {reading_book.NAME: book})
+    return written, checking.summary(own, case.assignment.language)
 
 
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:

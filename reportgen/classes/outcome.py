@@ -19,13 +19,14 @@ from reportgen.classes.gradebooks import Gradebook, StudentResult
 from reportgen.classes.own_work import renewable
 from reportgen.classes.platforms import zipped
 from reportgen.classes.roster import folder_name
+from reportgen.handin.checking import summary as summary_of_reading
 from reportgen.handin.files import marked_copies
 from reportgen.handin.reading_book import NAME, reading_book
 from reportgen.marking.class_page import class_document
 from reportgen.marking.comment import comment
 from reportgen.marking.feedback import feedback_book, feedback_document
 from reportgen.marking.grades import grade_rows, person
-from reportgen.marking.marks import Marking, Submission
+from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 from reportgen.marking.questions import question_rows
 from reportgen.marking.scheme import key_asked
@@ -148,20 +149,13 @@ def summary(graded: Graded, language: Language | None) -> Iterator[str]:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
         who, firsts = person(marking.key), len(marking.first_errors)
         line = word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
-        yield line + _how_read(marking.submission, language)
+        yield line + summary_of_reading(marking.submission, language)
     for student in graded.unsettled:
         assert student.unsettled is not None
-        yield word("graded_unsettled", language, id=person(student.key)) + _how_read(student.unsettled, language)
+        yield word("graded_unsettled", language, id=person(student.key)) + summary_of_reading(
+            student.unsettled, language
+        )
     if graded.missing:
         yield counted("graded_missing", language, len(graded.missing))
     if graded.refused:
         yield counted("graded_refused", language, len(graded.refused))
-
-
-def _how_read(submission: Submission, language: Language | None) -> str:
-    """How much of a student's own files was read and how many values are open; nothing of a sheet."""
-    if not submission.own_files:
-        return ""
-    read, count = f"{100 * submission.share_read:.0f}", len(submission.unread)
-    said = word("graded_read", language, read=read)
-    return said + (word("graded_to_settle", language, count=count, file=NAME) if count else "")

@@ -216,7 +216,7 @@ def grade(
     ] = "",
     templates: TemplatesOption = None,
 ) -> None:
-    """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
+    """Mark sheets, or reports, from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen import api
     from reportgen.classes import assess, outcome
     from reportgen.classes.corrections import read_corrections

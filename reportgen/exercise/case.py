@@ -48,7 +48,8 @@ class ExerciseCase(SolvedExercise):
 
     def question(self, asked: AskedFor) -> tuple[Sequence[Block], Sequence[Block]]:
         """Its title is one of its words."""
-        title, *rest = Prose(self.places).render("exercise-task", {**task_names(self), "answer_tables": asked.answers})
+        sheet = {"answer_tables": asked.answers, "self_check": asked.self_check}
+        title, *rest = Prose(self.places).render("exercise-task", {**task_names(self), **sheet})
         return (title,), rest
 
     @cached_property

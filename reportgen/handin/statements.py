@@ -24,12 +24,21 @@ _SEVERAL = re.compile(
     re.IGNORECASE,
 )
 _COMPARED = re.compile(r"so với|khác|giống|như|bằng|hơn|\bthan\b|\bsame as\b|\bunlike\b|\bcompared\b", re.IGNORECASE)
-SAYS_POSITION = re.compile(r"vị\s*trí|\bposition", re.IGNORECASE)
+SAYS_POSITION = re.compile(r"vị\s*trí|\bposition|điểm chết|\bdead cent", re.IGNORECASE)
 _THIS = re.compile(r"vị\s*trí\s*(?:này|đó|trên|đang xét|đã cho|xét)|\b(?:this|that) position", re.IGNORECASE)
-_SUPPOSED = re.compile(
-    r"\b(?:nếu|giả sử|giả thiết|giả định|if|suppose|supposing|assume|assuming|khi lấy|thử|trial)\b", re.IGNORECASE
+_EXTREME = (
+    r"(?:lớn|nhỏ|bé|cao|thấp) nhất|cực đại|cực tiểu|trung bình|"
+    r"\b(?:max|min|maximum|minimum|largest|smallest|mean|average)\b"
 )
-_WITHDRAWN = re.compile(r"\b(?:hoặc|hay|or|sai|không|wrong|not|nếu|if|cũ|bỏ|nhầm|old|instead|rather)\b", re.IGNORECASE)
+"""What is of all positions together."""
+_SUPPOSED = re.compile(
+    r"\b(?:nếu|giả sử|giả thiết|giả định|if|suppose|supposing|assume|assuming|khi lấy|thử|trial)\b|" + _EXTREME,
+    re.IGNORECASE,
+)
+"""Words before a symbol: what is tried, or is of no position, as a greatest value."""
+_WITHDRAWN = re.compile(
+    r"\b(?:hoặc|hay|or|sai|không|wrong|not|nếu|if|cũ|bỏ|nhầm|old|instead|rather)\b|" + _EXTREME, re.IGNORECASE
+)
 """Words behind a number that take it back, or leave another one open."""
 CLOCKWISE = re.compile(
     r"(?:cùng|thuận)\s+chiều\s+kim|(?<!anti)(?<!counter)(?<!counter-)(?<!anti-)clockwise|↻", re.IGNORECASE
@@ -37,9 +46,20 @@ CLOCKWISE = re.compile(
 ANTICLOCKWISE = re.compile(r"ngược\s+chiều\s+kim|anti-?clockwise|counter-?clockwise|↺", re.IGNORECASE)
 
 _SYMBOL = r"[^\W\d_][\w′]*(?:[_^](?:\{(?:[^{}]|\{[^{}]*\})*\}|\([^()\s]{1,3}\)|[\w′]+))*′*"
-_HEAD = re.compile(rf"(?<![\w′_^{{}}])(\|\s*)?({_SYMBOL})(\s*\|)?\s*(?=[=≈])")
-_OPERATORS = frozenset("+-–·*/×(√^_=≈{∑÷|<>≤≥[")
-_BULLET = re.compile(r"\s*(?:[-–+•*▪►✓]|\(?\w{1,3}[.)]|\(?\d{1,2}(?:\.\d{1,2})*[.)]?)\s+")
+_HEAD = re.compile(
+    rf"(?<![\w′_^{{}}])(\|\s*)?({_SYMBOL})(\s*\|)?\s*(\([0-9]{{1,3}}[a-z]?′*\))?\s*(?:[\[(]\s*({UNIT})\s*[\])])?\s*(?=[=≈])"
+)
+_OPERATORS = frozenset("+-–·*/×(√^_=≈{∑÷|[")
+_FUNCTION = re.compile(
+    r"(?<![^\W\d_])(?:sin|cos|tan|tg|cot|cotg|arcsin|arccos|arctan|arctg|log|ln|exp)\s*$", re.IGNORECASE
+)
+_LOOSE_NUMBER = re.compile(r"(?:[\d})²³]|(?<![^\W\d_])[^\W\d_])$")
+"""A number or a letter alone, which may be a factor of the symbol behind it."""
+_COLON = re.compile(
+    rf"(?<![\w′_^{{}}])({_SYMBOL}(?:\(\d\))?)\s*(?::|\blà|\bbằng|\bis\b|\bequals|\bgives)\s*({NUMBER})(?![\w′]*\s*[=≈])"
+)
+_SEPARATORS = frozenset(".,;:⇒→<>≤≥!?")
+_BULLET = re.compile(r"\s*(?:[-–+•*▪►✓]|\(?\w{1,3}[.)]|\(?\d{1,2}(?:\.\d{1,2})*[.)])\s+")
 _WORD = re.compile(r"[^\W\d_]{2,}$")
 _COMPLETE = re.compile(rf"{NUMBER}\s*(?:{UNIT}|[(\[]\s*{UNIT}\s*[)\]])[.,]?$")
 _APART = re.compile(
@@ -47,8 +67,16 @@ _APART = re.compile(
     re.IGNORECASE,
 )
 _TAIL = re.compile(
-    rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;:]?\s*((?:\([^()=\d][^()=]*\)|[^()=\d]*)\s*[.,;:]?)\s*"
+    rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;:]?\s*((?:\([^()=\d][^()=]*\)|[^()=\d]*)\s*[.,;:]?)"
+    r"(?:(?<=\s)\s*[(\[]\d{1,2}(?:[.-]\d{1,3})*[a-z]?[)\]][.,;]?)?\s*"
 )
+_LISTED = re.compile(r"\s*[;→\n]\s*[-+–]?\s*\d")
+_PROSE = re.compile(
+    r"\s*(?:$|[.,;:(]|[^\W\d_]*[^\x00-\x7f\W\d_][^\W\d_]*\b|(?:theo|cho|ta|khi|trong|do|and|to|the|as|at|from|for|in|"
+    r"on|of|with|where|which|up|down|left|right|so|then|is|hence|by|this|that|along|sang)\b)",
+    re.IGNORECASE,
+)
+"""How words begin behind a number without a unit that are no unit themselves."""
 _NAMES = re.compile(r"[^\W\d_][\w′]*(?:[_^](?:\{[^{}]*\}|[\w′]+))*|[_^]\{[^{}]*\}")
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "π", "pi", "x"})
 
@@ -68,6 +96,10 @@ class Statement:
     at: int
     barred: bool = False
     doubt: bool = False
+    label: str = ""
+    """Of the position that stands right behind the symbol, v_B(3)."""
+    unit: str = ""
+    """What stands there as well, v_B (m/s)."""
 
     @property
     def clauses(self) -> list[str]:
@@ -86,6 +118,8 @@ class StatedValue:
 
     @property
     def withdrawn(self) -> bool:
+        if not self.unit and not _PROSE.match(self.words):
+            return True
         compares = SAYS_POSITION.search(self.words) and _COMPARED.search(self.words)
         return bool(_WITHDRAWN.search(self.words) or compares)
 
@@ -108,8 +142,15 @@ def statements(text: str, symbols: Symbols) -> list[Statement]:
         front = RELATION.split(made[-1].text)[-1] if made else text[: match.start()]
         lead = "".join(_APART.split(made[-1].text, maxsplit=1)[1:]) if made else front
         body = text[match.end() : end]
-        barred = bool(match[1] and match[3])
-        made.append(Statement(match[2], lead, front, body, match.end(), barred=barred, doubt=run_on))
+        barred, symbol, label = bool(match[1] and match[3]), match[2], ""
+        if match[4] and symbols.rows_of(symbol + match[4]):
+            # M_cb(1) is one symbol, v_B(3) a value at position 3.
+            symbol += match[4]
+        elif match[4]:
+            label = match[4].strip("()")
+        unit = match[5] or ""
+        own = Statement(symbol, lead, front, body, match.end(), barred=barred, doubt=run_on, label=label, unit=unit)
+        made.append(own)
     return made
 
 
@@ -121,16 +162,18 @@ def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[
         return "yes"
     ahead = front.rstrip()
     last, glued = ahead[-1], len(ahead) == len(front)
-    if last in _OPERATORS or (last == "," and glued):
+    if last in _OPERATORS or (last == "," and glued) or _FUNCTION.search(ahead):
         return ""
-    if last in ".,;:⇒→>!?" or before is None or "\n" in front[len(ahead) :]:
+    if last in _SEPARATORS or "\n" in front[len(ahead) :]:
         return "yes"
-    own = front[before.end() :]
-    if _COMPLETE.search(own.rstrip()):
+    if before is not None and _COMPLETE.search(front[before.end() :].rstrip()):
         return "yes"
     word = _WORD.search(ahead)
     if word and not symbols.rows_of(word[0]) and bare(word[0]) not in symbols.every:
         return "yes"
+    if before is None:
+        named = any(one.end() == len(ahead) for one in POSITION.finditer(ahead))
+        return "doubt" if _LOOSE_NUMBER.search(ahead) and not named else "yes"
     # Two symbols side by side are a product.
     return "doubt" if symbols.rows_of(match[2]) else ""
 
@@ -143,10 +186,11 @@ def value_of(statement: Statement) -> StatedValue | None:
         return None
     start = relation[-1].end()
     match = _TAIL.fullmatch(own[start:])
-    if match is None:
+    # A list of values is none for one position.
+    if match is None or _LISTED.match(statement.text, len(own)):
         return None
     at = statement.at + start + match.start(1)
-    return StatedValue(match[1], match[2] or match[3] or "", at, match[4] or "")
+    return StatedValue(match[1], match[2] or match[3] or statement.unit, at, match[4] or "")
 
 
 def is_worked(statement: Statement) -> bool:
@@ -215,3 +259,8 @@ def is_broken(text: str) -> bool:
 def is_operator(text: str) -> bool:
     """Whether a text ends with an operator, so that a sum or a product goes on behind it."""
     return text.rstrip()[-1:] in _OPERATORS
+
+
+def said_otherwise(text: str) -> list[tuple[str, str, int]]:
+    """Symbols that a number follows without a sign of equality, each with the number and its index."""
+    return [(match[1], match[0], match.start(2)) for match in _COLON.finditer(text)]

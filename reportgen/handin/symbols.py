@@ -11,6 +11,8 @@ from reportgen.marking.key import symbol_text
 from reportgen.report.key import Key, KeyRow
 
 _MARKS = re.compile(r"[\s_^{}|]")
+_POWER = re.compile(r"\^\{?(\d+)\}?")
+"""An exponent of v_B^2, which is no v_B2."""
 _ROUND = re.compile(r"\(\d\)$")
 """The number behind a quantity that is worked out twice, M_cb^(1)."""
 _SPELLED: Mapping[str, str] = {
@@ -31,7 +33,7 @@ _LATIN = str.maketrans("ωμεατ", "wueat")
 
 def bare(text: str) -> str:
     """A symbol without what sets its index or exponent off: v_{BA}, v_BA and vBA are one."""
-    return _MARKS.sub("", "".join(LETTERS.get(letter, letter) for letter in text))
+    return _MARKS.sub("", _POWER.sub(r"↑\1", "".join(LETTERS.get(letter, letter) for letter in text)))
 
 
 def _latin(text: str) -> str:

@@ -93,16 +93,19 @@ class _Reader:
         """A line without “=”: it may name the position that the next ones are of, or begin something else."""
         text = line.text
         self.count_objects(line, self.hand.label)
+        self.otherwise(line, self.hand.label)
         if not text.strip():
             return
         if OBJECT not in text:
             self.open = None
         labels = said.labels_in(text)
         compared = said.is_compared(text)
-        if said.names_several(text) or (labels and compared):
-            # It tells of positions; which is in hand stays, if a heading said so and this only compares.
+        if said.names_several(text):
+            # Which is in hand stays, if a heading said so and this only compares.
             if not compared or self.hand.level == FREE:
                 self.hand = _Hand(None, self.hand.level)
+        elif labels and compared:
+            return
         elif labels:
             self.hand = _Hand(labels[0], FREE)
         elif said.names_another(text) or (line.bold and len(text) < SHORT and not said.names_chapter(text)):
@@ -122,6 +125,7 @@ class _Reader:
         """All statements of a line; those without a position of their own are of the one with the `label`."""
         gathering, text = self.gathering, line.text
         self.count_objects(line, label)
+        self.otherwise(line, label)
         made = said.statements(text, gathering.symbols)
         if said.goes_on(text):
             end = made[0].at - len(made[0].symbol) if made else len(text)
@@ -161,16 +165,26 @@ class _Reader:
                 else:
                     self.statement(line, statement, row, own, last)
 
+    def otherwise(self, line: TextLine, label: str | None) -> None:
+        """What is said in other ways than by “=” is not read, but it stands there."""
+        for symbol, text, at in said.said_otherwise(line.text):
+            for row in self.gathering.rows_of(symbol):
+                position = self.gathering.position(row, label)
+                self.gathering.doubt(row, position, "unread-number", self.gathering.mark(line, at), text)
+
     def own_position(
         self, statement: Statement, label: str | None, carried: str | None, named: set[str]
     ) -> tuple[str | None, bool]:
         """The label of the position of a statement, and whether two are named for it."""
         before, behind = said.labels_in(statement.lead), said.labels_in(statement.clauses[0])
-        if said.names_several(statement.lead) or said.names_several(statement.clauses[0]):
+        around = (statement.lead, statement.clauses[0])
+        if any(said.names_several(text) or said.names_another(text) for text in around):
             return None, True
-        own = before[0] if before else None
+        own = statement.label or (before[0] if before else None)
         if behind:
-            if (own or carried or label) not in (None, behind[0]):
+            # What only an earlier sentence says goes behind what this one says itself.
+            firm = own or carried or (label if label != self.hand.label or self.hand.level < FREE else None)
+            if firm not in (None, behind[0]):
                 return None, True
             return behind[0], False
         if own or carried:

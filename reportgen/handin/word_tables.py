@@ -20,7 +20,7 @@ _POSITION = re.compile(
     r"(?:vị\s*trí|position|pos\.|VT)?[\s(]*(?:thứ|số|no\.?)?[\s:(]*([0-9]{1,3}[a-z]?′*)[\s)]*", re.IGNORECASE
 )
 _QUANTITY = re.compile(
-    r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?)\s*"
+    r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?(?:\(\d\)\}?)?)\s*"
     r"(?:,\s*(?P<comma>[^\s,]+(?:\s[^\s,]+)?)|[(\[]\s*(?P<round>[^()]*(?:\([^()]*\))?[^()]*?)\s*[)\]])?"
 )
 _NUMBER_CELL = re.compile(
@@ -28,6 +28,9 @@ _NUMBER_CELL = re.compile(
 )
 _NUMBERED = re.compile(r"\s*\(\d+(?:[.,]\d+)*\)\s*")
 """The number of an equation."""
+
+_HEAD_WORD = re.compile(r"VT|vtr[íi]|điểm|points?", re.IGNORECASE)
+"""What stands over positions besides their own word; a pair of gears has points."""
 
 Statements = Callable[[TextLine, str | None], None]
 TextCells = Sequence[Sequence[TextCell]]
@@ -50,20 +53,25 @@ def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: st
         _read_statements(grid.rows, gathering, line, label)
     elif grid.rows and len({len(row) for row in grid.rows}) == 1:
         ways: list[TextCells] = [grid.rows, [list(column) for column in zip(*grid.rows, strict=True)]]
-        if not any(_read_positions(way, gathering) for way in ways):
-            any(_read_single(way, gathering, label) for way in ways)
+        if not (
+            any(_read_positions(way, gathering) for way in ways)
+            or any(_read_single(way, gathering, label) for way in ways)
+        ):
+            _leave(ways, gathering)
     else:
-        for cell in cells:
-            _leave(cell, gathering)
+        _leave([grid.rows], gathering)
     for inner in nested:
         read_table(inner, gathering, line, label)
 
 
-def _leave(cell: TextCell, gathering: Gathering) -> None:
-    """The quantity of a cell whose place in the table is not certain."""
-    quantity = _quantity(cell, gathering)
-    for row in quantity.rows if quantity else ():
-        gathering.doubt(row, None, "unread-table", gathering.mark(cell.line, 0), cell.line.text)
+def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
+    """The quantities of a table whose numbers cannot be laid to positions."""
+    for row in (row for way in ways for row in way):
+        numbers = [cell for cell in row if _NUMBER_CELL.fullmatch(cell.line.text)]
+        named = _named(row, gathering)
+        for one in named[0].rows if named and numbers else ():
+            mark = gathering.mark(numbers[0].line, 0)
+            gathering.doubt(one, None, "unread-table", mark, numbers[0].line.text)
 
 
 # --- statements in cells ----------------------------------------------------------------------------
@@ -119,7 +127,7 @@ def _read_positions(rows: TextCells, gathering: Gathering) -> bool:
             continue
         first = min(labels)
         heads = [rows[above][column].line.text for above in range(number + 1) for column in (*labels, *range(first))]
-        if not any(said.SAYS_POSITION.search(text) or re.search(r"\bVT\b", text) for text in heads):
+        if not any(said.SAYS_POSITION.search(text) or _HEAD_WORD.fullmatch(text.strip()) for text in heads):
             continue
         read = [_read_row(one, labels, gathering) for one in rows[number + 1 :]]
         if any(read):
@@ -193,7 +201,13 @@ def _read_cell(
 def _named(cells: Sequence[TextCell], gathering: Gathering) -> tuple[_Quantity, TextCell] | None:
     """The one quantity that some cells name, and the cell; None where they name none or several."""
     named = [(quantity, cell) for cell in dict.fromkeys(cells) if (quantity := _quantity(cell, gathering))]
+    # The newton beside a force is not the power N.
+    named = [pair for pair in named if not _says_unit(pair[1])] or named
     return named[0] if len({tuple(row.id for row in quantity.rows) for quantity, _ in named}) == 1 else None
+
+
+def _says_unit(cell: TextCell) -> bool:
+    return bool(re.fullmatch(UNIT, cell.line.text.strip().strip("()[]").strip()))
 
 
 def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:

@@ -37,7 +37,9 @@ def comment(marking: Marking, policy: Policy) -> Iterator[str]:
     if len(firsts) > FIRSTS:
         yield said["others"].format(count=len(firsts) - FIRSTS)
     yield said["by_part"].format(parts="; ".join(_by_part(marking, words)))
-    yield from (plain(amended(marking, one, words), language) for one in marking.amendments)
+    if marking.amendments:
+        yield f"{words['feedback']['amended']}:"
+        yield from (f"– {plain(amended(marking, one, words), language)}" for one in marking.amendments)
 
 
 def _named(cell: Marked, key: Key) -> str:

@@ -190,15 +190,18 @@ class Ask:
     """A choice: sections and ids by patterns, of which the last that fits decides, "-" before those left out.
 
     A choice that begins by leaving out takes from the `DEFAULT`.  `by_section` puts each section of the printed
-    sheet on pages of its own.  `file` is the policy that gives the patterns, where one does.
+    sheet on pages of its own; `self_check` lets students compare it with their data.  `file` is the policy that gives
+    the patterns, where one does.
     """
 
     patterns: tuple[str, ...] = DEFAULT
     by_section: bool = False
+    self_check: bool = True
     file: Path | None = field(default=None, compare=False)
 
     def __str__(self) -> str:
-        return ", ".join((*self.patterns, *(("by section",) if self.by_section else ())))
+        by_section = ("by section",) if self.by_section else ()
+        return ", ".join((*self.patterns, *by_section, *(() if self.self_check else ("no self-check",))))
 
     def wants(self, row: KeyRow) -> bool:
         """Whether a row that can be asked for is."""

@@ -127,26 +127,27 @@ def shared_symbols(rows: Iterable[KeyRow]) -> frozenset[Symbol]:
 # --- the task -------------------------------------------------------------------------------------
 
 
-def task_of(case: Case, key: Key, by_section: bool = False) -> Document:
+def task_of(case: Case, key: Key, by_section: bool = False, self_check: bool = True) -> Document:
     """The task of a case, from the given data to the empty answer sheet of `key`; no answer is in it.
 
-    `by_section` puts each section of the sheet on pages of its own, headed by whose it is.  Raises `TemplateError`.
+    `by_section` puts each section of the sheet on pages of its own, headed by whose it is; `self_check` says how to
+    check it.  Raises `TemplateError`.
     """
     if isinstance(case, CaseOfParts):
         pages = zip(case.parts.values(), key.pages, strict=True)
-        return case.joined_task([task_of(part, page, by_section) for part, (_, page) in pages])
+        return case.joined_task([task_of(part, page, by_section, self_check) for part, (_, page) in pages])
     assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
-    return case.bounded(partial(_task, key=key, by_section=by_section))
+    return case.bounded(partial(_task, key=key, by_section=by_section, self_check=self_check))
 
 
-def _task(case: LoadedAssignment, key: Key, by_section: bool) -> Document:
-    title, blocks = case.question(_asked_for(case, key, by_section))
+def _task(case: LoadedAssignment, key: Key, by_section: bool, self_check: bool) -> Document:
+    title, blocks = case.question(_asked_for(case, key, by_section, self_check))
     student = case.assignment.report.student.name or ""
     contents = (*title, *fields(student_rows(key)), *blocks)
     return paper(case.assignment.language, case.words, case.course, contents, student, key.variant)
 
 
-def _asked_for(case: Case, key: Key, by_section: bool) -> AskedFor:
+def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> AskedFor:
     """What the answer sheet of a key asks for, and what is given at the positions of the plates or of the answers."""
     asked = asked_positions(key)
     known = range(1, len(case.span.labels) + 1) if case.span.count <= PLATES_UP_TO else asked
@@ -156,6 +157,7 @@ def _asked_for(case: Case, key: Key, by_section: bool) -> AskedFor:
         known=tuple(_known_tables(key, known)),
         scales=any(row.role is Role.scale for row in key.asked),
         by_section=by_section,
+        self_check=self_check,
     )
 
 

@@ -128,6 +128,7 @@ class _Late(Part):
 class _PolicyFile(Part):
     ask: Annotated[tuple[Annotated[str, TypedText()], ...], Field(min_length=1)] = Ask().patterns
     by_section: Annotated[bool, Flag()] = False
+    self_check: Annotated[bool, Flag()] = True
     tolerance: _Tolerance = _Tolerance()
     points: _Points = _Points()
     weights: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
@@ -147,6 +148,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
 
     ask: ["*", "-seg.*"]     # sections and ids of the answer sheet; "-" leaves out, the last that fits decides
     by_section: false        # each section of the printed sheet on pages of its own
+    self_check: true         # beside the task lie the student's data, to compare a filled sheet with
     tolerance:
       paper: 0.5 mm          # how far off each end of a measured length may lie
       digits: 3              # figures that values are computed with
@@ -185,7 +187,9 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         show_answers=content.show_answers,
         take=content.take,
         overrule=content.overrule,
-        ask=Ask(content.ask, content.by_section, path if "ask" in content.model_fields_set else None),
+        ask=Ask(
+            content.ask, content.by_section, content.self_check, path if "ask" in content.model_fields_set else None
+        ),
         scale=Scale(content.mark.highest, content.mark.step),
         parts=content.parts,
         late=Lateness(late.due, late.per_day, late.most) if (late := content.late) else None,

@@ -154,14 +154,18 @@ def named_pages(key: Key, name: str) -> Iterator[tuple[str, Key]]:
         yield (title if number else name), part
 
 
-def answer_book(key: Key, by_section: bool = False) -> Book:
-    """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected."""
+def answer_book(key: Key, by_section: bool = False, self_check: bool = True) -> Book:
+    """The empty sheet as a workbook: given values filled in, cells to fill in unlocked, the rest protected.
+
+    It says how to check it if there is a `self_check`.
+    """
     sheet = words_of(key)["answer_sheet"]
-    pages = [_answer_page(part, name, by_section) for name, part in named_pages(key, sheet["answers"])]
+    note = " ".join((sheet["note"], *((sheet["self_check"],) if self_check else ())))
+    pages = [_answer_page(part, name, note, by_section) for name, part in named_pages(key, sheet["answers"])]
     return Book((*pages, info_page(key)), f"{sheet['title']} {key.id}")
 
 
-def _answer_page(key: Key, name: str, by_section: bool) -> BookSheet:
+def _answer_page(key: Key, name: str, note: str, by_section: bool) -> BookSheet:
     sheet, cells = words_of(key)["answer_sheet"], open_cells(key)
 
     def filling(row: KeyRow, position: int) -> Entry | None:
@@ -169,7 +173,7 @@ def _answer_page(key: Key, name: str, by_section: bool) -> BookSheet:
             return Entry(None, "input", unlocked=True)
         return given_entry(row, position)
 
-    rows = grid(key, sheet["title"], sheet["note"], filling, rows_shown(key), asked_positions(key))
+    rows = grid(key, sheet["title"], note, filling, rows_shown(key), asked_positions(key))
     return page(name, rows, by_section)
 
 

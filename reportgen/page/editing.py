@@ -7,6 +7,7 @@ become another one meanwhile, nothing is written and both are told.
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from errno import errorcode
@@ -52,6 +53,10 @@ PART_KEYS = "kind", "parameters"
 """What is begun of a part."""
 MOST_STEPS = 500
 """So many changes can be undone."""
+REST = 0.3
+"""A hand that draws a value has come to rest after so long (s)."""
+PATIENCE = 10.0
+"""What can wait waits no longer (s)."""
 HERE = Mark("")
 SCRIPTS, STYLES = ("live.js", "edit.js"), ("live.css", "edit.css")
 Asked = Mapping[str, Any]
@@ -101,6 +106,10 @@ class EditSession(LiveSession):
     dragging: threading.Lock = field(default_factory=threading.Lock)
     _resident: tuple[int, Resident | None] = 0, None
     """The machine as it moves, by the number of its revision."""
+    _form: tuple[object, str] = None, ""
+    """What the form was written of last, and the form."""
+    _drawn: float = 0.0
+    """When a value was drawn last (s)."""
     _opening: threading.Lock = field(default_factory=threading.Lock)
     _parts: dict[Path, tuple[int, EditSession | None]] = field(default_factory=dict)
     """The files of parts by the numbers under which they are served, which stay when parts are moved."""
@@ -175,14 +184,16 @@ class EditSession(LiveSession):
 
     def form(self) -> str:
         """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
+        language, words = self._spoken()
         with self.lock:
-            language, words = self._spoken()
-            text = text_in(self.path)
-            source = (
-                Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
-            )
-            given = catalogue.with_taken(source, self.path, self.whole)
-            problems = catalogue.problems_of(given, self.path, language)
+            text, undo, redo = text_in(self.path), bool(self.done), bool(self.undone)
+        source = Source(str(self.path), faults=(text,)) if isinstance(text, Fault) else read_text(text, str(self.path))
+        given = catalogue.with_taken(source, self.path, self.whole)
+        problems, pages = catalogue.problems_of(given, self.path, language), self._pages(source)
+        shown = given, tuple(problems), language, undo, redo, tuple(pages.items())
+        # The page that has made a change asks again when it hears of that.
+        if self._form[0] == shown:
+            return self._form[1]
         kind = at(source.top, ("kind",))
         known = isinstance(kind, Scalar) and kind.text in kinds()
         form = (
@@ -190,7 +201,7 @@ class EditSession(LiveSession):
             if known and isinstance(kind, Scalar) and isinstance(given.top, MappingNode)
             else None
         )
-        return html.template("form.html.j2").render(
+        written = html.template("form.html.j2").render(
             words=words["edit"],
             form=form,
             kind=kind.text if isinstance(kind, Scalar) else "",
@@ -198,33 +209,49 @@ class EditSession(LiveSession):
             file=self.path.name,
             problems=problems,
             faults=_by_place(problems, source),
-            can_undo=bool(self.done),
-            can_redo=bool(self.undone),
+            can_undo=undo,
+            can_redo=redo,
             # What takes something from a machine cannot be made without it.
             products=[] if given.top is not source.top else list(self.products),
             part_kinds=part_kinds(),
-            pages=self._pages(source),
+            pages=pages,
             folder=self.path.parent,
             whole=self.whole and self.whole.name,
             kind_titles=titles(language),
         )
+        self._form = shown, written
+        return written
 
     def owners(self) -> Mapping[str, Any]:
-        """Which bars and points are each value's own, by the place of its field; where fixed points are drawn (mm)."""
+        """Which bars and points are each value's own, by the place of its field; where fixed points are drawn (mm).
+
+        That can wait: the report is written first, and what is drawn meanwhile goes before.  Of a machine that is no
+        longer the newest nothing more is looked for.
+        """
         with self.dragging:
             resident = self._resident_machine()
+        number = self.revision.moving
+        with self.changed:
+            self.changed.wait_for(lambda: self._is_over(number) or not self.revision.busy, PATIENCE)
         with self.lock:
             text = text_in(self.path)
         top = None if isinstance(text, Fault) else read_own(text).top
         if resident is None or not isinstance(top, MappingNode):
             return {"fields": [], "ground": {}}
         machine, scale = resident.samples.machine, resident.samples.scale
-        fields = owners(machine, top, Source(str(self.path), top=top))
+        fields = []
+        for where, own in owners(machine, top, Source(str(self.path), top=top)):
+            while not self._is_over(number) and time.monotonic() < self._drawn + REST:
+                time.sleep(REST)
+            if self._is_over(number):
+                break
+            fields += [{"where": list(where), "bars": own.bars, "points": own.points}] if own else []
         ground = {name: [at.real * scale, -at.imag * scale] for name, at in machine.linkage.ground.items()}
-        return {
-            "fields": [{"where": list(where), "bars": own.bars, "points": own.points} for where, own in fields],
-            "ground": ground,
-        }
+        return {"fields": fields, "ground": ground}
+
+    def _is_over(self, number: int) -> bool:
+        """Whether a machine, by the number of its revision, is no longer the newest, or nobody looks any more."""
+        return self.closed or self.revision.moving != number
 
     def _resident_machine(self) -> Resident | None:
         """The machine of the file as it was right last, ready to be sampled; None for a case of another kind."""
@@ -307,7 +334,7 @@ class EditSession(LiveSession):
         No bytes at all for a value with which there is no such machine; no answer of a kind that is none, which moves
         when the value is let go.
         """
-        where = _place(asked["where"])
+        where, self._drawn = _place(asked["where"]), time.monotonic()
         with self.dragging:
             resident = self._resident_machine()
             if resident is None:

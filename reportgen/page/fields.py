@@ -17,7 +17,7 @@ from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY, UNIT_NAME_KEY
 from reportgen.assignment.schema import Schema, alternatives, alternatives_to, choices_of, file_schema, places
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
-from reportgen.base.kinds import kinds
+from reportgen.base.kinds import kinds, titles
 from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.source_text import at, flow, path_text
 from reportgen.base.units import Language
@@ -231,7 +231,7 @@ class Form:
             inner = tuple(entry for entry in entries if self._title(entry) == title)
             there = any(entry.there or _is_asked(entry) for entry in inner)
             if title:
-                yield FieldGroup(where, title, entries=inner, there=there)
+                yield FieldGroup(where, title, entries=inner, there=there, required=True)
             else:
                 yield from inner
 
@@ -281,9 +281,13 @@ class Form:
                 given = parts.taking(Source("", top=item), self.top, index, catalogue.kind).top
                 assert isinstance(given, MappingNode), "what is taken is put into the table"
                 inner = Form(catalogue.kind(kind.text), self.language, given, item)
-                data = [_below(group, where) for group in inner.groups if group.where[:1] == ("parameters",)]
-                entries = (*self._about(where, item), *data)
-                made.append(FieldGroup(where, f"{index + 1}. {kind.text}", entries=entries, of_list=True))
+                data = (group for group in inner.groups if group.where[:1] == ("parameters",))
+                entries = (
+                    *self._about(where, item),
+                    *(_below(entry, where) for group in data for entry in group.entries),
+                )
+                called = f"{index + 1}. {titles(self.language)[kind.text]}"
+                made.append(FieldGroup(where, called, entries=entries, of_list=True))
         return FieldGroup((PARTS,), words.label, words.remark, tuple(made), there=bool(made), can_grow=True)
 
     def _about(self, where: Where, item: MappingNode) -> Iterator[FieldLine | FieldGroup]:

@@ -48,7 +48,7 @@ class Owned:
 
 
 def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple[Where, Owned]]:
-    """What each value of the machine's data owns, by its place; values that move nothing that is drawn have none."""
+    """What each value of the machine's data owns, by its place; nothing, of one that moves nothing that is drawn."""
     data = top.find("parameters")
     leaves = _leaves(data[1], ("parameters",)) if data else iter(())
     for (where, scalar), _ in zip(leaves, range(MOST_VALUES), strict=False):
@@ -58,8 +58,7 @@ def owners(machine: Machine, top: MappingNode, source: Source) -> Iterator[tuple
         assignment, faults = catalogue.understood(changed, Path(source.file))
         if assignment is None or faults:
             continue
-        if owned := difference(machine, _machine(assignment)):
-            yield where, owned
+        yield where, difference(machine, _machine(assignment))
 
 
 def _machine(assignment: Assignment) -> Machine:

@@ -110,6 +110,8 @@ class AskedFor:
     """Whether scales are to be chosen."""
     by_section: bool = False
     """Whether each section of the sheet begins a page."""
+    self_check: bool = True
+    """Whether the student has what a sheet is checked by."""
 
 
 @dataclass(frozen=True)

@@ -93,6 +93,7 @@ class DesignCase(LoadedAssignment):
             **page.names(),
             "answer_tables": asked.answers,
             "sheet_apart": asked.by_section,
+            "self_check": asked.self_check,
             "is_part": self.assignment.is_part,
             **page.asked(asked),
         }

@@ -271,7 +271,10 @@ def first_position(report: Report) -> Inlines:
         labels = ", ".join(map(str, report.positions))
         pin = NamedPoint(report.driver.pin)
         told = words["ways" if machine.span else "instants"][len(at) > 1]
-        return say(report, told, labels=labels, places=tuple(places), pin=pin)
+        # Tables of loads count the way of a slide from where it starts, which is none of the instants.
+        begun = Number(_plain(machine.start * MM), unit="mm")
+        moving = say(report, words["onwards" if machine.turn > 0 else "backwards"], first=begun)
+        return say(report, told, labels=labels, places=tuple(places), pin=pin, moving=moving)
     if machine.span:
         place_on_guide = Number(_plain(machine.start * MM), unit="mm")
         place: dict[str, Any] = {"label": first.label, "pin": NamedPoint(report.driver.pin), "place": place_on_guide}

@@ -9,11 +9,13 @@ import pytest
 
 from reportgen import api
 from reportgen.api import Engine
+from reportgen.assignment.handed_out import handed_out
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import compare
+from reportgen.marking.policy import read_policy
 from reportgen.marking.sheet import answer_book
 from reportgen.workbook import write_xlsx
 from tests.lanes import matrix
@@ -60,6 +62,38 @@ def test_what_lies_beside_the_task_is_enough_to_check_oneself(name: str, tmp_pat
     made = put_task(name, tmp_path)
     lines, agrees = compare(open_case(made["assignment.yaml"], "en"), made["answers.xlsx"])
     assert (agrees, len(lines)) == (True, 2)
+
+
+def test_the_student_gets_data_alone_whatever_the_instructor_wrote_beside_them(tmp_path: Path) -> None:
+    """No comment, so neither salt nor notes; no font that another computer may lack; the parts in one file."""
+    whole, part = tmp_path / "whole.yaml", ASSIGNMENTS / "coursework" / "feed-cam.yaml"
+    (tmp_path / part.name).write_bytes(part.read_bytes())
+    text = (ASSIGNMENTS / "coursework" / "shaper.yaml").read_text(encoding="utf-8")
+    named = text.replace("report:\n", "report:\n  font: Font of the Office  # bought in 2026\n", 1)
+    whole.write_text(f"# from spec.yaml, salt winter\n{named}", encoding="utf-8")
+    told = handed_out(whole)
+    assert not [word for word in ("winter", "bought", "#", "Font of", "file:") if word in told]
+    (tmp_path / "elsewhere").mkdir()
+    own = tmp_path / "elsewhere" / "own.yaml"
+    own.write_text(told, encoding="utf-8")
+    whole.write_text(text, encoding="utf-8")
+    theirs, mine = (key_of(open_case(file, "en")) for file in (whole, own))
+    assert len(mine.parts) == 2
+    for (_, page), (_, other) in zip(theirs.pages, mine.pages, strict=True):
+        assert [f"{row.id} {row.values}" for row in page.rows] == [f"{row.id} {row.values}" for row in other.rows]
+
+
+def test_an_instructor_may_keep_the_self_check_back(tmp_path: Path) -> None:
+    policy = tmp_path / "policy.yaml"
+    policy.write_text("self_check: false\n", encoding="utf-8")
+    ask = read_policy(policy).ask
+    made = api.task_files(FILE, "typst", "en", ask)
+    assert set(made) == {"task.pdf", "answers.xlsx"}
+    with pymupdf.open("pdf", made["task.pdf"]) as task:
+        assert "compare" not in " ".join(page.get_text() for page in task)
+    first, *_ = answer_book(ask.of(key_of(open_case(FILE))), self_check=False).sheets
+    assert not [entry.value for row in first.rows for entry in row if "compare" in str(entry.value)]
+    assert str(ask) != str(Ask()), "a batch makes its tasks anew"
 
 
 def test_a_sheet_is_known_by_its_data_whatever_the_files_are_called(tmp_path: Path) -> None:

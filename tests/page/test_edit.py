@@ -47,7 +47,8 @@ const cell = document.querySelector(`.tabled [data-row="${arguments[0]}"][data-c
 cell.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
 """
 POINTED = """
-const spot = (name) => extended.get(moving.root).spotAt(name), [a, b] = [spot(arguments[0]) ?? [0, 0], spot(arguments[1])];
+const spot = (name) => extended.get(moving.root).spotAt(name) ?? [0, 0];
+const [a, b] = [spot(arguments[0]), spot(arguments[1])];
 const drawing = document.querySelector("[data-stage=machine] svg");
 const { x, y } = new DOMPoint((a[0] + b[0]) / 2, (a[1] + b[1]) / 2).matrixTransform(drawing.getScreenCTM());
 drawing.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
@@ -100,7 +101,7 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
         browser.run(SLIDE, "f:parameters.r", 160)
         until(lambda: browser.run(PLACE) != here)
         assert file.read_text(encoding="utf-8") == begun, "nothing is written while a value is drawn"
-        assert "f:parameters.r" in browser.run(POINTED, "A", "B"), "the crank is its length's own"
+        until(lambda: "f:parameters.r" in browser.run(POINTED, "A", "B"))
         browser.run(TYPE, "f:parameters.l", "650")
         until(lambda: written(file, "l") == "650")
         until(lambda: browser.run("return document.querySelector('#problems li')?.textContent || ''"))

@@ -110,8 +110,10 @@ def file_of(kind: str, text: str) -> File:
 
 def _positions(task: Task) -> File:
     """How many positions, which way the crank turns, and where it is first."""
-    if at := re.findall(r"[Ii]n position [IVX]+ the crank stands at (\S+)° to the x-axis", task.text):
-        found: File = {"at": [typed(f"{angle}°") for angle in at]}
+    if at := task.find(r"[Ii]n positions? [IVX, ]+ the crank stands at (\S.*?) to the x-axis"):
+        found: File = {"at": [typed(angle) for angle in at.split(", ")]}
+    elif at := task.find(r"In positions? [IVX, ]+ pin \w+ stands (\S.*?) along its guide"):
+        found = {"at": [typed(way) for way in at.split(", ")]}
     else:
         count = task.find(r"at (\d+) (?:equidistant )?positions")
         assert count is not None
@@ -125,7 +127,15 @@ def _positions(task: Task) -> File:
 
 # --- what every kind may have -------------------------------------------------------------------------
 
-SPRING = r"from (\w+) on link (\d+) to the fixed point \((.*?), (.*?)\), stiffness (.*?), free length (.*?)[;.]?$"
+HUNG = r"from (?P<at>\w+) on link (?P<link>\d+) to "
+SIZES = r", stiffness (?P<c>.*?), free length (?P<free>.*)"
+SPRINGS = (
+    HUNG + r"the fixed point \((?P<x>.*?), (?P<y>.*?)\)" + SIZES,
+    HUNG + r"the fixed point (?P<fixed>\w+)" + SIZES,
+    HUNG + r"(?P<there>\w+) on link (?P<other>\d+)" + SIZES,
+    r"a torsion spring on link (?P<link>\d+) about (?P<about>\w+), stiffness (?P<c>.*?), "
+    r"slack at the angle (?P<free>.*) of the link to the x-axis",
+)
 FACE = (
     r"The face of slider (\d+) reaches from \S+ = (.*?) to \S+ = (.*?), counted from \w+ in the direction of its guide"
     r"(?:, at (.*?) below \w+)?\. "
@@ -133,23 +143,43 @@ FACE = (
 
 
 def _further(task: Task, data: Mapping[str, str]) -> File:
-    """The acceleration of the crank, the plane, further loads, springs to fixed points, faces of sliders."""
+    """The acceleration of the crank, further loads, and what every machine may have."""
     found: File = {}
     if "ε_1" in data:
-        found["epsilon1"] = ("-" if "with decreasing speed" in task.text else "") + data["ε_1"]
-    if "in a horizontal plane" in task.text:
-        found["plane"] = "horizontal"
+        found["epsilon1"] = _accelerates(task, data["ε_1"])
     if "oads act on the links" in task.text:
         found["loads"] = _loads(task)
-    springs = [
-        {"link": link, "at": _name(at), "to": [typed(x), typed(y)], "c": typed(c), "free": typed(free)}
-        for at, link, x, y, c, free in re.findall(SPRING, task.text, re.MULTILINE)
-    ]
+    return found | _beside(task)
+
+
+def _accelerates(task: Task, size: str) -> str:
+    """An acceleration of the driving link with its sign."""
+    return ("-" if "with decreasing speed" in task.text else "") + size
+
+
+def _beside(task: Task) -> File:
+    """The plane, springs, faces of sliders."""
+    found: File = {"plane": "horizontal"} if "in a horizontal plane" in task.text else {}
+    lines = (line.rstrip(";.") for line in task.text.splitlines())
+    told = (one for line in lines for one in (re.fullmatch(pattern, line) for pattern in SPRINGS) if one)
+    springs = [_spring(one.groupdict()) for one in told]
     faces = {
         link: {"from": typed(first), "to": typed(last)} | ({"below": typed(below)} if below else {})
         for link, first, last, below in re.findall(FACE, task.text)
     }
     return found | ({"springs": springs} if springs else {}) | ({"faces": faces} if faces else {})
+
+
+def _spring(told: Mapping[str, str]) -> File:
+    """A spring by its ends, or about its pin."""
+    spring: File = {"link": told["link"], "c": typed(told["c"]), "free": typed(told["free"])}
+    if "about" in told:
+        return spring | {"about": _name(told["about"])}
+    if "x" in told:
+        to: Any = [typed(told["x"]), typed(told["y"])]
+    else:
+        to = _name(told["fixed"]) if "fixed" in told else {"link": told["other"], "at": _name(told["there"])}
+    return spring | {"at": _name(told["at"]), "to": to}
 
 
 # --- tables -----------------------------------------------------------------------------------------
@@ -290,7 +320,7 @@ def _linkage(task: Task, data: Mapping[str, str]) -> File:
         file["flywheel"] = {"delta": data["δ_ω"]}
     if "their cycle takes two turns" in task.text:
         file["turns"] = "2"
-    return file
+    return file | _beside(task)
 
 
 def _driver(task: Task, data: Mapping[str, str], guides: Mapping[str, Sequence[str]]) -> File:
@@ -298,15 +328,19 @@ def _driver(task: Task, data: Mapping[str, str], guides: Mapping[str, Sequence[s
         arm = next(symbol for symbol in data if symbol.startswith(f"l_{centre}"))
         pin = arm.removeprefix(f"l_{centre}")
         speed = {COMMON[symbol]: data[symbol] for symbol in ("n", "ω_1") if symbol in data}
+        if "ε_1" in data:
+            speed["epsilon1"] = _accelerates(task, data["ε_1"])
         return {"type": "crank", "centre": _name(centre), "pin": pin, "length": data[arm]} | speed
-    start = re.search(r"pin (\w+) stands (\S+) mm along .* link 1 moves (in|against)", task.text)
+    start = re.search(r"pin (\w+) stands (\S+) mm.* along .* link 1 moves (in|against)", task.text)
     assert start is not None
-    begin = float(typed(start[2]))
+    begin = float(typed(task.find(r"its first position being at (\S+) mm") or start[2]))
     span = 1e3 * float(data["H_1"].split()[0])
     end = begin + (span if start[3] == "in" else -span)
-    speed = data[f"v_{start[1]}"]
+    speed = {"speed": data[f"v_{start[1]}"]}
+    if f"a_{start[1]}" in data:
+        speed["acceleration"] = _accelerates(task, data[f"a_{start[1]}"])
     ends = {"start": f"{begin} mm", "end": f"{end:.10g} mm"}
-    return {"type": "slider", "pin": start[1], "guide": _guide(guides["1"]), "speed": speed} | ends
+    return {"type": "slider", "pin": start[1], "guide": _guide(guides["1"])} | speed | ends
 
 
 def _guide(row: Sequence[str]) -> File:

@@ -63,6 +63,41 @@ CHANGES: tuple[tuple[str, Mapping[str, Any]], ...] = (
         "linkage-slide",
         {"parameters": {"loads": [{"by": "constant", "link": "5", "at": "F", "F": "70 N", "direction": "90 deg"}]}},
     ),
+    (
+        "linkage-slide",
+        {
+            "positions": {"count": None, "at": ["40 mm", "100 mm"]},
+            "report": {"worked_positions": None},
+            "parameters": {"driver": {"start": "10 mm", "end": "130 mm", "acceleration": "-2 m/s2"}},
+        },
+    ),
+    (
+        "four-bar-01",
+        {
+            "parameters": {
+                "springs": [
+                    {"link": "3", "about": "D", "c": "5 N m/rad", "free": "100 deg"},
+                    {"link": "2", "at": "E", "to": "D", "c": "1 N/mm", "free": "20 mm"},
+                    {"link": "3", "at": "C", "to": ["300 mm", "-20 mm"], "c": "4 N/mm", "free": "90 mm"},
+                    {"link": "2", "at": "F", "to": {"link": "1", "at": "B"}, "c": "2 N/mm"},
+                ]
+            }
+        },
+    ),
+    (
+        "linkage-8",
+        {
+            "positions": {"count": None, "at": ["50 deg", "230 deg"]},
+            "report": {"worked_positions": None},
+            "parameters": {
+                "driver": {"epsilon1": "-15 rad/s2"},
+                "plane": "horizontal",
+                "masses": [{"link": "2", "at": "E", "m": "3 kg", "J": "0.012 kg m2"}],
+                "springs": [{"link": "2", "at": "E", "to": {"link": "7", "at": "K"}, "c": "2 N/mm", "free": "30 mm"}],
+                "faces": {"7": {"from": "-20 mm", "to": "30 mm", "below": "12 mm"}},
+            },
+        },
+    ),
 )
 
 

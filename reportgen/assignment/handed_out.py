@@ -1,0 +1,30 @@
+"""The assignment that a student gets beside the task, to check a sheet by: its data, and nothing else of its files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from reportgen.assignment import parts
+from reportgen.base.source import MappingNode, read_source
+from reportgen.base.source_text import at, put, text_of, without
+
+REPORT = ("report",)
+LOOK = ("school", "templates", "font", "size")
+"""What a report looks like: another computer need not have these."""
+
+
+def handed_out(path: Path) -> str:
+    """The assignment of a file without comments and without a school's look, its parts in place of their files.
+
+    What `variants` writes above an assignment (spec, salt) is a comment, and so are an instructor's notes.  The file
+    has been read without a fault.  Raises `OSError` for a file that cannot be read.
+    """
+    top = read_source(path).top
+    assert isinstance(top, MappingNode), "a file without a fault is a table"
+    whole, _, _ = parts.in_place(top, path)
+    report = at(whole, REPORT)
+    if isinstance(report, MappingNode):
+        bare = put(whole, REPORT, without(report, LOOK))
+        assert isinstance(bare, MappingNode), "a section is put into a table"
+        whole = bare
+    return text_of(whole, "", MappingNode((), whole.mark))

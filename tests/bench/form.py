@@ -1,0 +1,188 @@
+"""How soon a form follows what is drawn and typed: new samples, drawn frames, the file, the moving part.
+
+`make bench` runs this; without a browser it measures the samples alone.  The program's own work is told as processor
+time, which other work on the computer does not change, the rest as it is felt.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import process_time, sleep
+from typing import Any
+
+import numpy as np
+
+from reportgen import catalogue
+from reportgen.base.source import MappingNode, Scalar, Source, read_source
+from reportgen.base.source_text import at, path_text, put
+from reportgen.cases import open_case, opener
+from reportgen.page.dragging import Resident
+from reportgen.page.ownership import moved
+from reportgen.page.watch import edited
+from tests.bench.page import ROOT, browser
+
+DRAWN = {
+    "engine-twin-05.yaml": (("parameters", "H"), 40, 596),
+    "shaper-01.yaml": (("parameters", "l3"), 25, 209),
+    "linkage-8.yaml": (("parameters", "driver", "length"), 60, 385),
+    "coursework/shaper-whole.yaml": (("parameters", "a"), 35, 279),
+}
+"""The value that is drawn in a file; no more than so many ms for its samples, and so many kB."""
+TIMES = 60
+SETTLED = 3.0
+"""A user looks at the page for so long (s) before the next change."""
+DRAG = """
+const done = arguments[arguments.length - 1], field = document.getElementById(arguments[0]).closest(".field");
+const bar = field.querySelector("[type=range]"), low = Number(bar.min), high = Number(bar.max), times = [];
+const panel = extended.get(moving.root), feed = panel.feed;
+let fed;
+panel.feed = (...what) => { feed(...what); requestAnimationFrame(() => setTimeout(() => fed(performance.now()))); };
+moving.pause();
+(async () => {
+  for (let index = 0; index < arguments[1]; index += 1) {
+    bar.value = low + (high - low) * (0.47 + 0.06 * index / arguments[1]);
+    const begun = performance.now(), drawn = new Promise((resolve) => { fed = resolve; });
+    bar.dispatchEvent(new Event("input", { bubbles: true }));
+    times.push(await drawn - begun);
+  }
+  panel.feed = feed;
+  done(times);
+})();
+"""
+"""The times (ms) from a value drawn to the frame that shows it, for so many values."""
+TYPE = """
+const done = arguments[arguments.length - 1], field = document.getElementById(arguments[0]);
+const now = () => performance.timeOrigin + performance.now(), begun = now();
+new MutationObserver((_, observer) => {
+  observer.disconnect();
+  requestAnimationFrame(() => setTimeout(() => done([begun, now()])));
+}).observe(document.body, { attributes: true, attributeFilter: ["data-moving"] });
+field.value = arguments[1];
+field.dispatchEvent(new Event("change", { bubbles: true }));
+"""
+"""When a value was typed, and when the machine that has it was drawn (ms)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """What samples of a value that is drawn cost: processor time (ms), kilobytes."""
+
+    milliseconds: float
+    kilobytes: float
+
+
+@dataclass(frozen=True, slots=True)
+class Felt:
+    """What is felt of a form: first view (s), drawn frames (ms, the middle one and 19 of 20), file and machine (ms)."""
+
+    view: float
+    frame: float
+    slow_frame: float
+    own: float
+    """Of a frame, the processor time of the program (ms)."""
+    file: float
+    machine: float
+
+
+def drawn(file: Path, where: tuple[str, ...], times: int = TIMES) -> Drawn:
+    """The samples of a machine of which a value is a hundredth larger."""
+    source, resident = read_source(file), Resident.of(open_case(file))
+    old = at(source.top, where)
+    assert resident is not None
+    assert isinstance(source.top, MappingNode)
+    assert isinstance(old, Scalar)
+    top = put(source.top, where, replace(old, text=moved(old.text) or ""))
+    taken, sent = [], b""
+    for _ in range(times):
+        begun = process_time()
+        assignment, _ = catalogue.understood(Source(str(file), top=top), file)
+        assert assignment is not None
+        sent = resident.sampled(assignment)
+        taken.append(1e3 * (process_time() - begun))
+    return Drawn(float(np.median(taken)), len(sent) / 1e3)
+
+
+@contextmanager
+def copied(name: str) -> Iterator[Path]:
+    """A file of the repository, with those beside it, where it can be written."""
+    original = ROOT / "assignments" / name
+    with tempfile.TemporaryDirectory(prefix="bench-") as folder:
+        for file in original.parent.glob("*.yaml"):
+            shutil.copy(file, folder)
+        yield Path(folder) / original.name
+
+
+def felt(driver: Any, name: str, where: tuple[str, ...], times: int = TIMES) -> Felt:
+    """What a browser feels of the form of a file."""
+    field = f"f:{path_text(where)}"
+    with copied(name) as file, edited(file, opener()) as server:
+        driver.get(server.address)
+        view = driver.execute_script("return performance.getEntriesByType('navigation')[0].loadEventEnd") / 1e3
+        # The report is there, and what belongs to which link.
+        sleep(SETTLED)
+        driver.execute_async_script(DRAG, field, 3)
+        begun = process_time()
+        frames = driver.execute_async_script(DRAG, field, times)
+        own = 1e3 * (process_time() - begun) / times
+        files, machines = [], []
+        for _ in range(5):
+            sleep(SETTLED)
+            old = driver.execute_script("return document.getElementById(arguments[0]).dataset.was", field)
+            typed, shown = driver.execute_async_script(TYPE, field, moved(old))
+            files.append(file.stat().st_ctime_ns / 1e6 - typed)
+            machines.append(shown - typed)
+        middle, slow = np.quantile(frames, (0.5, 0.95))
+        return Felt(view, middle, slow, own, float(np.median(files)), float(np.median(machines)))
+
+
+def table(samples: dict[str, Drawn], feelings: dict[str, Felt]) -> Iterator[str]:
+    """The measurements in Markdown, as `docs/speed.md` has them."""
+    yield "| file | samples of a value drawn | sent |"
+    yield "| --- | --- | --- |"
+    for name, cost in samples.items():
+        _, milliseconds, kilobytes = DRAWN[name]
+        shown = f"{cost.milliseconds:.0f} ms (≤ {milliseconds}) | {cost.kilobytes:.0f} kB (≤ {kilobytes})"
+        yield f"| `{Path(name).stem}` | {shown} |"
+    if not feelings:
+        return
+    yield ""
+    aims = (
+        "first view (≤ 1 s)",
+        "frame of a value drawn (≤ 100 ms, 95 % ≤ 150 ms)",
+        "file (≤ 50 ms)",
+        "machine (≤ 0.3 s)",
+    )
+    yield f"| form | {' | '.join(aims)} |"
+    yield "| --- | --- | --- | --- | --- |"
+    for name, cost in feelings.items():
+        frame = f"{cost.frame:.0f}, {cost.slow_frame:.0f} ms, of which {cost.own:.0f} ms are the program's"
+        yield f"| `{Path(name).stem}` | {cost.view:.2f} s | {frame} | {cost.file:.0f} ms | {cost.machine / 1e3:.2f} s |"
+
+
+def main() -> int:
+    """Measure and print; 0 also where there is no browser to measure in."""
+    samples = {name: drawn(ROOT / "assignments" / name, where) for name, (where, _, _) in DRAWN.items()}
+    feelings: dict[str, Felt] = {}
+    driver = browser()
+    if driver is None:
+        print("no browser here: chromium and chromedriver are not installed", file=sys.stderr)
+    else:
+        driver.set_script_timeout(120)
+        try:
+            feelings = {name: felt(driver, name, where) for name, (where, _, _) in DRAWN.items()}
+        finally:
+            driver.quit()
+    print(*table(samples, feelings), sep="\n")
+    print(f"\n{os.cpu_count()} processors, {os.getloadavg()[0]:.1f} busy")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
