@@ -13,8 +13,8 @@ from reportgen.handin.plan_fit import Lines
 
 SLIMMEST, WIDEST = np.radians(3.0), np.radians(50.0)
 """The angles that a stroke of an arrowhead may have with its line."""
-SHORTER = 0.5
-"""A stroke is shorter than this share of its line."""
+LONGEST = 16.0
+"""A stroke is no longer than so many errors of an end (8 mm): an arrowhead is small, and vectors may lie alike."""
 ALIKE = 0.15
 """The strokes of one arrowhead differ in length and angle by no more than this share."""
 
@@ -36,7 +36,7 @@ def arrowheads(lines: Lines) -> Arrowheads:
     # The strokes begin at the very end that they mark, as the program snaps to it.
     at_end = np.abs(lines.points[line] - lines.points[stroke]) <= lines.reach
     slim = (np.abs(angle) >= SLIMMEST) & (np.abs(angle) <= WIDEST)
-    kept = np.flatnonzero(slim & at_end & (length[stroke] < SHORTER * length[line]))
+    kept = np.flatnonzero(slim & at_end & (length[stroke] < np.minimum(length[line], LONGEST * lines.error)))
     sides: dict[int, tuple[list[int], list[int]]] = {}
     for pair in kept:
         sides.setdefault(int(line[pair]), ([], []))[int(angle[pair] > 0)].append(int(pair))

@@ -225,7 +225,7 @@ def _of_corners(corners: np.ndarray, width: float) -> float:
     """What it says that lines end within a `width` (mm) of so many corners, in each direction, if nothing made them.
 
     An end may lie anywhere about the corner next to it, as far as that is; the first one gives the place, the farthest
-    one the scale.
+    one the scale.  On one line they lie across it by its own direction alone.
     """
     if len(corners) < FEWEST_CORNERS:
         return 0.0
@@ -239,4 +239,7 @@ def _of_corners(corners: np.ndarray, width: float) -> float:
         left[following] = False
         reached = np.minimum(reached, apart[following])
     gains = np.maximum(np.log(np.array(steps) / width), 0.0)
-    return float(2 * gains.sum() - gains.max())
+    along = corners - corners[0]
+    direction = along[np.abs(along).argmax()]
+    off_line = np.abs((along * direction.conjugate()).imag) / np.abs(direction)
+    return float(gains.sum() if off_line.max() < width else 2 * gains.sum() - gains.max())

@@ -6,6 +6,7 @@ left out, or one of several, is none's.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -47,7 +48,10 @@ class _Search:
         """Of each corner the one line that nobody else begins there, if one vector is wanting that begins there."""
         shape = plan.shape
         a, b = plan.at(shape.starts), plan.at(shape.ends)
-        wanting = [n for n in np.flatnonzero(plan.lines < 0) if abs(b[n] - a[n]) >= SEEN * self.lines.error]
+        # Of two vectors that have one line the other may well have been drawn elsewhere.
+        count = Counter(plan.lines[plan.present].tolist())
+        unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1]
+        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error]
         for corner in {shape.vectors[number].start for number in wanting}:
             begin = [int(number) for number in wanting if shape.vectors[number].start == corner]
             place = complex(plan.at(shape.corners[corner]))
@@ -59,7 +63,7 @@ class _Search:
                 named = self._named(plan, begin, line)
                 alone = len(begin) == 1 and len(telling) == 1
                 vector = named if named is not None else begin[0] if alone else self._alike(plan, begin, line)
-                if vector is None or not shape.vectors[vector].drawn:
+                if vector is None or not shape.vectors[vector].drawn or plan.lines[vector] >= 0:
                     continue
                 rivals = [other for other in telling if other is not line and self._may_be(plan, vector, other)]
                 if not rivals or named is not None:

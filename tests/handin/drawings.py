@@ -295,6 +295,11 @@ def _letter(space, at, text, manner, height=3.0):
     entity.dxf.insert = (at.real / manner.unit, at.imag / manner.unit)
 
 
+def at(point) -> complex:
+    """A point of ezdxf in the plane."""
+    return complex(point.x, point.y)
+
+
 def same_line(first: Line, second: Line, within: float = 1e-3) -> bool:
     """Whether two lines have the same ends, whichever comes first."""
     (a, b), (c, d) = first, second
