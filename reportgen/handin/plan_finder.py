@@ -141,12 +141,13 @@ class _Judge:
         """What speaks for a fit (logarithm of odds), chance not yet taken off."""
         corners, square = fit.corners_met(2 * self.lines.reach)
         closing = len(fit.used) - (len(corners) - 1)
+        of_scale = self._of_scale(fit)
         return (
-            _of_corners(corners, WITHIN * self.deviation)
+            _of_corners(corners, WITHIN * self.deviation, of_scale > 0)
             + CLOSED * max(closing, 0)
             - LEFT_OUT * fit.missing(SEEN * self.lines.error)
             - square / (2 * self.deviation**2)
-            + self._of_scale(fit)
+            + of_scale
             + self.labels.speak_for(fit)
         )
 
@@ -221,11 +222,11 @@ class _Judge:
         return plans, doubtful
 
 
-def _of_corners(corners: np.ndarray, width: float) -> float:
+def _of_corners(corners: np.ndarray, width: float, scaled: bool) -> float:
     """What it says that lines end within a `width` (mm) of so many corners, in each direction, if nothing made them.
 
     An end may lie anywhere about the corner next to it, as far as that is; the first one gives the place, the farthest
-    one the scale.  On one line they lie across it by its own direction alone.
+    one the scale.  Corners on one line are no figure: that others lie on it, too, counts only at the common scale.
     """
     if len(corners) < FEWEST_CORNERS:
         return 0.0
@@ -242,4 +243,5 @@ def _of_corners(corners: np.ndarray, width: float) -> float:
     along = corners - corners[0]
     direction = along[np.abs(along).argmax()]
     off_line = np.abs((along * direction.conjugate()).imag) / np.abs(direction)
-    return float(gains.sum() if off_line.max() < width else 2 * gains.sum() - gains.max())
+    on_line = off_line.max() < width and not scaled
+    return float(gains.sum() if on_line else 2 * gains.sum() - gains.max())

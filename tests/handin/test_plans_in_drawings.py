@@ -27,7 +27,7 @@ from reportgen.report.case import MachineAnalysis
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.dxf import write_sheet
 from tests.handin.drawings import RELEASES, Manner, Truth, at, draw, seen, true_plans
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 from tests.marking import students
 
 SEED = re.compile(rb"\$HANDSEED\s+5\s+\w+")
@@ -99,7 +99,7 @@ def with_key(scheme: MarkingScheme, own) -> MarkingScheme:
     return replace(scheme, key=key_asked(Policy(), scheme.key, own)[0])
 
 
-@pytest.mark.parametrize("name", matrix(MACHINES, {"slider-crank-01"}))
+@pytest.mark.parametrize("name", matrix(MACHINES, {"four-bar-02"}))
 def test_wrong_vectors_are_told_and_no_others(name: str) -> None:
     told = planted = 0
     for seed in (1, 2):
@@ -115,6 +115,7 @@ def test_wrong_vectors_are_told_and_no_others(name: str) -> None:
     assert told >= 0.5 * planted
 
 
+@proof
 def test_plans_of_misread_data_are_found_by_the_own_values() -> None:
     name = "four-bar-02"
     case, _ = opened_at_all(name)
@@ -127,6 +128,7 @@ def test_plans_of_misread_data_are_found_by_the_own_values() -> None:
     assert len(by_own.values) > 0.6 * len(seen(truth, truth.lines))
 
 
+@proof
 def test_a_place_that_two_plans_fit_is_unread_unless_its_position_stands_beside_it() -> None:
     """Pins at 180°: half a turn on, both pistons of a twin have changed their parts."""
     name = "engine-twin-05"
@@ -137,6 +139,7 @@ def test_a_place_that_two_plans_fit_is_unread_unless_its_position_stands_beside_
     assert {id for id, _ in with_letters.values} >= {"seg.v.pb", "seg.a.pb"}
 
 
+@proof
 def test_our_own_sheets_are_read() -> None:
     case, scheme = opened_at_all("slider-crank-01")
     kinematics, *_ = drawing_sheets(case, "A1")
@@ -149,6 +152,7 @@ def test_our_own_sheets_are_read() -> None:
     assert verdicts[Verdict.right] > 10
 
 
+@proof
 def test_any_unit_will_do() -> None:
     """A drawing in centimetres that says nothing of it reads as that in millimetres."""
     name = "four-bar-02"
