@@ -106,6 +106,7 @@ def test_wrong_vectors_are_told_and_no_others(name: str) -> None:
         data, truth = drawn(name, Manner(noise=0.3, wrong=0.5), seed)
         reading = read_as(name, data)
         places = {place: answer.mark for place, answer in reading.values.items() if answer.mark.wrong}
+        places |= reading.beside
         for place, where in places.items():
             if place[0].startswith("seg."):
                 assert place in truth.wrong
