@@ -423,7 +423,7 @@ def compare(
     """
     from reportgen.handin import checking
 
-    return checking.compare(open_case(path, language), files, hint)
+    return checking.compare(open_case(path, language), open_case(path), files, hint)
 
 
 def read(
@@ -437,9 +437,9 @@ def read(
     from reportgen.marking.key import Ask
 
     case = open_case(path, language)
-    key, own = checking.read(case, files, ask or Ask(), language)
+    key, own = checking.read(case, open_case(path), files, ask or Ask())
     folder = out / case.assignment.id
-    book = checking.reading(key, own, folder / reading_book.NAME, language)
+    book = checking.reading(key, own, folder / reading_book.NAME)
     (written,) = put_files(folder, {reading_book.NAME: book})
     return written, checking.summary(own, case.assignment.language)
 

@@ -19,7 +19,7 @@ from reportgen.classes.collecting import Collected, Refused, collect, named_afte
 from reportgen.classes.corrections import Correction, applied
 from reportgen.classes.gradebooks import Gradebook, Participant
 from reportgen.classes.lateness import Handing, days_late
-from reportgen.classes.own_work import OwnWork, completed, own_works, with_own, without_own
+from reportgen.classes.own_work import LookedFor, OwnWork, completed, own_works, with_own, without_own
 from reportgen.classes.platforms import Handed, Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import RosterEntry, assignment_files, comparable, read_roster
@@ -28,6 +28,7 @@ from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.marking.grades import person
 from reportgen.marking.guard import Classmate
+from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark, own_worlds
 from reportgen.marking.marks import Marking, Submission, Unmarked
 from reportgen.marking.parts import check_shares
@@ -60,7 +61,7 @@ class Classroom:
 
     def plans(self, key: Key, readings: Sequence[FileReading]) -> WantedPlans | None:
         """The plans of an assignment, also by what was read of its student's report."""
-        scheme, case = self.scheme(key.id), open_case(self.files[comparable(key.id)], self.language)
+        scheme, case = self.scheme(key.id), open_case(self.files[comparable(key.id)], None)
         read = submission(readings, self.language) if readings else None
         return wanted_plans(case, scheme.key, own_worlds(asked_of(scheme, read), read) if read else ())
 
@@ -75,6 +76,11 @@ class Classroom:
                 # Nobody's sheet can come from an assignment that cannot be worked out.
                 continue
         return tuple(keys)
+
+    def handed_out(self, key: Key) -> Key:
+        """What is asked for by the symbols of the papers, which are in the assignment's own language."""
+        own = key if self.language is None else key_of(open_case(self.files[comparable(key.id)], None))
+        return self.policy.ask.of(own)
 
     def participant(self, key: Key, owner: Owner | None = None) -> Participant:
         """What a platform may know the student of a key by."""
@@ -144,8 +150,9 @@ def grade(
     came = chain(handed_in(submissions, faults), completed(out, submissions))
     handed = read_sheets(without_own(came, own), language)
     collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
-    asked = {comparable(key.id): policy.ask.of(key) for key in room.keys} if own else {}
-    works = own_works(own, asked, lambda file: _student_of(file, room, gradebook), room.plans, policy.twice, language)
+    keys = {comparable(key.id): key for key in room.keys} if own else {}
+    looked_for = LookedFor(room.handed_out, room.plans)
+    works = own_works(own, keys, lambda file: _student_of(file, room, gradebook), looked_for, policy.twice, language)
     collected = with_own(collected, works, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.

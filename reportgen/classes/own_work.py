@@ -55,15 +55,22 @@ class OwnWorks:
         self.problems += problems
 
 
-PlansOf = Callable[[Key, Sequence[FileReading]], WantedPlans | None]
-"""The plans that a drawing for a key may have, also by the values of files that were read before."""
+@dataclass(frozen=True, slots=True)
+class LookedFor:
+    """What is looked for in the files of a student, by the key: what is `asked`, by the symbols of the own papers.
+
+    Of a drawing it is the `plans`, also by the values of files that were read before.
+    """
+
+    asked: Callable[[Key], Key]
+    plans: Callable[[Key, Sequence[FileReading]], WantedPlans | None]
 
 
 def own_works(
     handed: Sequence[Handed],
     keys: Mapping[str, Key],
     student_of: Callable[[Handed], Key | None],
-    plans_of: PlansOf,
+    looked_for: LookedFor,
     twice: Twice,
     language: Language | None,
 ) -> OwnWorks:
@@ -85,15 +92,21 @@ def own_works(
     chosen = list(_chosen(of_assignment, keys, gathered, twice, language))
     known = {key.id: key for key in keys.values()}
     read: dict[str, list[tuple[Handed, FileReading]]] = {}
-    drawings = [one for one in chosen if one[1].path.suffix.lower() == DRAWING]
+
+    def before(assignment: str) -> list[FileReading]:
+        """What was read before of the same student."""
+        return [reading for _, reading in read.get(assignment, ())]
+
+    drawings = [file for file in chosen if file[1].path.suffix.lower() == DRAWING]
     # A report says by which values its drawings may be found.
-    for several in ([one for one in chosen if one not in drawings], drawings):
-        sought = {
-            assignment: plans_of(known[assignment], [reading for _, reading in read.get(assignment, ())])
-            for assignment, _ in (several if several is drawings else ())
-        }
+    for several in ([file for file in chosen if file not in drawings], drawings):
+        calls = [
+            (file, looked_for.asked(known[assignment]), looked_for.plans(known[assignment], before(assignment)))
+            if several is drawings
+            else (file, looked_for.asked(known[assignment]), None)
+            for assignment, file in several
+        ]
         assignments = iter([assignment for assignment, _ in several])
-        calls = ((file, known[assignment], sought.get(assignment)) for assignment, file in several)
         for file, reading in read_own(calls, language):
             assignment = next(assignments)
             if isinstance(reading, list):

@@ -26,15 +26,17 @@ from reportgen.report.case import Case
 from reportgen.report.key import Key
 
 
-def read(case: Case, files: Sequence[Path], ask: Ask, language: Language | None) -> tuple[Key, Submission]:
-    """What reports and drawings say of what is asked for; raises `AssignmentError` for a file that is refused."""
-    policy = Policy(ask=ask)
-    key = ask.of(key_of(case))
-    spoken = language or key.language
+def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:
+    """What reports and drawings say of what is asked for, and its key; raises `AssignmentError` for what is refused.
+
+    `papers` are the case in the language of the student's own papers, whose symbols are looked for.
+    """
+    spoken, policy = case.assignment.language, Policy(ask=ask)
     refuse(files, spoken)
+    asked = ask.of(key_of(papers))
 
     def read_all(some: Sequence[Path], plans: WantedPlans | None = None) -> list[FileReading]:
-        return [read_file(path, content(path, None, spoken), key, spoken, plans) for path in some]
+        return [read_file(path, content(path, None, spoken), asked, spoken, plans) for path in some]
 
     drawings = [path for path in files if path.suffix.lower() == DRAWING]
     readings = read_all([path for path in files if path not in drawings])
@@ -43,7 +45,7 @@ def read(case: Case, files: Sequence[Path], ask: Ask, language: Language | None)
         # A report says by which values its drawings may be found.
         own = submission(readings, spoken) if readings else None
         worlds = own_worlds(replace(scheme, key=key_asked(policy, scheme.key, own)[0]), own) if own else ()
-        readings += read_all(drawings, wanted_plans(case, scheme.key, worlds))
+        readings += read_all(drawings, wanted_plans(papers, scheme.key, worlds))
     whole = submission(readings, spoken)
     return key_asked(policy, key_of(case), whole)[0], whole
 
@@ -56,7 +58,7 @@ def refuse(files: Sequence[Path], language: Language) -> None:
         raise as_error(list(faults), language)
 
 
-def compare(case: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
+def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
     """Lines that say where a sheet, or else a report and drawings, leave their assignment, and whether they agree.
 
     What was not read does not disagree, and is told.  Raises `AssignmentError` for what cannot be read.
@@ -66,14 +68,14 @@ def compare(case: Case, files: Sequence[Path], hint: bool = False) -> tuple[tupl
         # Beside a sheet, the sheet counts; of several the last, as where they are handed in.
         return compare_sheet(case, sheets[-1], hint)
     scheme = marking_scheme(case, Policy(guard=False))
-    key, own = read(case, files, Ask(), None)
+    key, own = read(case, papers, files, Ask())
     rows = frozenset(row.id for row in key.asked)
     return compared(replace(scheme, key=key), replace(own, rows=rows), hint)
 
 
-def reading(key: Key, own: Submission, target: Path, language: Language | None) -> bytes:
+def reading(key: Key, own: Submission, target: Path) -> bytes:
     """The sheet of what was read, for `target`; raises `AssignmentError` where somebody has completed it there."""
-    spoken = language or key.language
+    spoken = key.language
     if target.exists():
         try:
             standing = read_submission(target, key, spoken)

@@ -35,7 +35,7 @@ _WIDTHS = (12.0, 12.0, 12.0, 18.0, 90.0)
 
 def fingerprint(submission: Submission) -> str:
     """What all cells of a reading hold, in short."""
-    cells = [f"{id} {k} {answer.value!r}" for (id, k), answer in submission.values.items()]
+    cells = [f"{id} {k} {answer.value:.10g}" for (id, k), answer in submission.values.items()]
     cells += [f"{id} {k} {UNSETTLED}" for id, k in submission.unread]
     cells += [f"{id} {k} !" for id, k in submission.problems]
     return sha256("\n".join(sorted(cells)).encode()).hexdigest()[:_SHORT]

@@ -78,6 +78,8 @@ _PROSE = re.compile(
 )
 """How words begin behind a number without a unit that are no unit themselves."""
 _NAMES = re.compile(r"[^\W\d_][\w′]*(?:[_^](?:\{[^{}]*\}|[\w′]+))*|[_^]\{[^{}]*\}")
+_GIVEN = re.compile(rf"\s*{NUMBER}\s*(?:{UNIT}(?![\w/])|[;÷±…]|\s[^\W\d_]{{2,}})")
+"""A number that was meant as a value, whatever stands behind it."""
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "π", "pi", "x"})
 
 
@@ -196,7 +198,7 @@ def value_of(statement: Statement) -> StatedValue | None:
 def is_worked(statement: Statement) -> bool:
     """Whether numbers stand behind the last “=” that no symbol is left among: they were to come to something."""
     tail = RELATION.split(statement.clauses[0])[-1]
-    if OBJECT in tail:
+    if OBJECT in tail or _GIVEN.match(tail):
         return True
     names = [one for one in _NAMES.findall(tail) if one.casefold() not in _FUNCTIONS]
     left = _NAMES.sub("", tail)

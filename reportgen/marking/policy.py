@@ -13,7 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Flag, Interval, TypedText, Until, Whole, quantity
+from reportgen.assignment.fields import Decimal, Flag, Interval, Percent, TypedText, Until, Whole, quantity
 from reportgen.assignment.reading import read_model
 from reportgen.base.units import Given, Language
 from reportgen.marking.bands import DIGITS, PAPER_ERROR
@@ -140,7 +140,7 @@ class _PolicyFile(Part):
     parts: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
     late: _Late | None = None
     twice: Annotated[Twice, Field(json_schema_extra={})] = "last"
-    least_read: Annotated[Given | None, quantity("%", least=0, most=100)] = None
+    least_read: Annotated[float, Percent()] = LEAST_READ
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -194,6 +194,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         parts=content.parts,
         late=Lateness(late.due, late.per_day, late.most) if (late := content.late) else None,
         twice=content.twice,
-        least_read=LEAST_READ if content.least_read is None else content.least_read.si,
+        least_read=content.least_read,
         file=path,
     )
