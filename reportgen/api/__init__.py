@@ -21,6 +21,7 @@ from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch, version
 from reportgen.base.source import read_source
+from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, templates_hash, word
@@ -148,7 +149,9 @@ def build_each(
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)), _ahead(assignment, engine, letter) as ahead:
+        step("solve")
         case = opened(assignment)
+        step("compose")
         tree = case.document()
         if "pdf" in formats:
             if ahead is not None:
@@ -192,6 +195,7 @@ def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> Abs
 def _page(case: Case, tree: Document) -> bytes:
     from reportgen.page import page
 
+    step("page")
     return page(case, tree).encode()
 
 
@@ -202,6 +206,7 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
     """
     from reportgen.workbook.letterhead import LETTERHEAD
 
+    step("word")
     look = school_folder(assignment.school) / LETTERHEAD if assignment.school is not None else None
     return bounded(assignment, _written, assignment, tree, look)
 
@@ -257,6 +262,7 @@ def typeset(
     """
     from reportgen.report.layout import Letter
 
+    step("typeset")
     letter = letter or Letter()
     if engine == "latex":
         from reportgen.writers import latex, pdflatex
@@ -273,6 +279,7 @@ def typeset_sheet(sheet: DrawingSheet, title: str, language: Language) -> bytes:
     """The PDF of a drawing sheet.  Raises `TypesetterError`."""
     from reportgen.writers import typst
 
+    step("typeset")
     return typst.compile(typst.write_sheet(sheet, title, language))
 
 
@@ -340,6 +347,7 @@ def key_files(
     from reportgen.marking.key import Ask, key_of
     from reportgen.workbook import write_csv, write_xlsx
 
+    step("solve")
     case = open_case(path, language)
     key = (ask or Ask()).of(key_of(case))
     makers: Mapping[str, Callable[[], bytes]] = {
@@ -372,6 +380,7 @@ def sheet_files(
     """
     from reportgen.sheets import drawing_sheets, dxf
 
+    step("solve")
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, given_springs, wide_sliders
+from reportgen.catalogue import declared_loads, given_friction, given_springs, wide_sliders
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -29,6 +29,7 @@ def outline(
     further: bool = False,
     springs: bool = False,
     faces: bool = False,
+    friction: bool = False,
     sizes: str = "dimensions",
     load: str = "working",
     summary: tuple[str, ...] = (),
@@ -39,7 +40,7 @@ def outline(
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, and sliders may have `faces`.
+    be `springs`, sliders may have `faces` and joints `friction`.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
@@ -49,7 +50,8 @@ def outline(
     wheel = () if flywheel is None else ("flywheel",)
     beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
     wide = ("faces",) if faces else ()
-    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *wheel, *CLOSING)
+    rubbing = ("friction",) if friction else ()
+    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *rubbing, *wheel, *CLOSING)
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
@@ -100,6 +102,7 @@ def driven(
     of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    friction = given_friction.entered(given.friction, linkage, faces, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in of_springs)}
     # What a kind sets out by its name is its own load.
@@ -112,6 +115,7 @@ def driven(
     parts |= {
         "springs": bool(springs),
         "faces": bool(faces),
+        "friction": friction is not None,
         "curves": not positions.at,
         "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
     }
@@ -131,6 +135,7 @@ def driven(
         speed=given.speed,
         acceleration=given.acceleration,
         faces=faces,
+        friction=friction,
         sheet=q,
         unevenness=given.unevenness,
         applied=loads.applied,

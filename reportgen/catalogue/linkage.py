@@ -16,7 +16,7 @@ from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import declared_loads, given_springs, linkage_checks, wide_sliders
+from reportgen.catalogue import declared_loads, given_friction, given_springs, linkage_checks, wide_sliders
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import outline
 from reportgen.catalogue.given_sheet import GivenSheet
@@ -125,12 +125,14 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    friction = given_friction.entered(given.friction, linkage, faces, q.datum)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
         built,
         sheet=q,
         faces=faces,
+        friction=friction,
         formulas=loops.write,
         compared=tuple(loops.compared),
         equations=loops.equations,
@@ -144,6 +146,7 @@ def machine(assignment: Assignment) -> Machine:
             curves=not positions.at,
             springs=bool(springs),
             faces=bool(faces),
+            friction=friction is not None,
             driver="crank" if crank else "slide",
         ),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,

@@ -29,6 +29,7 @@ from reportgen.assignment.fields import (
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
+from reportgen.catalogue.given_friction import JointFriction
 from reportgen.catalogue.given_springs import Spring
 from reportgen.catalogue.wide_sliders import Face
 from reportgen.machine import DRIVER
@@ -54,12 +55,13 @@ OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s":
 
 
 class UnderGravity(Part):
-    """Where a machine stands: gravity, none in a horizontal plane; its springs; how wide its sliders are."""
+    """Where a machine stands: gravity, none in a horizontal plane; its springs; how wide its sliders are, what rubs."""
 
     g: Gravity = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     plane: Literal["horizontal"] | None = None
     springs: Annotated[tuple[Spring, ...], Field(max_length=MOST_LOADS)] = ()
     faces: Annotated[dict[Link, Face], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
+    friction: JointFriction | None = None
 
     @property
     def gravity(self) -> float:

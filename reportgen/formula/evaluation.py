@@ -72,6 +72,11 @@ def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
     return np.where((place < least) | (place > most), value, np.nan)
 
 
+def where_positive(value: Value, place: Value) -> Value:
+    """The value where another one is above 0, nan elsewhere."""
+    return np.where(np.asarray(place) > 0, value, np.nan)
+
+
 def mean(values: Value, weights: Value = 1.0) -> Value:
     """The mean over positions, the last axis; it keeps that axis, so that it stands for all of them."""
     values, weights = np.broadcast_arrays(np.atleast_1d(values), weights)
@@ -148,6 +153,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "if_zero": if_zero,
     "within": within,
     "beyond": beyond,
+    "where_positive": where_positive,
     "branch": branch,
     "around": around,
     "amid": amid,

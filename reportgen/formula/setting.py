@@ -199,7 +199,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
             case Call("cross" | "dot" as product, (left, right)):
                 sign = Sign("×" if product == "cross" else "·", "bound")
                 return MathRow((tight(left, QUOTIENT), sign, tight(right, QUOTIENT)))
-            case Call("beyond", (value, *_)):
+            case Call("beyond" | "where_positive", (value, *_)):
                 return of(value)
             case Call(name, arguments):
                 return applied(name, arguments, None)
@@ -259,7 +259,7 @@ def level(node: Expression, linear: bool = False) -> int:
             return SUM if node.shown < 0 else PRODUCT if large else MARKED if node.unit else ATOM
         case Product():
             return PRODUCT
-        case Call("beyond", (value, *_)):
+        case Call("beyond" | "where_positive", (value, *_)):
             return level(value, linear)
         case Fraction() | Power() | Call("cross" | "dot"):
             return QUOTIENT

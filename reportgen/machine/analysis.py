@@ -25,6 +25,7 @@ from reportgen.machine.forces import (
     weights,
 )
 from reportgen.machine.gas import indicated_work, stroke_at
+from reportgen.machine.joint_friction import Friction, FrictionForces, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque, carriers
 from reportgen.machine.motion import Motion, cross, solve_motion
@@ -72,6 +73,14 @@ class Analysis:
         tilts = faces.tilts(normal, reaction.moment)
         first, last = faces.ends(normal, reaction.moment)
         return name, tilts, np.where(tilts, first, np.nan), np.where(tilts, last, np.nan)
+
+    @cached_property
+    def with_friction(self) -> FrictionForces | None:
+        """Reactions and torque with the friction of the joints, None where nothing rubs."""
+        friction = self.machine.friction
+        if friction is None:
+            return None
+        return solve_with_friction(friction, self.machine.linkage, self.motion, self.loads, self.forces)
 
     @cached_property
     def summary(self) -> Summary:
@@ -286,6 +295,8 @@ class Machine:
     """ε₁ (rad/s²) of a crank, or the acceleration (m/s²) of a slide, positive in the sense of its speed."""
     faces: Mapping[int, Faces] = field(default_factory=dict)
     """How wide sliders are, by their links."""
+    friction: Friction | None = None
+    """What joints rub."""
     instants: bool = False
     """Whether its positions, the `places`, are single instants, so that nothing is said of the way between them."""
     essential: tuple[str, ...] = ()

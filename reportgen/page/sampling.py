@@ -50,6 +50,7 @@ from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motio
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
+from reportgen.page.friction_layer import friction_items
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
@@ -72,7 +73,7 @@ ARROW = 34.0
 FAR = 2.5
 """A centre farther off than so many diagonals of the drawing is not drawn."""
 DIGITS, MOST_DECIMALS = 5, 5
-FORCES = ("loads", "inertia", "weights", "reactions")
+FORCES = ("loads", "inertia", "weights", "reactions", "friction")
 """The layers of forces, which have one scale."""
 LEVER, LONGER = 0.45, 0.2
 """The arrows of forces on the lever, and by how much one at the place of another is longer: shares of the lever."""
@@ -226,7 +227,7 @@ class Samples:
             scales += [BarScale(per, kind, (layer,))] if arrows else []
         items += self._centres(scale, low, high)
         forces, per = self._forces(scale)
-        items += forces
+        items += [*forces, *friction_items(self.report, self.analysis, scale, per, self.knots.size)]
         scales += [BarScale(per, "force", FORCES)] if forces else []
         spots = tuple(
             Spot(

@@ -20,7 +20,9 @@ from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
+from reportgen.plans.joint_friction import enter_friction, enter_friction_of_cycle
 from reportgen.plans.loads import Polygon
+from reportgen.plans.rests import with_rest
 from reportgen.plans.scales import DIAGRAM, fitting_axis, no_scales, own_scales
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
@@ -52,8 +54,12 @@ def write_ledger(
     q, polygons = enter_plans(analysis, worked, machine.formulas)
     regulated: flywheel.RegulatedCycle | None = None
     if analysis.loads:
+        if analysis.with_friction is not None:
+            enter_friction(q, analysis, analysis.with_friction, worked)
         with q.within(Chapter.cycle):
             _cycle(q, analysis)
+            if machine.friction is not None and machine.cyclic:
+                enter_friction_of_cycle(q, machine, machine.friction)
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
                 _flywheel(q, analysis, regulated)
@@ -252,14 +258,14 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
     ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
     steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
     torque = machine.turn * total(on_lever) if on_lever else Number(0.0)
-    M_r = _with_rest(
+    M_r = with_rest(
         q, "M.r", values=regulated.torque[at], by_rule=torque, symbol=Symbol("M", "tt"), kind="torque", scale=largest
     )
-    _with_rest(
+    with_rest(
         q, "M.c", values=regulated.constant, by_rule=-call("level", M_r, steps), symbol="", kind="torque", scale=largest
     )
     most = float(np.abs(regulated.work).max())
-    A = _with_rest(
+    A = with_rest(
         q,
         "A.excess",
         values=regulated.work[at],
@@ -272,8 +278,8 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
         A - q.define(ids.bound_of_speed(name), ω1 * share) ** 2 * J_r / 2
         for name, share in (("max", 1 + δ / 2), ("min", 1 - δ / 2))
     )
-    a = _with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
-    b = _with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
+    a = with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
+    b = with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
     J_d = q.define("J.d", (a - b) / (δ * ω1**2))
     if inertia is not None:
         _energy_mass(q, regulated)
@@ -281,7 +287,7 @@ def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) 
         _constant_group(q, regulated, machine.speed)
     if regulated.moment > 0:
         energy = q["omega.max"] ** 2 * J_d / 2 - a + A
-        _with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
+        with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
 
 
 def _energy_mass(q: Sheet, regulated: flywheel.RegulatedCycle) -> None:
@@ -301,24 +307,9 @@ def _constant_group(q: Sheet, regulated: flywheel.RegulatedCycle, speed: float) 
     energy = regulated.work - speed**2 / 2 * regulated.inertia
     most, range_ = float(np.abs(energy).max()), float(np.ptp(energy))
     T = q.define("T.I", q["A.excess"] - q["J.r"] * q["omega.1"] ** 2 / 2, scale=most)
-    ΔT = _with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
+    ΔT = with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
     J_I = q.define("J.I", ΔT / (q["unevenness"] * q["omega.1"] ** 2))
     q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", residue=True)
-
-
-def _with_rest(
-    q: Sheet,
-    id: str,
-    values: np.ndarray | float,
-    by_rule: Expression,
-    symbol: Symbol | str,
-    kind: str = "",
-    scale: float = 0.0,
-) -> Ref:
-    """Enter what is integrated: it follows what stands in a rule for the positions, by which it is nearly found."""
-    by_rule_alone = q.construct(ids.rule(id), by_rule)
-    rest = q.give(ids.rest(id), np.asarray(values) - q.value(by_rule_alone), Symbol(id), "ratio", hidden=True)
-    return q.define(id, call("re", by_rule_alone + rest), symbol, kind, scale=scale)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

@@ -245,7 +245,9 @@ class Words:
     contents: str
     page: str
     continued: str
-    """Stands behind the number of a table or figure that goes on from the page before."""
+    """Stands behind the number of a table or plate that goes on from the page before."""
+    part: str
+    """Which of several a part of a figure is, its later ones, on whatever page: part 2."""
     save: str
     """What the buttons below a figure do on a page."""
 

@@ -33,7 +33,7 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             # in tables relative velocities and accelerations, and loads at other than worked positions
             *("relative", "loads-everywhere"),
             # positions as large as they are measured by, links and directions that another figure shows as well
-            *("true-size", "links-together", "mechanism-beside-forces", "high-curves"),
+            *("true-size", "links-together", "mechanism-beside-forces", "high-curves", "friction-plans"),
             # the usual size of type, pages of their own for the contents
             *("usual-type", "contents-page"),
         )

@@ -227,10 +227,10 @@ def _reduction(report: Report) -> float:
 
 
 def positions(report: Report) -> FigureScenes:
-    return _as_large_as_asked(report, partial(positions_scene, report))
+    return as_large_as_asked(report, partial(positions_scene, report))
 
 
-def _as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
+def as_large_as_asked(report: Report, draw: Callable[[float], Scene]) -> FigureScenes:
     """A drawing to μ_l, by which it is measured, or at the first reduction that leaves half a page to the text.
 
     What no reduction brings into the text stands turned, as large as the page allows.  Where labels want more room, it
@@ -336,7 +336,7 @@ def _numbered(report: Report) -> tuple[str, ...]:
 
 def indicator(report: Report) -> FigureScenes:
     """The diagram in line with the first piston's stroke, every piston's positions read from it."""
-    return _as_large_as_asked(report, partial(_indicator, report))
+    return as_large_as_asked(report, partial(_indicator, report))
 
 
 def _indicator(report: Report, factor: float) -> Scene:

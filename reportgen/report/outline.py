@@ -42,6 +42,7 @@ from reportgen.report import (
 )
 from reportgen.report import chapters as overview
 from reportgen.report import figures as centres
+from reportgen.report import joint_friction as friction
 from reportgen.report import phrases as steps
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
@@ -93,6 +94,7 @@ PROPERTIES = (
     "has_flywheel",
     "has_force",
     "has_forces",
+    "has_own_load",
     "has_formulas",
     "has_gas",
     "has_turning_links",
@@ -151,6 +153,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "spring_lines": chapters.spring_lines,
     "spring_loads": chapters.spring_loads,
     "wide_sliders": wide_sliders.wide_sliders,
+    **friction.VALUES,
     "gas_forces": chapters.gas_forces,
     "inertia_parts": chapters.inertia_parts,
     "lever_couples": chapters.lever_couples,
@@ -205,6 +208,10 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "polar": ("fig.polar", curves.polar),
     "torque": ("fig.M", curves.torque),
     "springs": ("fig.springs", curves.springs),
+    "friction": ("fig.friction", friction.scheme),
+    "friction-joints": ("fig.friction.joints", friction.joints),
+    "friction-plan": ("fig.friction.R", friction.force_plan_of_group),
+    "friction-driver": ("fig.friction.R.1", friction.force_plan_of_driver),
     # the flywheel
     "flywheel-torque": ("fig.Mr", curves.flywheel_torque),
     "flywheel-work": ("fig.Jr", curves.flywheel_work),
@@ -333,6 +340,9 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
     "M": QuantityTable(result_tables.balance, "all_positions"),
     "flywheel": result_tables.flywheel,
+    "friction": QuantityTable(friction.results, "all_positions"),
+    "friction.rounds": friction.rounds,
+    "friction.dead": RowTable(friction.dead_rows, (24.0, 48.0, 44.0, 44.0)),
     "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
 }
 """Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
@@ -407,6 +417,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "centre_state": centres.centre_state,
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
+    "drives": friction.drives,
     "face_state": wide_sliders.face_state,
     "first_turn": Report.first_turn,
     "parts": Report.parts,

@@ -10,6 +10,7 @@ from reportgen.formula import ids
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.forces import Load
+from reportgen.machine.joint_friction import FrictionForces
 
 Entries = Mapping[str, Any]
 """Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""
@@ -74,7 +75,21 @@ def _position(analysis: Analysis, k: int) -> Entries | None:
         "equilibrium": analysis.torque[k],
         "virtual_work": analysis.torque_by_work[k],
     }
+    if analysis.with_friction is not None:
+        entry["friction"] = _with_friction(analysis, analysis.with_friction, k)
     return entry
+
+
+def _with_friction(analysis: Analysis, found: FrictionForces, k: int) -> Entries:
+    """Reactions without the force along a guide, what friction does to the links, the torque and the efficiency."""
+    torque = float(found.torque[k])
+    drives = analysis.machine.turn * analysis.torque[k] > 0
+    return {
+        "reactions": {name: reaction.force[k] for name, reaction in found.forces.reactions.items()},
+        "loads": _loads(found.loads, k),
+        "torque" if isinstance(analysis.machine.linkage.driver, Crank) else "force": torque,
+        "efficiency": analysis.torque[k] / torque if drives else None,
+    }
 
 
 def _applied(analysis: Analysis, k: int) -> Entries:

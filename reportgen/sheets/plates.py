@@ -24,6 +24,7 @@ from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
 from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
+from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
 from reportgen.report.figures import centre_state, centres, indicator, positions_scene, scheme
@@ -252,6 +253,27 @@ def _on_one_line(drawing: Plan) -> bool:
     return all(abs((way * ways[0].conjugate()).imag) < ONE_LINE for way in ways)
 
 
+def _friction(sources: Sources) -> Iterator[Drawn]:
+    """At the worked positions the machine with its friction circles, and each of them enlarged."""
+    report, small = sources.report, sources.small
+    if not friction.rubbing(report):
+        return
+    for k in report.worked_forces:
+        scenes = (friction.scheme_scene(small, k), *friction.joints(small, k).scenes)
+        yield Drawn("friction", "forces", scenes, (sources.place(k),))
+
+
+def _friction_plans(sources: Sources) -> Iterator[Drawn]:
+    """The force plans with friction of the worked positions."""
+    report, small = sources.report, sources.small
+    for k in report.worked_forces if friction.rubbing(report) else ():
+        polygons = [(sources.called(group), group.polygon) for group in reversed(report.groups)]
+        for called, polygon in (*polygons, (str(report.words["figure"]["driver"]), report.driver_polygon)):
+            if polygon is not None:
+                scene = plan(friction.force_plan_with_friction(small, polygon, k))
+                yield Drawn("friction-plan", "forces", (scene,), (sources.place(k, called),))
+
+
 def _force_plates(sources: Sources) -> Iterator[Drawn]:
     """The force plans of each group at all positions, as the report has them."""
     for group in reversed(sources.report.groups if sources.report.parts("force-plates") else ()):
@@ -409,12 +431,23 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
         *(_velocity_table, _acceleration_table),
     ),
     "forces": (
-        *(_indicator, _springs, _worked_forces, _force_plates, _torque, _polar, _flywheel, _flywheel_speed),
+        *(
+            _indicator,
+            _springs,
+            _worked_forces,
+            _friction,
+            _friction_plans,
+            _force_plates,
+            _torque,
+            _polar,
+            _flywheel,
+            _flywheel_speed,
+        ),
         *(_reaction_table, _load_table),
     ),
 }
 """What each set shows, in the order of the work."""
-FURTHER = frozenset({_centres, _force_plates, _polar, _flywheel_speed})
+FURTHER = frozenset({_centres, _friction_plans, _force_plates, _polar, _flywheel_speed})
 """What is shown only where every plate is asked for."""
 RESULTS = frozenset({_velocity_table, _acceleration_table, _reaction_table, _load_table})
 """Tables that else fill what is left of a sheet."""

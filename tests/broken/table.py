@@ -295,6 +295,20 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: [3 mm], c: 4 N/mm, free: 9 mm}]"},
             "5:34 spring-end",
         ),
+        ("friction in no joint", {"AB: 120 mm": "…\n  friction: {pins: {X: {rho: 2 mm}}}"}, "5:21 no-such-joint"),
+        ("a pin without radius", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1}}}"}, "5:23 missing-key"),
+        ("a circle and f", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1, rho: 2 mm}}}"}, "5:25 both-given"),
+        ("friction of no slider", {"AB: 120 mm": "…\n  friction: {sliders: {3: 0.1}}"}, "5:24 no-slider"),
+        (
+            "friction of nothing",
+            {"AB: 120 mm": "…\n  friction: {pins: {A: {rho: 2 mm}}}", "  torque: {M: 40 N m}\n": ""},
+            "5:3 friction-without-loads",
+        ),
+        (
+            "friction that locks",
+            {"AB: 120 mm": "…\n  friction: {pins: {B: {f: 0.9, r: 400 mm}, C: {f: 0.9, r: 400 mm}}}"},
+            "5:3 locks",
+        ),
         ("a face of no slider", {"AB: 120 mm": "…\n  faces: {3: {from: -1 mm, to: 2 mm}}"}, "5:11 no-slider"),
         (
             "a load at no point of its link",

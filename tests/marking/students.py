@@ -34,8 +34,11 @@ QUANTITY = re.compile(r"([0-9.]+) ([A-Za-z][\w/^ ]*)")
 KEPT = ("deg", "m/s2")
 """Angles decide the strokes of an engine, and g is the same for all."""
 
-OF_FURTHER_KEYS = {"no-tangential", "no-couple-of-driver", "no-free-length"}
-"""The mistakes with what few files give: an acceleration of the driving link, springs."""
+OF_FURTHER_KEYS = {
+    *("no-tangential", "no-couple-of-driver", "no-free-length"),
+    *("radius-for-circle", "coefficient-for-angle", "links-turned-alike", "one-link", "efficiency-inverted"),
+}
+"""The mistakes with what few files give: an acceleration of the driving link, springs, friction."""
 
 NAMES = {
     "stroke-for-radius",

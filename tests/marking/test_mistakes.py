@@ -27,9 +27,10 @@ MACHINES = (
     "lever-six-bar-01",
     "four-bar-03",
     "lever-six-bar-02",
+    "slider-crank-friction",
 )
-"""Two turning kinds of group, a slot, a guide, four strokes, an accelerated crank, a spring: each mistake can occur in
-some of them."""
+"""Two turning kinds of group, a slot, a guide, four strokes, an accelerated crank, a spring, friction: each mistake can
+occur in some of them."""
 
 WORKED = (2, 3, 5, 8)
 INSTANTS = ("four-bar-03", "lever-six-bar-02")
@@ -155,6 +156,9 @@ def test_named_mistakes_are_found() -> None:
         ("four-bar-03", "turn.eps.1", "direction-reversed"),
         ("four-bar-03", "M.Pqt1", "no-couple-of-driver"),
         ("lever-six-bar-02", "P5a", "no-free-length"),
+        ("slider-crank-friction", "friction.rho.B", "radius-for-circle"),
+        ("slider-crank-friction", "friction.omega.12", "one-link"),
+        ("slider-crank-friction", "friction.eta", "efficiency-inverted"),
     ],
 )
 def test_each_mistake_on_a_sheet_of_one_position(machine: str, id: str, name: str) -> None:

@@ -59,6 +59,9 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
             allowed = np.maximum(SHARE * largest(whole), _measured(unrounded, family))
             if id.startswith(FORMULAS):
                 allowed = allowed + by_angles[id]
+            if id == "friction.eta":
+                # A quotient of torques is no better than they are, where both are small.
+                allowed = allowed * largest(unrounded["friction.M"]) / np.abs(unrounded["friction.M"].values)
             if family.kind == "angle":
                 allowed = np.maximum(allowed, np.radians(ANGLE))
             what, told = "computed", np.isfinite(family.values)

@@ -142,6 +142,22 @@ FACE = (
 )
 
 
+RUBBING = re.compile(r"Friction acts in the joints: (.*?)\.(?=\s)")
+GIVEN = re.compile(r"([frρ])_?(\w+) = (.*)")
+
+
+def _friction(told: str) -> File:
+    """What is given of the joints that rub: f_A = 0.1; r_A = 20 mm; ρ_B = 2 mm; f_3 = 0.12."""
+    pins: dict[str, File] = {}
+    sliders = {}
+    for letter, at, value in (match.groups() for one in told.split("; ") if (match := GIVEN.fullmatch(one.strip()))):
+        if at.isdigit():
+            sliders[at] = typed(value)
+        else:
+            pins.setdefault(_name(at), {})[{"ρ": "rho"}.get(letter, letter)] = typed(value)
+    return ({"pins": pins} if pins else {}) | ({"sliders": sliders} if sliders else {})
+
+
 def _further(task: Task, data: Mapping[str, str]) -> File:
     """The acceleration of the crank, further loads, and what every machine may have."""
     found: File = {}
@@ -158,7 +174,7 @@ def _accelerates(task: Task, size: str) -> str:
 
 
 def _beside(task: Task) -> File:
-    """The plane, springs, faces of sliders."""
+    """The plane, springs, faces of sliders, friction."""
     found: File = {"plane": "horizontal"} if "in a horizontal plane" in task.text else {}
     lines = (line.rstrip(";.") for line in task.text.splitlines())
     told = (one for line in lines for one in (re.fullmatch(pattern, line) for pattern in SPRINGS) if one)
@@ -167,7 +183,9 @@ def _beside(task: Task) -> File:
         link: {"from": typed(first), "to": typed(last)} | ({"below": typed(below)} if below else {})
         for link, first, last, below in re.findall(FACE, task.text)
     }
-    return found | ({"springs": springs} if springs else {}) | ({"faces": faces} if faces else {})
+    rubbing = RUBBING.search(task.text)
+    friction = {"friction": _friction(rubbing[1])} if rubbing else {}
+    return found | ({"springs": springs} if springs else {}) | ({"faces": faces} if faces else {}) | friction
 
 
 def _spring(told: Mapping[str, str]) -> File:

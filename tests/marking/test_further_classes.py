@@ -1,4 +1,4 @@
-"""A class whose machines stand at single instants: drawn, set as tasks, filled in, marked; new mistakes have names."""
+"""Classes with what few files give: single instants, friction.  Drawn, set as tasks, filled in, marked; slips named."""
 
 from __future__ import annotations
 
@@ -46,6 +46,22 @@ parameters:
    cutting: {F: {from: 800 N, to: 1200 N, step: 100 N}, free: 0.05}, G3: 200 N, G5: 600 N,
    loads: [{by: constant, link: 5, M: -42 N m}], faces: {5: {from: -90 mm, to: [20 mm, 30 mm, 40 mm], below: 60 mm}}}
 """
+FRICTION = """
+kind: slider-crank
+variant: 2026-D
+salt: friction
+report: {language: vi, extent: short, worked_positions: [2]}
+positions: {count: 8}
+parameters:
+  {r: 100 mm, l: {from: 350 mm, to: 450 mm, step: 10 mm}, omega1: 10 rad/s, m2: 4 kg, J2: 0.08 kg m2, m3: 6 kg,
+   force: {by: stroke, unit: N, s: [0, 1], inward: [1000, 1000], outward: [-500, -500]},
+   friction: {pins: {A: {rho: 2.5 mm}, B: {f: [0.08, 0.1, 0.12], r: 20 mm}}, sliders: {3: [0.25, 0.3]}}}
+"""
+RUBBING = (
+    *(("friction.rho.B", "radius-for-circle"), ("friction.omega.12", "one-link")),
+    ("friction.phi.3", "coefficient-for-angle"),
+    *(("friction.omega.12", "links-turned-alike"), ("friction.eta", "efficiency-inverted")),
+)
 MISTAKES = (("a.B.t", "no-tangential"), ("P3", "no-free-length"), ("M.Pqt1", "no-couple-of-driver"))
 REVERSED = (*MISTAKES, ("turn.eps.1", "direction-reversed"))
 
@@ -83,16 +99,17 @@ def told(graded: Graded) -> dict[str, list[tuple[str, str]]]:
 
 def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
     """One mistake costs one mark, whatever follows from it."""
-    _, given = drawn(FOUR_BAR, 3, tmp_path)
-    slips = handed_in(given, tmp_path / "in", MISTAKES)
+    _, given = drawn(FOUR_BAR, 2, tmp_path)
+    slips = handed_in(given, tmp_path / "in", MISTAKES[:2])
     graded = assess.grade([tmp_path / "in"], given, Policy())
     assert told(graded) == {id: [slip] for id, slip in slips.items()}
-    assert [one.out_of - one.points for one in graded.markings] == [1, 1, 1]
+    assert [one.out_of - one.points for one in graded.markings] == [1, 1]
 
 
 @proof
 @pytest.mark.parametrize(
-    ("spec", "count", "made", "asked"), [(FOUR_BAR, 12, REVERSED, "spring.l.1"), (SHAPER, 3, (), "face.05.1")]
+    ("spec", "count", "made", "asked"),
+    [(FOUR_BAR, 12, REVERSED, "spring.l.1"), (SHAPER, 3, (), "face.05.1"), (FRICTION, 12, RUBBING, "friction.M.12")],
 )
 def test_a_class_goes_from_its_variants_to_its_marks(
     tmp_path: Path, spec: str, count: int, made: Sequence[tuple[str, str]], asked: str

@@ -1,0 +1,92 @@
+"""What friction does over a whole cycle: the mean torque, and the places where a slider cannot move the crank."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.machine import Joint
+from reportgen.machine.analysis import Machine, analyse, breaks, motion_at
+from reportgen.machine.forces import Load
+from reportgen.machine.joint_friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
+from reportgen.machine.laws import FULL_TURN, Stroke, halved, opposing
+from reportgen.machine.motion import Flags, Floats
+from reportgen.machine.quadrature import mean_over
+
+HALVINGS = 40
+"""Past the spacing of floats beside an angle."""
+FARTHEST = np.radians(80.0)
+"""A slider that cannot move its crank so far from a dead centre moves it nowhere."""
+
+
+def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
+    """The cycle angles (rad) at which the links of a joint turn back, or slide back, against each other."""
+
+    def rate(angle: Floats) -> Floats:
+        return relative_motion(joint, motion_at(machine, angle))[0]
+
+    grid = np.linspace(0.0, FULL_TURN, 64)
+    motion = motion_at(machine, grid)
+    fastest = max(largest(link.omega) for link in motion.links.values())
+    size = fastest if joint.kind == "R" else max(largest(slide.v) for slide in motion.slides.values())
+    if largest(rate(grid)) > ROUNDING * size:
+        for turn in range(machine.turns):
+            yield from (turn * FULL_TURN + angle for angle in opposing(1.0, rate).reversals)
+
+
+def mean_torque(machine: Machine) -> float:
+    """The mean of the balancing torque with friction (N·m) over the cycle; nan where the mechanism locks anywhere.
+
+    Raises `ValueError` for a machine in which nothing rubs.
+    """
+    if machine.friction is None:
+        raise ValueError("nothing rubs")
+    corners = [angle for joint in machine.friction.joints(machine.linkage) for angle in turning_back(machine, joint)]
+    standing = []
+
+    def torque(angle: Floats) -> Floats:
+        solved = analyse(machine, angle).with_friction
+        assert solved is not None
+        standing.append(bool(solved.stands.all()))
+        return np.nan_to_num(solved.torque)
+
+    whole = machine.turns * FULL_TURN
+    mean = mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole)
+    return mean if all(standing) else np.nan
+
+
+@dataclass(frozen=True, slots=True)
+class DeadZone:
+    """How far (rad) `before` and `behind` the dead centre at cycle angle `centre` a slider cannot move its crank."""
+
+    centre: float
+    before: float
+    behind: float
+
+
+def dead_zones(machine: Machine, friction: Friction, stroke: Stroke) -> tuple[DeadZone, ...]:
+    """The dead zones of a slider that drives its crank with a constant force, all else without mass or load.
+
+    Within them friction takes all that the slider gives: the torque to be put on the crank is no longer against its
+    motion.  nan where the slider moves the crank nowhere.
+    """
+    bare = replace(machine, applied=(), torques=(), linkage=replace(machine.linkage, inertias=()))
+
+    def stuck(angle: Floats) -> Flags:
+        motion = motion_at(bare, angle.ravel())
+        pin = motion.points[stroke.pin]
+        along = stroke.inward * np.where(stroke.fraction_rate(motion) >= 0, 1.0, -1.0)
+        load = Load("P", stroke.link, along, pin.p, np.zeros(angle.size))
+        solved = solve_with_friction(friction, bare.linkage, motion, [load])
+        drives = np.asarray(machine.turn * solved.torque < 0)
+        return np.asarray(~drives.reshape(angle.shape))
+
+    def reach(centre: float, sense: int) -> float:
+        _, high = halved(np.array([0.0]), np.array([FARTHEST]), lambda way: stuck(centre + sense * way), HALVINGS)
+        moves = not stuck(centre + sense * np.array([FARTHEST]))[0]
+        return float(high[0]) if moves else np.nan
+
+    centres = [float(np.mod(angle - stroke.phase, FULL_TURN)) for angle in stroke.dead_centres[:2]]
+    return tuple(DeadZone(centre, reach(centre, -1), reach(centre, 1)) for centre in centres)

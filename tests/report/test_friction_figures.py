@@ -1,0 +1,127 @@
+"""Friction circles and reactions as they are drawn: what a ruler finds on the figures of the report and its page."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen.base.units import MM
+from reportgen.cases import MachineCase, open_case
+from reportgen.drawing import Circle, Scene
+from reportgen.machine.joint_friction import relative_sense
+from reportgen.report import joint_friction as friction
+from reportgen.report.figures import drawing_scale
+from reportgen.report.report import Report
+
+ROOT = Path(__file__).parents[2] / "assignments"
+RULER = 0.01
+"""mm: the last digit of a measured length."""
+SHAPER, SLIDER_CRANK = (ROOT / f"{name}-friction.yaml" for name in ("shaper", "slider-crank"))
+
+
+def report_of(file: Path) -> tuple[Report, int]:
+    case = open_case(file)
+    assert isinstance(case, MachineCase)
+    report = Report(case)
+    return report, report.worked_forces[0]
+
+
+def circles(scene: Scene, radius: float) -> list[Circle]:
+    return [
+        item for item in scene.items if isinstance(item, Circle) and math.isclose(item.radius, radius, abs_tol=1e-3)
+    ]
+
+
+@pytest.mark.parametrize("file", [SHAPER, SLIDER_CRANK], ids=lambda path: path.stem)
+def test_reactions_are_tangent_to_the_friction_circles(file: Path) -> None:
+    """The foot of the radius is at ρ, square to the force, on the side on which the moment opposes turning."""
+    report, k = report_of(file)
+    for carried in friction.joint_forces(report, k):
+        if carried.each.kind != "pin":
+            continue
+        ρ = float(report.ledger[carried.each.of.share].values[0])
+        moment = np.imag(np.conj(carried.offset) * carried.force)
+        assert abs(carried.offset) == pytest.approx(ρ, rel=1e-4), carried.each.digits  # as printed, to five figures
+        assert abs(np.real(np.conj(carried.offset) * carried.force)) < 1e-9 * abs(carried.force) * ρ
+        assert np.sign(moment) == -relative_sense(carried.each.of.joint, report.analysis.motion)[k - 1]
+
+
+def test_the_scheme_shows_circles_to_scale() -> None:
+    report, k = report_of(SHAPER)
+    scene = friction.scheme_scene(report, k)
+    radii = {
+        carried.each.point: 0.08 * 0.02 if carried.each.point in "DE" else 0
+        for carried in friction.joint_forces(report, k)
+    }
+    assert len(circles(scene, radii["D"] * drawing_scale(report))) >= 1
+
+
+@pytest.mark.parametrize("file", [SHAPER, SLIDER_CRANK], ids=lambda path: path.stem)
+def test_the_plans_with_friction_close(file: Path) -> None:
+    """Head to tail, the vectors of the plan with friction lead back to its first corner, in newtons, too."""
+    report, k = report_of(file)
+    for group in report.groups:
+        assert group.polygon is not None
+        plan = friction.force_plan_with_friction(report, group.polygon, k)
+        moved = [vector for vector in plan.vectors if vector.name.endswith(".fr")]
+        assert moved, group.name
+        for earlier, later in pairwise(moved):
+            assert abs(earlier.end - later.start) < RULER
+        μ = float(report.ledger[f"mu.R{group.polygon.name}"].at(k))
+        closing = moved[-1]
+        solved = report.analysis.with_friction
+        assert solved is not None
+        name = f"R{group.guide}"
+        force = abs(
+            complex(solved.forces.reactions[name].force[k - 1])
+            + sum(complex(load.force[k - 1]) for load in solved.loads if load.name == name)
+        )
+        assert closing.length == pytest.approx(force / μ * MM, abs=RULER)
+
+
+def test_the_reaction_of_a_guide_leans_by_the_angle_of_friction() -> None:
+    report, k = report_of(SLIDER_CRANK)
+    (guide,) = (carried for carried in friction.joint_forces(report, k) if carried.each.kind == "slider")
+    along = report.analysis.motion.slides[0, 3].direction[k - 1]
+    sideways = guide.force * np.conj(along)
+    assert abs(sideways.real / sideways.imag) == pytest.approx(0.12)
+    assert np.sign(sideways.real) == -np.sign(report.analysis.motion.slides[0, 3].v[k - 1])
+
+
+def test_published_figures_are_printed() -> None:
+    """M₀, M, η at 60°, the efficiency over the turn and the dead zones, as the reference has them, rounded."""
+    report, k = report_of(SLIDER_CRANK)
+    numbers = {id: report.ledger.number(id, k).value for id in ("M.eq", "friction.M", "friction.eta")}
+    assert numbers == pytest.approx({"M.eq": 97.690859, "friction.M": 105.698777, "friction.eta": 0.924238}, rel=1e-4)
+    assert report.ledger.number("friction.eta.cycle").value == pytest.approx(0.906789, abs=1e-5)
+    zones = [
+        report.ledger.number(f"friction.dead.3.{number}.{side}").value
+        for number in (1, 2)
+        for side in ("before", "behind")
+    ]
+    assert zones == pytest.approx([2.46456, 2.46456, 3.34282, 3.34282], abs=0.005)
+
+
+def test_rounds_stand_as_they_are_printed() -> None:
+    """Each torque is what the printed reactions of the round before it give on a calculator; the last two are one."""
+    report, k = report_of(SLIDER_CRANK)
+    q = report.ledger
+    shown = {
+        name: q.number(name, k).value
+        for name in q.families
+        if name.startswith(("friction.", "R.", "M.eq", "omega.", "v."))
+    }
+    ρ = {"01": 0.0025, "12": 0.002, "32": 0.0015}
+    ω = {"01": 10.0, "12": shown["friction.omega.12"], "32": shown["omega.2"]}
+    count = sum(name.startswith("friction.round.") for name in shown)
+    assert count >= 2
+    for number in range(1, count + 1):
+        before = "" if number == 1 else f".{number - 1}"
+        R = {digits: shown[f"R.{digits}" if number == 1 else f"friction.R.{digits}{before}"] for digits in (*ρ, "03")}
+        lost = sum(ρ[digits] * R[digits] * ω[digits] for digits in ρ) + 0.12 * R["03"] * shown["v.C"]
+        assert shown[f"friction.round.{number}"] == pytest.approx(shown["M.eq"] + lost / 10.0, abs=0.0051)
+    assert shown[f"friction.round.{count}"] == pytest.approx(shown["friction.M"], abs=0.0051)
