@@ -23,6 +23,7 @@ from reportgen.marking.policy import Policy
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.key import Key
 
+MARKED = "marked-sheet-{number}.dxf"
 AT_FAULT = frozenset({Verdict.wrong, Verdict.implausible})
 
 
@@ -63,7 +64,7 @@ def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
     return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
 
 
-def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> bytes:
+def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
     """The drawing with the right vector, and what is said of it, wherever one is wrong."""
     words = words_of(marking.key)
     said: dict[DrawnMark, list[str]] = {}
@@ -89,7 +90,7 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
         turned = (words["drawing"]["turned"],)
         vectors = [RedVector(mark.at, mark.right, tuple(lines) or turned) for mark, lines in said.items()]
     units = {answer.mark.unit for answer in reading.values.values() if isinstance(answer.mark, DrawnMark)}
-    return with_corrections(data, vectors, 1 / next(iter(units), 1.0))
+    return MARKED, with_corrections(data, vectors, 1 / next(iter(units), 1.0))
 
 
 def _told(cell: Marked, marking: Marking, comment: str) -> str:

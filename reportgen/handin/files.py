@@ -48,13 +48,12 @@ LARGEST = 50_000_000
 class FileKind:
     """A kind of file: how it is read for a key, which names stand in it, and how it is given back with a marking.
 
-    Its copy is called `copy`, with a number where a student has `several`, that are all of one work.
+    A student may have `several` that are all of one work; their copies have a {number} in their name.
     """
 
     read: Callable[[Path, bytes, Key, WantedPlans | None], FileReading]
     names: Callable[[Path, bytes, Collection[str]], Collection[str]]
-    marked: Callable[[Path, bytes, FileReading, Marking, Policy], bytes]
-    copy: str
+    marked: Callable[[Path, bytes, FileReading, Marking, Policy], tuple[str, bytes]]
     several: bool = False
 
 
@@ -63,10 +62,8 @@ def kinds() -> Mapping[str, FileKind]:
     from reportgen.handin import drawing_file, word_report
 
     return {
-        ".docx": FileKind(word_report.read, word_report.names, word_report.marked, "marked.docx"),
-        DRAWING: FileKind(
-            drawing_file.read, drawing_file.names, drawing_file.marked, "marked-sheet-{number}.dxf", several=True
-        ),
+        ".docx": FileKind(word_report.read, word_report.names, word_report.marked),
+        DRAWING: FileKind(drawing_file.read, drawing_file.names, drawing_file.marked, several=True),
     }
 
 
@@ -121,6 +118,6 @@ def marked_copies(
     """The files of a student with what was found written into them, by their new names."""
     numbers: Counter[str] = Counter()
     for path, data, reading in files:
-        kind = kinds()[path.suffix.lower()]
-        numbers[kind.copy] += 1
-        yield kind.copy.format(number=numbers[kind.copy]), kind.marked(path, data, reading, marking, policy)
+        name, copy = kinds()[path.suffix.lower()].marked(path, data, reading, marking, policy)
+        numbers[name] += 1
+        yield name.format(number=numbers[name]), copy

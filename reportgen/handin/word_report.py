@@ -19,6 +19,8 @@ from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 from reportgen.report.key import Key
 
+MARKED = "marked.docx"
+
 
 def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading:
     """What a report says of the quantities that a key asks for; raises `RefusedError`."""
@@ -33,7 +35,7 @@ def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
     return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
 
 
-def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> bytes:
+def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
     """The report with a comment at each number that there is something to say of, and a summary at its head."""
     words = words_of(marking.key)
     remarks = [MarginNote("\n".join(comment(marking, policy)))]
@@ -47,4 +49,4 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
         text = cell_comment(cell, marking, words, policy.show_answers)
         if text and judged and isinstance(mark, WordMark):
             remarks.append(MarginNote(text, mark.element))
-    return with_comments(open_word(path, data), remarks)
+    return MARKED, with_comments(open_word(path, data), remarks)

@@ -210,7 +210,7 @@ def test_a_wrong_vector_is_red_as_it_should_be() -> None:
     wrong = [cell for cell in marking.cells if cell.verdict is Verdict.wrong and cell.id.startswith("seg.")]
     assert wrong
     for show, kinds in ((True, {"LINE", "TEXT"}), (False, {"TEXT"})):
-        copy = marked(Path("sheet.dxf"), data, reading, marking, Policy(show_answers=show))
+        _, copy = marked(Path("sheet.dxf"), data, reading, marking, Policy(show_answers=show))
         red = [e for e in ezdxf.read(io.StringIO(copy.decode())).modelspace() if e.dxf.layer == LAYER]
         assert {entity.dxftype() for entity in red} == kinds
     lines = [(at(e.dxf.start), at(e.dxf.end)) for e in red if e.dxftype() == "LINE"]
