@@ -166,17 +166,15 @@ class _Reading:
                 own = self.place(vector.length, fit) if number != longest else None
                 if (id(fit), number) in wrong and not (own or self.place(vector.direction, fit)):
                     beside[vector.length, fit.shape.position] = self.mark(fit, number, line[0], wrong=True)
-                for place, value, error in (
-                    (own, *_length(fit, number, *line)),
-                    (self.place(vector.direction, fit), *_direction(fit, number, *line)),
-                ):
+                for place, read in ((own, _length), (self.place(vector.direction, fit), _direction)):
                     if place is not None:
+                        value, error, expected = read(fit, number, *line)
                         # A length is quoted as it is drawn.
                         shown = value * fit.scale if place is own else value
                         text = f"{shown:.4g} {self.key.row(place[0]).unit}"
                         mark = self.mark(fit, number, line[0], (id(fit), number) in wrong)
                         values[place] = Answer(value, text, mark)
-                        measured[place] = ReadOff(fit.scale, error)
+                        measured[place] = ReadOff(fit.scale, error, expected)
         for fit in (fit for several in plans.doubtful for fit in several):
             for number, vector in enumerate(fit.shape.vectors):
                 for place in filter(None, (self.place(name, fit) for name in (vector.length, vector.direction))):
@@ -227,12 +225,21 @@ class _Reading:
         return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong)
 
 
-def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float]:
-    """A vector's length (mm) as the report draws it, and how far off it may be."""
-    return abs(end - start) / fit.scale, 2 * float(fit.reach[number]) / fit.scale
+def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
+    """A vector's length (mm) as the report draws it, how far off it may be, and what the plan has."""
+    return abs(end - start) / fit.scale, 2 * float(fit.reach[number]) / fit.scale, abs(_vector(fit, number))
 
 
-def _direction(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float]:
-    """A vector's direction (°) from the x axis, and how far off it may be."""
+def _direction(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
+    """A vector's direction (°) from the x axis, how far off it may be, and what the plan has."""
     off = min(2 * float(fit.reach[number]) / abs(end - start), math.pi)
-    return math.degrees(cmath.phase(end - start)) % 360, math.degrees(off)
+    return _angle(end - start), math.degrees(off), _angle(_vector(fit, number))
+
+
+def _vector(fit: Fit, number: int) -> complex:
+    """A vector of the plan (mm) as the report draws it."""
+    return complex(fit.shape.ends[number] - fit.shape.starts[number])
+
+
+def _angle(vector: complex) -> float:
+    return math.degrees(cmath.phase(vector)) % 360

@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, SEEN, Beside, Fit, Lines, fits, fitted, named
+from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, LONG, SEEN, Beside, Fit, Lines, fits, fitted, named
 from reportgen.handin.plan_labels import TITLE, Labels, names_of
 from reportgen.handin.plan_shapes import PlanShape
 
@@ -24,8 +24,6 @@ BY_CHANCE = float(np.log(1e3))
 """Odds against lines that meet so by chance, of all placings that were tried."""
 WITHIN = 2.5
 """Deviations within which an end lies that is where it should be: √(2π) σ is the width of a normal distribution."""
-LONG = 10.0
-"""A line shorter than so many errors of an end has hardly a direction (5 mm)."""
 LEFT_OUT = float(np.log(20.0))
 """Odds against a vector that was not drawn: students leave out one of twenty."""
 CLOSED = 1.0

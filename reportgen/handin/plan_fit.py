@@ -30,6 +30,8 @@ MOST_TRIED = 15
 CROWD = 40
 """Ends nearer to one than others; more are a hatching."""
 ROUNDS = 4
+LONG = 10.0
+"""A line shorter than so many errors of an end has hardly a direction, and a vector no arrowhead (5 mm)."""
 REACH = float(np.sqrt(6))
 """Deviations that an end lies off its place at most: √3 in each direction where errors are evenly spread."""
 SEEN = 6.0

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.handin.plan_finder import FoundPlans
-from reportgen.handin.plan_fit import SEEN, Fit, Lines
+from reportgen.handin.plan_fit import LONG, Fit, Lines
 from reportgen.handin.plan_labels import Labels, names_of
 
 
@@ -51,12 +51,12 @@ class _Search:
         # Of two vectors that have one line the other may well have been drawn elsewhere.
         count = Counter(plan.lines[plan.present].tolist())
         unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1]
-        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error]
+        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= LONG * self.lines.error]
         for corner in {shape.vectors[number].start for number in wanting}:
             begin = [int(number) for number in wanting if shape.vectors[number].start == corner]
             place = complex(plan.at(shape.corners[corner]))
             reach = max(float(plan.reach[number]) for number in begin)
-            lines = [line for line in self._from(place, reach) if abs(line.end - line.start) >= SEEN * self.lines.error]
+            lines = [line for line in self._from(place, reach) if abs(line.end - line.start) >= LONG * self.lines.error]
             # A line of construction has no head, and a vector that ends here has it here.
             telling = [line for line in lines if line.headed or self._named(plan, begin, line) is not None]
             for line in telling:

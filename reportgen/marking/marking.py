@@ -107,14 +107,15 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     unit, worth = float(working.unit(row.id)[index]), scheme.policy.worth(row.id)
     bands = working.bands[row.id]
     band = float(bands[index if len(bands) > 1 else 0])
+    key = float(family.at(position).real)
+    following = [_own(scheme.ledger, values, row.id, index) for values in possible]
+    following += working.also(row, position)
     drawn = submission.measured.get(place)
     if drawn is not None:
         # What the drawing's own fit may be off by counts where that is more.
         band = max(band, drawn.error * family.how.scale)
+        following.append(drawn.own * family.how.scale)
         unit = family.how.scale / (1.0 if is_direction(row.id) else drawn.times)
-    key = float(family.at(position).real)
-    following = [_own(scheme.ledger, values, row.id, index) for values in possible]
-    following += working.also(row, position)
     value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
     verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:

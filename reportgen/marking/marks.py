@@ -27,11 +27,13 @@ class Answer:
 class ReadOff:
     """How a length or a direction was read off a drawing: `times` as large as the report draws it.
 
-    A length is given as the report draws it; `error` is how far it may be off, in the printed unit.
+    A length is given as the report draws it; `error` is how far it may be off, `own` what the plan has that was found,
+    which may be that of the student's own values; both in the printed unit.
     """
 
     times: float
     error: float
+    own: float
 
 
 @dataclass(frozen=True)
