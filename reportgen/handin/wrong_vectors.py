@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.handin.plan_finder import FoundPlans
-from reportgen.handin.plan_fit import LONG, Fit, Lines
+from reportgen.handin.plan_fit import LONG, SEEN, Fit, Lines
 from reportgen.handin.plan_labels import Labels, names_of
 
 
@@ -51,7 +51,7 @@ class _Search:
         # Of two vectors that have one line the other may well have been drawn elsewhere.
         count = Counter(plan.lines[plan.present].tolist())
         unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1]
-        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= LONG * self.lines.error]
+        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error]
         for corner in {shape.vectors[number].start for number in wanting}:
             begin = [int(number) for number in wanting if shape.vectors[number].start == corner]
             place = complex(plan.at(shape.corners[corner]))
@@ -64,6 +64,8 @@ class _Search:
                 alone = len(begin) == 1 and len(telling) == 1
                 vector = named if named is not None else begin[0] if alone else self._alike(plan, begin, line)
                 if vector is None or not shape.vectors[vector].drawn or plan.lines[vector] >= 0:
+                    continue
+                if abs(b[vector] - a[vector]) < LONG * self.lines.error:
                     continue
                 rivals = [other for other in telling if other is not line and self._may_be(plan, vector, other)]
                 if not rivals or named is not None:
