@@ -417,7 +417,9 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
         for j in np.flatnonzero(fits_there[:, column]):
             if j == i or _off_place_of(a, b, i, int(j)) < lines.error:
                 continue
-            if beside(i, int(fit.lines[i])) and not beside(int(j), int(fit.lines[i])):
+            # A name says little of a line that two vectors have.
+            alone = own.get(int(j)) != column
+            if alone and beside(i, int(fit.lines[i])) and not beside(int(j), int(fit.lines[i])):
                 continue
             against = squares[j, column] - squares[i, column]
             if j in own and own[int(j)] != column:

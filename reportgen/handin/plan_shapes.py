@@ -173,4 +173,6 @@ def _letters(construction: Construction[str]) -> dict[str, tuple[str, ...]]:
 
 def _plain(label: object) -> tuple[str, ...]:
     """A symbol as a drawing has it, without what raises, lowers or marks a vector."""
-    return (f"{label.base}{label.sup}{label.sub}",) if isinstance(label, Symbol) else ()
+    if not isinstance(label, Symbol):
+        return ()
+    return tuple(dict.fromkeys((f"{label.base}{label.sup}{label.sub}", f"{label.base}{label.sub}{label.sup}")))
