@@ -335,6 +335,15 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     return files | ({"assignment.yaml": handed_out(path).encode()} if chosen.self_check else {})
 
 
+def frame_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
+    """The frame of a report as a Word file, with a field for each result that is asked for, whatever the engine."""
+    from reportgen.marking.frame import frame_of
+    from reportgen.marking.key import Ask, key_of
+
+    case = open_case(path, language)
+    return {"frame.docx": _word(case.assignment, frame_of(case, (ask or Ask()).of(key_of(case))))}
+
+
 def key_files(
     path: Path,
     engine: Engine,
@@ -408,11 +417,12 @@ MAKERS: Mapping[str, Maker] = {
     "docx": word_files,
     "key": key_files,
     "sheet": sheet_files,
+    "frame": frame_files,
 }
 """The products by the names that `--make` takes."""
 USUAL = ("task", "report", "key")
 """What a batch makes unless it is told."""
-ASKING = frozenset({"task", "key"})
+ASKING = frozenset({"task", "key", "frame"})
 """Those that depend on what the answer sheet asks for."""
 
 

@@ -101,7 +101,7 @@ def batch(
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
     make: Annotated[
-        str, typer.Option("--make", help="Of task, report, page, docx, key, sheet; parted by commas.")
+        str, typer.Option("--make", help="Of task, frame, report, page, docx, key, sheet; parted by commas.")
     ] = "task,report,key",
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
@@ -125,7 +125,7 @@ def batch(
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, api.MAKERS, "--make", "no_product", lang)
     with ending(lang):
-        made = (path for kind in ("task", "report", "key", "sheet") for path in standing(out, kind, "*/"))
+        made = (path for kind in ("task", "report", "key", "sheet", "frame") for path in standing(out, kind, "*/"))
         refuse_inputs((out / NAME, *made), [roster, spec, policy], lang)
         ask = None if policy is None else api.policy(policy, lang).ask
         order = Order(

@@ -36,6 +36,8 @@ class Gathering:
     clashes: dict[Place, Fault] = field(default_factory=dict)
     """Places with two values, which have none."""
     positions: dict[str, Mapping[str, int]] = field(default_factory=dict)
+    fixed: frozenset[Place] = frozenset()
+    """Places that blanks of a frame have filled."""
     notes: list[Fault] = field(default_factory=list)
 
     def rows_of(self, symbol: str) -> tuple[KeyRow, ...]:
@@ -66,7 +68,7 @@ class Gathering:
     def give(self, row: KeyRow, position: int, value: float, mark: WordMark, text: str) -> None:
         """A value of a place; a place that has another one already is not read."""
         place, answer = (row.id, position), Answer(value, _tidy(text), mark)
-        if position not in row.positions or place in self.clashes:
+        if position not in row.positions or place in self.clashes or place in self.fixed:
             return
         first = self.values.get(place)
         if first is None:

@@ -11,6 +11,8 @@ from reportgen.handin.gathering import Gathering
 from reportgen.handin.numbers import marks_of
 from reportgen.handin.statements import Statement
 from reportgen.handin.symbols import Symbols
+from reportgen.handin.word_frame import read_blanks
+from reportgen.handin.word_nodes import XmlNode
 from reportgen.handin.word_tables import read_table
 from reportgen.handin.word_text import OBJECT, Block, TextGrid, TextLine, WordMark
 from reportgen.report.key import Key, KeyRow
@@ -29,10 +31,12 @@ class _Hand:
     level: int = FREE
 
 
-def read_report(blocks: Sequence[Block], key: Key, file: str) -> FileReading:
-    """What a report says of the quantities that a key asks for."""
+def read_report(blocks: Sequence[Block], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
+    """What a report says of the quantities that a key asks for; in its `tree` the blanks of a frame are looked for."""
     marks = marks_of((line.text for line in lines_of(blocks)), key.language)
     gathering = Gathering(key, file, marks, Symbols(key, key.rows))
+    if tree is not None:
+        read_blanks(tree, lines_of(blocks), gathering)
     reader = _Reader(gathering)
     for block in blocks:
         reader.block(block)

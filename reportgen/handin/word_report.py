@@ -25,7 +25,7 @@ MARKED = "marked.docx"
 def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading:
     """What a report says of the quantities that a key asks for; raises `RefusedError`."""
     file = open_word(path, data)
-    reading = read_report(file.blocks, key, str(path))
+    reading = read_report(file.blocks, key, str(path), file.tree)
     return replace(reading, notes=(*file.notes, *reading.notes))
 
 

@@ -164,7 +164,7 @@ class TextReader:
         line = TextLine(self.paragraphs, level)
         runs = [node for node in _within(paragraph) if node.tag == "w:r" and any(c.tag == "w:t" for c in node.children)]
         line.bold = bool(runs) and all(_is_on(run, "w:b") for run in runs)
-        _put(paragraph, line)
+        put(paragraph.children, line)
         if len(line.letters) > LONGEST:
             del line.letters[LONGEST:], line.nodes[LONGEST:]
         return line
@@ -226,8 +226,9 @@ def is_unseen(run: XmlNode) -> bool:
     return any(_is_on(run, name) for name in ("w:vanish", "w:strike", "w:dstrike"))
 
 
-def _put(node: XmlNode, line: TextLine) -> None:
-    for child in node.children:
+def put(nodes: Iterable[XmlNode], line: TextLine) -> None:
+    """Put the text of what stands in a paragraph at the end of a line."""
+    for child in nodes:
         if child.tag == "w:r":
             _put_run(child, line)
         elif child.tag in ("m:oMath", "m:oMathPara"):
@@ -236,9 +237,9 @@ def _put(node: XmlNode, line: TextLine) -> None:
                 _put_math(child, line)
                 line.put(APART, child)
             else:
-                _put(child, line)
+                put(child.children, line)
         elif child.tag not in _UNSEEN:
-            _put(child, line)
+            put(child.children, line)
 
 
 def _put_run(run: XmlNode, line: TextLine) -> None:

@@ -23,7 +23,7 @@ from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.bands import (
     computed_bands,
     drawn_bands,
@@ -46,6 +46,11 @@ def words_of(key: Key) -> Mapping[str, Any]:
 def symbol_text(row: KeyRow, key: Key) -> str:
     """A quantity's symbol in one line of plain text, e.g. v_BA."""
     return formula(row.symbol, key.language)
+
+
+def typed_unit(row: KeyRow) -> str:
+    """The unit in which a number without one is typed, by a name that readers of numbers know; "" of a pure number."""
+    return KINDS[row.kind].unit
 
 
 def shown_number(row: KeyRow, value: float) -> Number:
@@ -95,7 +100,7 @@ def key_of(case: Case) -> Key:
             positive=words["signs"].get(sense, sense),
             open_sense=is_open(values, sense),
             plans=tuple(sorted(read[id])) if role is Role.asked else (),
-            formula=_formula(ledger, id) if sense in BY_FORMULA else None,
+            formula=formula_in_symbols(ledger, id) if sense in BY_FORMULA else None,
         )
 
     parts, families = list(Chapter), ledger.families.values()
@@ -154,7 +159,7 @@ def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
 
 
-def _formula(ledger: Ledger, id: str) -> Expression:
+def formula_in_symbols(ledger: Ledger, id: str) -> Expression:
     """What a quantity is defined as, in symbols."""
     return substitute(definition_of(ledger, id), lambda ref: ledger.symbol(ref.id))
 
@@ -177,6 +182,7 @@ DEFAULT = (
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
     # Second ways to the same result.
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-psi.*"),
+    *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
 )

@@ -121,7 +121,7 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     if place in submission.problems:
         verdict = Verdict.unreadable
     elif place in submission.unread:
-        verdict, worth = Verdict.unread, 0.0
+        verdict = Verdict.unread
     elif np.isnan(value):
         verdict = Verdict.blank
     elif scheme.distance(row.id, value, key) <= band:

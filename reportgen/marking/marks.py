@@ -129,6 +129,11 @@ class Marked:
     """The number in the cell, in that unit."""
 
     @property
+    def counts(self) -> bool:
+        """Whether it counts for the mark: not while nobody has settled what stands there."""
+        return self.verdict is not Verdict.unread
+
+    @property
     def on_sheet(self) -> OnSheet:
         """The values as a sheet has them: for those who read it, and for what is found on it without working out."""
         return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
@@ -138,8 +143,8 @@ Cells = Mapping[Place, Marked]
 
 
 def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
-    """The points that cells earned, and those that they are worth."""
-    earned = [(cell.points, cell.worth) for cell in cells]
+    """The points that cells earned, and those that they are worth; what is unread is not counted."""
+    earned = [(cell.points, cell.worth) for cell in cells if cell.counts]
     return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 

@@ -273,7 +273,8 @@ class Report:
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
-        return {**declared, "unevenness": words["unevenness"]}
+        of_drive = {id: name for id, name in self.words["given_of_crank"].items() if id.startswith("run.")}
+        return {**declared, "unevenness": words["unevenness"], **of_drive}
 
     @property
     def mobility(self) -> Mobility:

@@ -236,6 +236,8 @@ class _Writer:
                 return rf"\link{{{place}}}{{{escape(text)}}}" if place else escape(text)
             case tree.LineBreak():
                 return r"\newline "
+            case tree.Blank():
+                return r"\dots\dots{}"
 
     def paragraph(self, source: str, align: str) -> str:
         if not align:

@@ -207,6 +207,8 @@ class _Blocks:
                 return f"#link(label({literal(key)}),{literal(text)})"
             case tree.LineBreak():
                 return "#linebreak()"
+            case tree.Blank():
+                return f"#{literal(tree.DOTS)}"
 
     def formula(self, expression: Expression, slashed: bool = False) -> str:
         """A formula in a line, which may break before a second "=" and between the terms of a sum only."""

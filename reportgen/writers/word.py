@@ -29,6 +29,7 @@ from reportgen.writers.word_elements import (
     RULED,
     Own,
     PageSetup,
+    control,
     drawing,
     field,
     paragraph,
@@ -330,6 +331,8 @@ class _Blocks:
                 return field(f"REF {place.bookmark}{place.shown} {LINKED}", text, look) if place else run(text, look)
             case tree.LineBreak():
                 return BREAK
+            case tree.Blank():
+                return self.bookmarked(inline.called, control(inline.name, inline.title, tree.DOTS))
 
     def counted(self, name: str, number: str, key: str, look: str = "", around: str = "%s") -> str:
         """The number of a caption or an equation as fields, marked for references to `key`."""

@@ -96,8 +96,9 @@ def test_what_is_not_read_neither_earns_nor_costs(key: Key) -> None:
     own = submission([word_report.read(Path("r.docx"), content, key)], "vi")
     marking = mark(replace(scheme, key=key), own)
     (cell,) = (cell for cell in marking.cells if cell.verdict is Verdict.unread)
-    assert (cell.id, cell.points, cell.worth) == ("a.D", 0, 0)
+    assert (cell.id, cell.points) == ("a.D", 0)
     assert marking.share == 1
+    assert marking.out_of == sum(one.worth for one in marking.cells) - cell.worth
     assert own.share_read == len(own.values) / (len(own.values) + 1)
 
 

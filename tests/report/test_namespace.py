@@ -30,6 +30,8 @@ OTHERS = {
     "cam/roller-01.yaml": {"cam.md"},
     "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
     "gears/train-motor.yaml": {"planetary-train.md"},
+    "rotor/rotor-two-planes.yaml": {"rotor.md"},
+    "engine-balance/v-six.yaml": {"engine-balance.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
