@@ -146,7 +146,6 @@ class _Judge:
             - LEFT_OUT * fit.missing(SEEN * self.lines.error)
             - square / (2 * self.deviation**2)
             + of_scale
-            + self.labels.speak_for(fit)
         )
 
     def _of_scale(self, fit: Fit) -> float:
@@ -179,7 +178,9 @@ class _Judge:
         What is found leaves fewer lines and fewer plans, for which less is to be had by chance.
         """
         odds = {id(fit): self.for_it(fit) for fit in every}
+        # Letters speak for a figure, and make none.
         likely = [fit for fit in every if odds[id(fit)] >= BY_CHANCE]
+        odds |= {id(fit): odds[id(fit)] + self.labels.speak_for(fit) for fit in likely}
         for at, positions in self.labels.owned(likely, self.lines.ends).items():
             if len(positions) == 1:
                 odds[id(likely[at])] += TITLE if likely[at].shape.position in positions else -TITLE

@@ -34,7 +34,8 @@ def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: La
     used |= {line for several in plans.doubtful for fit in several for line in fit.used}
     free = np.array([line for line in range(len(lines.ends)) if line not in used], dtype=int)
     search = _Search(lines, heads, labels, free)
-    return tuple(wrong for plan in plans.plans for wrong in search.of(plan))
+    several = zip(plans.plans, plans.sure, strict=True)
+    return tuple(wrong for plan, sure in several for wrong in search.of(plan, sure))
 
 
 @dataclass(frozen=True)
@@ -44,18 +45,19 @@ class _Search:
     labels: Labels
     free: np.ndarray
 
-    def of(self, plan: Fit) -> Iterator[WrongVector]:
+    def of(self, plan: Fit, sure: np.ndarray) -> Iterator[WrongVector]:
         """Of each corner the one line that nobody else begins there, if one vector is wanting that begins there."""
         shape = plan.shape
         a, b = plan.at(shape.starts), plan.at(shape.ends)
-        # Of two vectors that have one line the other may well have been drawn elsewhere.
+        # Of two vectors that have one line, or lines that may be either's, one may well have been drawn elsewhere.
         count = Counter(plan.lines[plan.present].tolist())
-        unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1]
+        unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1 or not sure[n]]
         wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error]
         for corner in {shape.vectors[number].start for number in wanting}:
-            begin = [int(number) for number in wanting if shape.vectors[number].start == corner]
             place = complex(plan.at(shape.corners[corner]))
-            reach = max(float(plan.reach[number]) for number in begin)
+            reach = max(float(plan.reach[number]) for number in wanting)
+            # Corners that ends may belong to as well are one.
+            begin = [int(number) for number in wanting if abs(a[number] - place) <= 2 * reach]
             lines = [line for line in self._from(place, reach) if abs(line.end - line.start) >= LONG * self.lines.error]
             # A line of construction has no head, and a vector that ends here has it here.
             telling = [line for line in lines if line.headed or self._named(plan, begin, line) is not None]
