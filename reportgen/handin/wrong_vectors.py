@@ -84,9 +84,13 @@ class _Search:
         return begun
 
     def _named(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:
-        """The one vector whose name stands beside a line."""
+        """The one vector whose name stands beside a line, if no other has its length or its direction.
+
+        A line that goes wrong may pass by what another plan's vector is called.
+        """
         named = [n for n in begin if self.labels.beside(names_of(plan.shape, n), line.start, line.end)]
-        return named[0] if len(named) == 1 else None
+        alike = [n for n in begin if self._may_be(plan, n, line)]
+        return named[0] if len(named) == 1 and (named[0] in alike or not alike) else None
 
     def _may_be(self, plan: Fit, vector: int, line: _Begun) -> bool:
         """Whether a line has the length or the direction of a vector, as far as it can be told."""
