@@ -73,7 +73,7 @@ def sheet(
         typer.Option("--size", help="Of the paper.", show_default="the smallest that holds each set"),
     ] = None,
     sets: Annotated[
-        Literal["kinematics", "forces", "all"], typer.Option("--set", help="What the sheets show.")
+        Literal["kinematics", "forces", "balancing", "all"], typer.Option("--set", help="What the sheets show.")
     ] = "all",
     every: Annotated[bool, typer.Option("--all", help="Every plan of the report, not only those handed in.")] = False,
     format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, dxf; parted by commas.")] = "pdf,dxf",
@@ -390,9 +390,8 @@ def read(
 ) -> None:
     """Read a REPORT into an answer sheet. DIR/<id>/reading.xlsx has what was read, and why the rest was not."""
     from reportgen import api
-    from reportgen.marking.policy import read_policy
 
     with ending(lang):
-        ask = None if policy is None else read_policy(policy, lang).ask
+        ask = None if policy is None else api.policy(policy, lang).ask
         written, said = api.read(file, report, out, ask, lang)
         print(f"{written}{said}")

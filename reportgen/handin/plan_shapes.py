@@ -5,9 +5,9 @@ The corners are those of the report's figures, from the key's values or from a s
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -16,10 +16,6 @@ from reportgen.formula import Symbol, ids
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from reportgen.report.report import Report
-
-if TYPE_CHECKING:
-    from reportgen.drawing.plan import Construction
-    from reportgen.plans.loads import Polygon
 
 What = Literal["v", "a"]
 
@@ -126,19 +122,19 @@ def sketches(case: Case) -> tuple[PlanSketch, ...]:
         return ()
     report = Report(case)
     plans = [_of_motion(report, what, case.span.count) for what in ("v", "a")]
-    return (*plans, *(_of_forces(report, polygon, len(case.span.labels)) for polygon in case.polygons))
+    return (*plans, *(_of_forces(report, number, len(case.span.labels)) for number in range(len(case.polygons))))
 
 
 def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
     """The plan of velocities or accelerations of one turn, with the lengths that it has besides its vectors."""
     ledger, construction = report.ledger, motion_construction(report, what)
     corners = {corner: corner.rpartition(".")[2] for corner in construction.corners if corner != POLE}
-    letters = {ids.POLE: POLE} | {letter: corner for corner, letter in corners.items()}
+    named = {ids.POLE: POLE} | {letter: corner for corner, letter in corners.items()}
     lengths: dict[frozenset[str], str] = {}
     for id in ledger.families:
         names = ids.segment.read(id)
-        if names and names["what"] == what and {names["start"], names["end"]} <= letters.keys():
-            lengths[frozenset((letters[names["start"]], letters[names["end"]]))] = id
+        if names and names["what"] == what and {names["start"], names["end"]} <= named.keys():
+            lengths[frozenset((named[names["start"]], named[names["end"]]))] = id
     vectors = []
     for vector in construction.vectors:
         ends = frozenset((vector.start, vector.end))
@@ -150,24 +146,35 @@ def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
         vectors.append(SketchedVector(length, known, vector.start, vector.end, _plain(vector.label)))
     further = [(id, *sorted(ends)) for ends, id in lengths.items() if len(ends) == PAIR]
     vectors += [SketchedVector(id, "", start, end, drawn=False) for id, start, end in further]
-    return PlanSketch(ids.scale(what), count, tuple(vectors), _letters(construction))
+    letters = _letters((point.at, point.label) for point in construction.points)
+    return PlanSketch(
+        ids.scale(what), count, tuple(vectors), _letters((point.at, point.label) for point in construction.points)
+    )
 
 
-def _of_forces(report: Report, polygon: Polygon, count: int) -> PlanSketch:
-    """The force plan of a group or of the driver through the cycle."""
+def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
+    """The force plan of a group or of the driver, by its number, through the cycle."""
+    polygon = report.case.polygons[number]
     ledger, construction = report.ledger, force_construction(report, polygon)
     vectors = []
     for vector, edge in zip(construction.vectors, (*polygon.edges, *polygon.reads), strict=True):
         length, direction = ids.force_segment(polygon.name, edge.name), ids.force_direction(edge.name)
         known = [id if id in ledger else "" for id in (length, direction)]
         vectors.append(SketchedVector(known[0], known[1], vector.start, vector.end, _plain(vector.label)))
-    return PlanSketch(ids.force_scale(polygon.name), count, tuple(vectors), _letters(construction))
+    letters = _letters((point.at, point.label) for point in construction.points)
+    return PlanSketch(
+        ids.force_scale(polygon.name),
+        count,
+        tuple(vectors),
+        _letters((point.at, point.label) for point in construction.points),
+    )
 
 
-def _letters(construction: Construction[str]) -> dict[str, tuple[str, ...]]:
+def _letters(points: Iterable[tuple[str, object]]) -> dict[str, tuple[str, ...]]:
+    """The letters at each corner."""
     letters: dict[str, tuple[str, ...]] = {}
-    for point in construction.points:
-        letters[point.at] = (*letters.get(point.at, ()), *_plain(point.label))
+    for corner, label in points:
+        letters[corner] = (*letters.get(corner, ()), *_plain(label))
     return letters
 
 

@@ -185,6 +185,9 @@ DEFAULT = (
     *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
+    # The parts of what balances a machine, and the rules that are only compared.
+    *("-balance.[PMr].*", "-balance.rod.*", "-balance.*.x", "-balance.*.y", "-balance.*.[a-z]*[a-z]"),
+    *("balance.F.?", "balance.F.dir", "balance.after.*"),
 )
 """What is asked for unless a policy says otherwise: what a quantity comes to, not how it was drawn or checked."""
 
