@@ -147,9 +147,7 @@ def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
     further = [(id, *sorted(ends)) for ends, id in lengths.items() if len(ends) == PAIR]
     vectors += [SketchedVector(id, "", start, end, drawn=False) for id, start, end in further]
     letters = _letters((point.at, point.label) for point in construction.points)
-    return PlanSketch(
-        ids.scale(what), count, tuple(vectors), _letters((point.at, point.label) for point in construction.points)
-    )
+    return PlanSketch(ids.scale(what), count, tuple(vectors), letters)
 
 
 def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
@@ -162,12 +160,7 @@ def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
         known = [id if id in ledger else "" for id in (length, direction)]
         vectors.append(SketchedVector(known[0], known[1], vector.start, vector.end, _plain(vector.label)))
     letters = _letters((point.at, point.label) for point in construction.points)
-    return PlanSketch(
-        ids.force_scale(polygon.name),
-        count,
-        tuple(vectors),
-        _letters((point.at, point.label) for point in construction.points),
-    )
+    return PlanSketch(ids.force_scale(polygon.name), count, tuple(vectors), letters)
 
 
 def _letters(points: Iterable[tuple[str, object]]) -> dict[str, tuple[str, ...]]:
