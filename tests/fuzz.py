@@ -33,7 +33,10 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
+from reportgen.handin.drawing_file import wanted_plans
+from reportgen.handin.drawing_reader import DrawnMark, WantedPlans
 from reportgen.handin.files import read_file
+from reportgen.handin.red_layer import RedVector, with_corrections
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
 from reportgen.marking.frame import frame_of
@@ -53,6 +56,7 @@ from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.letterhead import read_letterhead
 from reportgen.writers import word
 from reportgen.writers.word_styles import merged, styles
+from tests.handin.drawings import Manner, draw, true_plans
 
 ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))
 DEMO = Path("assignments/class-demo")
@@ -387,6 +391,38 @@ def _key() -> tuple[Key, str, bytes]:
     return key, write_csv(rows).decode("utf-8-sig"), write_xlsx(book)
 
 
+def _drawing(number: int, chance: random.Random, folder: Path) -> None:
+    """A drawing with some lines of its text changed, or some bytes; what can be read is given back, too."""
+    key, plans, data = _drawn()
+    if number % 2:
+        lines = data.splitlines(keepends=True)
+        for _ in range(chance.choice((1, 3, 20))):
+            at = chance.randrange(len(lines))
+            lines[at : at + chance.randrange(3)] = chance.choices((b"0\n", b"1e999\n", b"nan\n", b"INSERT\n"), k=2)
+        data = b"".join(lines)
+    else:
+        content = bytearray(data)
+        for _ in range(chance.choice((1, 3, 20))):
+            content[chance.randrange(len(content))] = chance.randrange(256)
+        data = bytes(content)
+    file = folder / "sheet.dxf"
+    file.write_bytes(data)
+    reading = read_file(file, data, key, "en", plans)
+    places = [answer.mark for answer in reading.values.values() if isinstance(answer.mark, DrawnMark)]
+    with_corrections(data, [RedVector(mark.at, mark.right, ("đúng",)) for mark in places], 1.0)
+
+
+@cache
+def _drawn() -> tuple[Key, WantedPlans, bytes]:
+    """The plans of a sample, and somebody's drawing of them."""
+    case = open_case(Path("assignments/four-bar-02.yaml"), "en")
+    assert isinstance(case, MachineAnalysis)
+    key = key_of(case)
+    plans = wanted_plans(case, key)
+    assert plans is not None
+    return key, plans, draw(true_plans(case), Manner(clutter=5), 1)[0]
+
+
 @cache
 def _text(path: Path) -> str:
     return path.read_text(encoding="utf-8")
@@ -407,6 +443,7 @@ KINDS: dict[str, Callable[[int, random.Random, Path], None]] = {
     "words": _words,
     "letterhead": _letterhead,
     "handed-in": _handed_in,
+    "drawing": _drawing,
 }
 WRITTEN = frozenset(
     {
@@ -420,10 +457,11 @@ WRITTEN = frozenset(
         "en.md",
         "report.docx",
         "handed.docx",
+        "sheet.dxf",
     }
 )
 """The files that are tried; a text that was run would make another."""
-SHARES = (42, 10, 3, 7, 9, 8, 10, 4, 4, 3)
+SHARES = (39, 10, 3, 7, 9, 8, 10, 4, 4, 3, 3)
 """How many of a hundred files are of each kind."""
 
 

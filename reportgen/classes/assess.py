@@ -19,18 +19,21 @@ from reportgen.classes.collecting import Collected, Refused, collect, named_afte
 from reportgen.classes.corrections import Correction, applied
 from reportgen.classes.gradebooks import Gradebook, Participant
 from reportgen.classes.lateness import Handing, days_late
-from reportgen.classes.own_work import OwnWork, completed, own_works, with_own, without_own
+from reportgen.classes.own_work import LookedFor, OwnWork, completed, own_works, with_own, without_own
 from reportgen.classes.platforms import Handed, Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import RosterEntry, assignment_files, comparable, read_roster
+from reportgen.handin import FileReading, submission
+from reportgen.handin.drawing_file import wanted_plans
+from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.marking.grades import person
 from reportgen.marking.guard import Classmate
 from reportgen.marking.key import key_of
-from reportgen.marking.marking import mark
+from reportgen.marking.marking import mark, own_worlds
 from reportgen.marking.marks import Marking, Submission, Unmarked
 from reportgen.marking.parts import check_shares
 from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import MarkingScheme, marking_scheme
+from reportgen.marking.scheme import MarkingScheme, key_asked, marking_scheme
 from reportgen.report.key import Key
 
 
@@ -55,6 +58,12 @@ class Classroom:
             student |= dict(scheme.key.student)
             self.opened[stem] = replace(scheme, key=replace(scheme.key, student=student))
         return self.opened[stem]
+
+    def plans(self, key: Key, readings: Sequence[FileReading]) -> WantedPlans | None:
+        """The plans of an assignment, also by what was read of its student's report."""
+        scheme, case = self.scheme(key.id), open_case(self.files[comparable(key.id)], None)
+        read = submission(readings, self.language) if readings else None
+        return wanted_plans(case, scheme.key, own_worlds(asked_of(scheme, read), read) if read else ())
 
     @cached_property
     def keys(self) -> tuple[Key, ...]:
@@ -142,9 +151,8 @@ def grade(
     handed = read_sheets(without_own(came, own), language)
     collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
     keys = {comparable(key.id): key for key in room.keys} if own else {}
-    works = own_works(
-        own, keys, lambda file: _student_of(file, room, gradebook), room.handed_out, policy.twice, language
-    )
+    looked_for = LookedFor(room.handed_out, room.plans)
+    works = own_works(own, keys, lambda file: _student_of(file, room, gradebook), looked_for, policy.twice, language)
     collected = with_own(collected, works, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.
@@ -210,7 +218,6 @@ def _student_of(handed: Handed, room: Classroom, gradebook: Gradebook | None) ->
 def asked_of(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:
     """The guide with the cells that the policy asks for; what else is filled in is judged but earns no marks."""
     policy = scheme.policy
-    filled = {id for id, _ in (*submission.values, *submission.problems)}
-    key = policy.ask.of(scheme.key, filled)
-    beyond = {row.id: 0.0 for row in key.asked if not policy.ask.wants(row)}
+    key, asked = key_asked(policy, scheme.key, submission)
+    beyond = {row.id: 0.0 for row in key.asked if row.id not in asked}
     return replace(scheme, key=key, policy=replace(policy, weights={**beyond, **policy.weights}))

@@ -29,6 +29,7 @@ from reportgen.marking.grades import grade_rows, person
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 from reportgen.marking.questions import question_rows
+from reportgen.marking.scheme import key_asked
 from reportgen.marking.variant_marks import groups, variant_rows
 from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
@@ -92,7 +93,7 @@ def _readings(graded: Graded, policy: Policy, out: Path | None) -> Iterator[tupl
             and not submission.fingerprint
             and (out is None or renewable(graded.kept, out / target))
         ):
-            yield target, reading_book(policy.ask.of(key), submission)
+            yield target, reading_book(key_asked(policy, key, submission)[0], submission)
 
 
 def _feedback(marking: Marking, policy: Policy, engine: Engine) -> Iterator[tuple[str, bytes]]:

@@ -18,7 +18,8 @@ from reportgen.classes.platforms import Handed, changed
 from reportgen.classes.reading_sheets import names_in, read_own
 from reportgen.classes.roster import comparable
 from reportgen.handin import FileReading, submission
-from reportgen.handin.files import content, kinds
+from reportgen.handin.drawing_reader import WantedPlans
+from reportgen.handin.files import DRAWING, content, kinds
 from reportgen.handin.reading_book import NAME
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice
@@ -54,18 +55,28 @@ class OwnWorks:
         self.problems += problems
 
 
+@dataclass(frozen=True, slots=True)
+class LookedFor:
+    """What is looked for in the files of a student, by the key: what is `asked`, by the symbols of the own papers.
+
+    Of a drawing it is the `plans`, also by the values of files that were read before.
+    """
+
+    asked: Callable[[Key], Key]
+    plans: Callable[[Key, Sequence[FileReading]], WantedPlans | None]
+
+
 def own_works(
     handed: Sequence[Handed],
     keys: Mapping[str, Key],
     student_of: Callable[[Handed], Key | None],
-    asked: Callable[[Key], Key],
+    looked_for: LookedFor,
     twice: Twice,
     language: Language | None,
 ) -> OwnWorks:
     """The own files of a class laid to its students and read; `keys` are those of the assignments by comparable stem.
 
-    `student_of` says whose a file is by its name or its platform, `asked` what of a key is looked for, by the symbols
-    of the student's own papers.
+    `student_of` says whose a file is by its name or its platform.
     """
     gathered = OwnWorks()
     of_assignment: dict[str, list[Handed]] = {}
@@ -81,13 +92,27 @@ def own_works(
     chosen = list(_chosen(of_assignment, keys, gathered, twice, language))
     known = {key.id: key for key in keys.values()}
     read: dict[str, list[tuple[Handed, FileReading]]] = {}
-    assignments = iter([assignment for assignment, _ in chosen])
-    for file, reading in read_own(((file, asked(known[assignment])) for assignment, file in chosen), language):
-        assignment = next(assignments)
-        if isinstance(reading, list):
-            gathered.refuse(file, reading)
-        else:
-            read.setdefault(assignment, []).append((file, reading))
+
+    def before(assignment: str) -> list[FileReading]:
+        """What was read before of the same student."""
+        return [reading for _, reading in read.get(assignment, ())]
+
+    drawings = [file for file in chosen if file[1].path.suffix.lower() == DRAWING]
+    # A report says by which values its drawings may be found.
+    for several in ([file for file in chosen if file not in drawings], drawings):
+        calls = [
+            (file, looked_for.asked(known[assignment]), looked_for.plans(known[assignment], before(assignment)))
+            if several is drawings
+            else (file, looked_for.asked(known[assignment]), None)
+            for assignment, file in several
+        ]
+        assignments = iter([assignment for assignment, _ in several])
+        for file, reading in read_own(calls, language):
+            assignment = next(assignments)
+            if isinstance(reading, list):
+                gathered.refuse(file, reading)
+            else:
+                read.setdefault(assignment, []).append((file, reading))
     gathered.works |= {assignment: OwnWork(tuple(files)) for assignment, files in read.items()}
     return gathered
 

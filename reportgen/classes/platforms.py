@@ -103,7 +103,7 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
         elif path.suffix.lower() == ARCHIVE and path.is_file():
             yield from _from_archive(path, faults)
         else:
-            fault = Fault("own-not-read", Mark(str(path))) if path.suffix.lower() in own_files.NOT_READ else None
+            fault = own_files.not_read(path)
             yield Handed(path, owner_of(path.as_posix()), when=changed(path), fault=fault)
 
 

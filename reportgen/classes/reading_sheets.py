@@ -16,6 +16,7 @@ from reportgen.base.words import as_problem
 from reportgen.classes.platforms import Handed
 from reportgen.classes.pool import each_within
 from reportgen.handin import FileReading, files
+from reportgen.handin.drawing_reader import WantedPlans
 from reportgen.report.key import Key
 from reportgen.workbook import Page, read
 
@@ -33,11 +34,11 @@ def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator
 
 
 def read_own(
-    handed: Iterable[tuple[Handed, Key]], language: Language | None
+    handed: Iterable[tuple[Handed, Key, WantedPlans | None]], language: Language | None
 ) -> Iterator[tuple[Handed, FileReading | list[Problem]]]:
-    """Each student's own file, read for a key, or with the faults for which it cannot be read."""
-    calls = ((one, key, language) for one, key in handed)
-    for (file, _, _), reading in each_within(LIMITS, _read_own, calls, __name__):
+    """Each student's own file, read for a key and its plans, or with the faults for which it cannot be read."""
+    calls = ((one, key, plans, language) for one, key, plans in handed)
+    for (file, _, _, _), reading in each_within(LIMITS, _read_own, calls, __name__):
         yield file, [_beyond(file.path, language)] if reading is None else reading
 
 
@@ -50,10 +51,10 @@ def names_in(
         yield file, [_beyond(file.path, language)] if standing is None else standing
 
 
-def _read_own(call: tuple[Handed, Key, Language | None]) -> FileReading | list[Problem]:
-    file, key, language = call
+def _read_own(call: tuple[Handed, Key, WantedPlans | None, Language | None]) -> FileReading | list[Problem]:
+    file, key, plans, language = call
     try:
-        return files.read_file(file.path, files.content(file.path, file.data, language), key, language)
+        return files.read_file(file.path, files.content(file.path, file.data, language), key, language, plans)
     except AssignmentError as error:
         return list(error.problems)
 

@@ -351,7 +351,11 @@ def schema(lang: LangOption = None) -> None:
 
 HandedIn = Annotated[
     list[Path],
-    typer.Argument(metavar="SHEET", help="Your filled answer sheet, or your report (.docx).", show_default=False),
+    typer.Argument(
+        metavar="SHEET",
+        help="Your filled answer sheet, or your report (.docx) and drawings (.dxf).",
+        show_default=False,
+    ),
 ]
 
 
@@ -373,7 +377,9 @@ def compare(
 
 def read(
     file: File,
-    report: Annotated[list[Path], typer.Argument(metavar="REPORT", help="A report (.docx).", show_default=False)],
+    report: Annotated[
+        list[Path], typer.Argument(metavar="REPORT", help="A report (.docx), drawings (.dxf).", show_default=False)
+    ],
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
     policy: Annotated[
         Path | None,

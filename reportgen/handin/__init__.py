@@ -11,10 +11,10 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from reportgen.base.errors import Fault
+from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.marking.marks import Answer, Place, Submission
+from reportgen.marking.marks import Answer, Place, ReadOff, Submission
 
 FEWEST_FIGURES = 2
 """Figures that a number has been written with at least."""
@@ -37,6 +37,12 @@ class FileReading:
     values: Mapping[Place, Answer]
     unread: Mapping[Place, Fault] = field(default_factory=dict)
     notes: tuple[Fault, ...] = ()
+    measured: Mapping[Place, ReadOff] = field(default_factory=dict)
+    """How the values of a drawing were read."""
+    drawn: frozenset[Place] = frozenset()
+    """The places of which a drawing has to show something."""
+    beside: Mapping[Place, Mark] = field(default_factory=dict)
+    """Where a drawing has a wrong vector, by its length, that nothing asks for."""
 
     @property
     def share(self) -> float:
@@ -48,11 +54,19 @@ class FileReading:
 def submission(readings: Sequence[FileReading], language: Language | None) -> Submission:
     """The readings of one student's files as what is marked, faults worded in `language`.
 
-    A place with two values, here and there, is unread; one that only a single file leaves unread has the other's.
+    A place with two values, here and there, is unread; one that only a single file leaves unread has the other's.  What
+    is written counts before what is measured on a drawing, which is at another scale.
     """
     values: dict[Place, Answer] = {}
     unread: dict[Place, Fault] = {}
+    measured: dict[Place, ReadOff] = {}
+    readings = sorted(readings, key=lambda reading: bool(reading.measured))
     for reading in readings:
+        if reading.measured:
+            further = {place: answer for place, answer in reading.values.items() if place not in values}
+            measured |= {place: reading.measured[place] for place in further}
+            values |= further
+            continue
         for place, answer in reading.values.items():
             first = values.setdefault(place, answer)
             if not agree(first, answer):
@@ -71,6 +85,8 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
         rows=frozenset(id for id, _ in (*values, *unread)),
         unread={place: as_problem(fault, language) for place, fault in unread.items()},
         own_files=True,
+        measured={place: how for place, how in measured.items() if place in values},
+        drawn=frozenset().union(*(reading.drawn for reading in readings)),
     )
 
 

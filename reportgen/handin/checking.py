@@ -10,15 +10,17 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
-from reportgen.handin import submission
-from reportgen.handin.files import NOT_READ, OWN, content, read_file
+from reportgen.handin import FileReading, submission
+from reportgen.handin.drawing_file import wanted_plans
+from reportgen.handin.drawing_reader import WantedPlans
+from reportgen.handin.files import DRAWING, NOT_READ, OWN, content, not_read, read_file
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import compare as compare_sheet
-from reportgen.marking.marking import compared
+from reportgen.marking.marking import compared, own_worlds
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.scheme import key_asked, marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.report.case import Case
 from reportgen.report.key import Key
@@ -29,18 +31,31 @@ def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key
 
     `papers` are the case in the language of the student's own papers, whose symbols are looked for.
     """
-    spoken = case.assignment.language
+    spoken, policy = case.assignment.language, Policy(ask=ask)
     refuse(files, spoken)
     asked = ask.of(key_of(papers))
-    readings = [read_file(path, content(path, None, spoken), asked, spoken) for path in files]
-    return ask.of(key_of(case)), submission(readings, spoken)
+
+    def read_all(some: Sequence[Path], plans: WantedPlans | None = None) -> list[FileReading]:
+        return [read_file(path, content(path, None, spoken), asked, spoken, plans) for path in some]
+
+    drawings = [path for path in files if path.suffix.lower() == DRAWING]
+    readings = read_all([path for path in files if path not in drawings])
+    if drawings:
+        scheme = marking_scheme(case, policy)
+        # A report says by which values its drawings may be found.
+        own = submission(readings, spoken) if readings else None
+        worlds = own_worlds(replace(scheme, key=key_asked(policy, scheme.key, own)[0]), own) if own else ()
+        readings += read_all(drawings, wanted_plans(papers, scheme.key, worlds))
+    whole = submission(readings, spoken)
+    return key_asked(policy, key_of(case), whole)[0], whole
 
 
 def refuse(files: Sequence[Path], language: Language) -> None:
     """Raises `AssignmentError` for files of kinds that are not read."""
     strangers = [path for path in files if path.suffix.lower() not in OWN]
     if strangers:
-        raise as_error([Fault("own-not-read", Mark(str(path))) for path in strangers], language)
+        faults = (not_read(path) or Fault("own-not-read", Mark(str(path))) for path in strangers)
+        raise as_error(list(faults), language)
 
 
 def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
@@ -55,7 +70,7 @@ def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False)
     scheme = marking_scheme(case, Policy(guard=False))
     key, own = read(case, papers, files, Ask())
     rows = frozenset(row.id for row in key.asked)
-    return compared(scheme, replace(own, rows=rows), hint)
+    return compared(replace(scheme, key=key), replace(own, rows=rows), hint)
 
 
 def reading(key: Key, own: Submission, target: Path) -> bytes:

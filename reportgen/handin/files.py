@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
@@ -15,6 +17,9 @@ from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 from reportgen.report.key import Key
 from reportgen.workbook.package import RefusedError
+
+if TYPE_CHECKING:
+    from reportgen.handin.drawing_reader import WantedPlans
 
 NOT_READ = frozenset(
     {
@@ -41,24 +46,39 @@ LARGEST = 50_000_000
 
 @dataclass(frozen=True, slots=True)
 class FileKind:
-    """A kind of file: how it is read for a key, which names stand in it, and how it is given back with a marking."""
+    """A kind of file: how it is read for a key, which names stand in it, and how it is given back with a marking.
 
-    read: Callable[[Path, bytes, Key], FileReading]
+    A student may have `several` that are all of one work; their copies have a {number} in their name.
+    """
+
+    read: Callable[[Path, bytes, Key, WantedPlans | None], FileReading]
     names: Callable[[Path, bytes, Collection[str]], Collection[str]]
     marked: Callable[[Path, bytes, FileReading, Marking, Policy], tuple[str, bytes]]
     several: bool = False
-    """Whether a student has several of them, that are all of one work."""
 
 
 def kinds() -> Mapping[str, FileKind]:
     """The kinds by their endings; what reads them is imported when one comes."""
-    from reportgen.handin import word_report
+    from reportgen.handin import drawing_file, word_report
 
-    return {".docx": FileKind(word_report.read, word_report.names, word_report.marked)}
+    return {
+        ".docx": FileKind(word_report.read, word_report.names, word_report.marked),
+        DRAWING: FileKind(drawing_file.read, drawing_file.names, drawing_file.marked, several=True),
+    }
 
 
-OWN = frozenset({".docx"})
+DRAWING = ".dxf"
+"""The ending of drawings, which are read for the plans of an assignment."""
+OWN = frozenset({".docx", DRAWING})
 """The endings of `kinds`."""
+
+
+def not_read(path: Path) -> Fault | None:
+    """What is told of a file that may well be somebody's work and is not read; None of any other."""
+    ending = path.suffix.lower()
+    if ending not in NOT_READ:
+        return None
+    return Fault("drawing-dwg" if ending == ".dwg" else "own-not-read", Mark(str(path)))
 
 
 def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
@@ -71,10 +91,15 @@ def content(path: Path, data: bytes | None, language: Language | None) -> bytes:
         raise as_error([Fault("unreadable", Mark(str(path)), {"reason": cause(error)})], language) from error
 
 
-def read_file(path: Path, data: bytes, key: Key, language: Language | None) -> FileReading:
-    """What a file says of the quantities that a key asks for; raises `AssignmentError` for one that is refused."""
+def read_file(
+    path: Path, data: bytes, key: Key, language: Language | None, plans: WantedPlans | None = None
+) -> FileReading:
+    """What a file says of the quantities of a key, a drawing of its plans.
+
+    Raises `AssignmentError` for one that is refused.
+    """
     try:
-        return kinds()[path.suffix.lower()].read(path, data, key)
+        return kinds()[path.suffix.lower()].read(path, data, key, plans)
     except RefusedError as refused:
         raise as_error([refused.fault], language) from None
 
@@ -91,5 +116,8 @@ def marked_copies(
     files: Collection[tuple[Path, bytes, FileReading]], marking: Marking, policy: Policy
 ) -> Iterator[tuple[str, bytes]]:
     """The files of a student with what was found written into them, by their new names."""
+    numbers: Counter[str] = Counter()
     for path, data, reading in files:
-        yield kinds()[path.suffix.lower()].marked(path, data, reading, marking, policy)
+        name, copy = kinds()[path.suffix.lower()].marked(path, data, reading, marking, policy)
+        numbers[name] += 1
+        yield name.format(number=numbers[name]), copy

@@ -22,7 +22,7 @@ from reportgen.report.key import Key
 MARKED = "marked.docx"
 
 
-def read(path: Path, data: bytes, key: Key) -> FileReading:
+def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading:
     """What a report says of the quantities that a key asks for; raises `RefusedError`."""
     file = open_word(path, data)
     reading = read_report(file.blocks, key, str(path), file.tree)

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from reportgen.formula.ledger import Ledger
-from reportgen.marking.bands import half_unit
+from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.guard import Classmate, guard, not_from_own
 from reportgen.marking.key import Ask, symbol_text, words_of
 from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict
@@ -52,6 +52,36 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
             scheme, submission, [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
         )
     working = lay_out(scheme, submission)
+    cells, _ = _verdicts(working)
+    cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
+    flags: tuple[Notice, ...] = ()
+    if scheme.policy.guard:
+        cells, flags = guard(scheme, cells, classmates)
+    order = {row.id: index for index, row in enumerate(scheme.key.rows)}
+    in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
+    return Marking(scheme.key, submission, tuple(in_order), flags)
+
+
+@np.errstate(all="ignore")
+def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, ...]:
+    """All values (SI) [N] as a student has them who went wrong: from what is written, and with the data misread.
+
+    None where nothing is wrong.  Of a coursework they are those of its machine.
+    """
+    if scheme.parts:
+        machine = next(iter(sheets_of(scheme, submission, ())))
+        return own_worlds(machine.scheme, machine.submission)
+    working = lay_out(scheme, submission)
+    _, mistakes = _verdicts(working)
+    changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
+    if not mistakes:
+        return ()
+    return (working.world, *([working.world_with(changes)] if changes else []))
+
+
+def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
+    """The verdicts on what is laid out, and the mistakes that have a name."""
+    scheme, submission = working.scheme, working.submission
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = {
         (row.id, position): _judged(working, submission, row, position, possible)
@@ -60,18 +90,14 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
     }
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
+    named: list[Mistake] = []
     for search in SEARCHES:
         mistakes = search(working, cells)
+        named += mistakes.values()
         for place, mistake in mistakes.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, mistakes)
-    cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
-    flags: tuple[Notice, ...] = ()
-    if scheme.policy.guard:
-        cells, flags = guard(scheme, cells, classmates)
-    order = {row.id: index for index, row in enumerate(scheme.key.rows)}
-    in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
-    return Marking(scheme.key, submission, tuple(in_order), flags)
+    return cells, named
 
 
 def _judged(working: Working, submission: Submission, row: KeyRow, position: int, possible: Sequence[Values]) -> Marked:
@@ -84,6 +110,12 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     key = float(family.at(position).real)
     following = [_own(scheme.ledger, values, row.id, index) for values in possible]
     following += working.also(row, position)
+    drawn = submission.measured.get(place)
+    if drawn is not None:
+        # What the drawing's own fit may be off by counts where that is more.
+        band = max(band, drawn.error * family.how.scale)
+        following.append(drawn.own * family.how.scale)
+        unit = family.how.scale / (1.0 if is_direction(row.id) else drawn.times)
     value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
     verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:
@@ -107,7 +139,7 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         points=points,
         worth=worth * scheme.policy.right,
         unit=unit,
-        written=None if np.isnan(value) else submission.values[place].value,
+        written=None if np.isnan(value) else value / unit if drawn else submission.values[place].value,
     )
 
 

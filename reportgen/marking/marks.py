@@ -23,6 +23,19 @@ class Answer:
     mark: Mark
 
 
+@dataclass(frozen=True, slots=True)
+class ReadOff:
+    """How a length or a direction was read off a drawing: `times` as large as the report draws it.
+
+    A length is given as the report draws it; `error` is how far it may be off, `own` what the plan has that was found,
+    which may be that of the student's own values; both in the printed unit.
+    """
+
+    times: float
+    error: float
+    own: float
+
+
 @dataclass(frozen=True)
 class Submission:
     """A filled answer sheet: its values by place; cells that could not be read are `problems`.
@@ -31,7 +44,8 @@ class Submission:
     formulas, numbers that could be read in two ways.  `rows` are the ids of all its rows, filled in or not.
 
     Of the student's `own_files`, a report or a drawing in place of a sheet, `unread` is what stands there and was not
-    read beyond doubt: it neither earns nor costs anything until it is settled.
+    read beyond doubt: it neither earns nor costs anything until it is settled.  Of a drawing, `measured` says how what
+    it shows was read, and `drawn` are the places of which it has to show something.
     """
 
     assignment: str
@@ -42,6 +56,8 @@ class Submission:
     rows: frozenset[str] = frozenset()
     unread: Mapping[Place, Problem] = field(default_factory=dict)
     own_files: bool = False
+    measured: Mapping[Place, ReadOff] = field(default_factory=dict)
+    drawn: frozenset[Place] = frozenset()
     fingerprint: str = ""
     """Of a sheet that was filled with what was read of such files: what it held when it was written."""
 

@@ -70,7 +70,14 @@ def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
 
     rows = frozenset(part.own(id) for id in whole.rows if key.owner(id) == part.name)
     return replace(
-        whole, values=own(whole.values), problems=own(whole.problems), notes=(), rows=rows, unread=own(whole.unread)
+        whole,
+        values=own(whole.values),
+        problems=own(whole.problems),
+        notes=(),
+        rows=rows,
+        unread=own(whole.unread),
+        measured=own(whole.measured),
+        drawn=frozenset(own(dict.fromkeys(whole.drawn))),
     )
 
 

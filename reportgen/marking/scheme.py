@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -12,7 +12,7 @@ from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
 from reportgen.marking.bands import computed_bands, drawn_bands, is_chosen_length, is_direction
 from reportgen.marking.key import key_of
-from reportgen.marking.marks import Place
+from reportgen.marking.marks import Place, Submission
 from reportgen.marking.policy import Policy
 from reportgen.report.case import Case, Misconceptions
 from reportgen.report.key import Key, KeyRow, Role
@@ -188,3 +188,20 @@ def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:
         return is_chosen_length(ledger, ledger[id])
     definition = ledger[id].definition
     return isinstance(definition, Ref) and ledger[definition.id].definition is None
+
+
+def key_asked(policy: Policy, key: Key, submission: Submission) -> tuple[Key, frozenset[str]]:
+    """A key with the cells that a policy asks for and those that are filled in, and the ids of what is asked for.
+
+    Of a drawing its lengths and directions are asked for, where it has to show them; a sheet that was written of own
+    files, and completed by hand, has no others.
+    """
+    filled = (*submission.values, *submission.problems)
+    drawn = frozenset(filled) if submission.fingerprint else submission.drawn
+    rows = []
+    for row in policy.ask.of(key, {id for id, _ in (*filled, *drawn)}).rows:
+        shown = {k for id, k in (*filled, *drawn) if id == row.id}
+        further = any(id == row.id for id, _ in drawn) and not policy.ask.wants(row)
+        rows.append(replace(row, positions=tuple(k for k in row.positions if k in shown)) if further else row)
+    asked = {row.id for row in rows if policy.ask.wants(row)} | {id for id, _ in drawn}
+    return replace(key, rows=tuple(rows)), frozenset(asked)

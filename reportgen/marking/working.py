@@ -77,6 +77,10 @@ class Working:
         """All values (SI) [N] as a student has them: entered, or following from these; the key's where one is blank."""
         return self._followed(True, {})[1]
 
+    def world_with(self, changes: Mapping[str, Change]) -> dict[str, np.ndarray]:
+        """All values (SI) [N] as they are where changes were made to quantities that the sheet does not show."""
+        return self._followed(True, changes)[1]
+
     def _followed(
         self, blank_from_key: bool, unseen: Mapping[str, Change]
     ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
@@ -187,7 +191,10 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
     report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
     is not the plan's own is a wrong value like any other.
     """
-    values = {row.id: _column(scheme, row, submission) for row in scheme.key.asked}
+    sheet = replace(
+        submission, values={at: one for at, one in submission.values.items() if at not in submission.measured}
+    )
+    values = {row.id: _column(scheme, row, sheet) for row in scheme.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
     asked = [row.id for row in scheme.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
@@ -217,7 +224,26 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
         values |= {id: values[id] * factor for id in plan}
         if scale in values:
             values[scale] = stated / factor
+    if submission.measured:
+        values |= _measured(scheme, submission, values, drawn)
     return Working(scheme, submission, values, scales, drawn)
+
+
+def _measured(
+    scheme: MarkingScheme, submission: Submission, values: Values, drawn: dict[str, np.ndarray]
+) -> dict[str, np.ndarray]:
+    """The values with what was measured on a drawing, which is at the report's scales; `drawn` follows that drawing."""
+    of_drawing = replace(submission, values={at: submission.values[at] for at in submission.measured})
+    columns: dict[str, np.ndarray] = {}
+    for id in {id for id, _ in submission.measured}:
+        column = _column(scheme, scheme.key.row(id), of_drawing)
+        columns[id] = np.where(np.isnan(column), values.get(id, np.nan), column)
+    for (id, position), measured in submission.measured.items():
+        scale = vocabulary.plan(id)
+        if scale in scheme.ledger:
+            factors = drawn.setdefault(scale, np.ones(len(scheme.ledger[scale].values)))
+            factors[position - 1 if position and len(factors) > 1 else 0] = 1 / measured.times
+    return columns
 
 
 def _column(scheme: MarkingScheme, row: KeyRow, submission: Submission) -> np.ndarray:

@@ -1,0 +1,100 @@
+"""A drawing that is handed in: read for an assignment, and given back with the right vectors in red."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterator, Sequence
+from pathlib import Path
+from typing import get_args
+
+from reportgen.base.template_folders import search_path
+from reportgen.base.units import Language
+from reportgen.base.words import load_words
+from reportgen.handin import FileReading
+from reportgen.handin.drawing_reader import DrawnMark, WantedPlans, read_drawing
+from reportgen.handin.dxf_lines import read_lines
+from reportgen.handin.plan_labels import spoken
+from reportgen.handin.plan_shapes import Values, sketches
+from reportgen.handin.red_layer import RedVector, with_corrections
+from reportgen.marking.feedback import cell_comment
+from reportgen.marking.key import symbol_text, words_of
+from reportgen.marking.marks import Marked, Marking, Verdict
+from reportgen.marking.policy import Policy
+from reportgen.report.case import Case, MachineAnalysis
+from reportgen.report.key import Key
+
+MARKED = "marked-sheet-{number}.dxf"
+AT_FAULT = frozenset({Verdict.wrong, Verdict.implausible})
+
+
+def wanted_plans(case: Case, key: Key, worlds: Sequence[Values] = ()) -> WantedPlans | None:
+    """The plans of an assignment, of whose key all cells count, also by a student's own values (SI); None without any.
+
+    Of a coursework they are those of its machine, whose ids are its own.
+    """
+    machines = [part for part in (case, *case.parts.values()) if isinstance(part, MachineAnalysis)]
+    if not machines:
+        return None
+    plans = sketches(machines[0])
+    ids = {plan.scale for plan in plans} | {
+        end for plan in plans for one in plan.vectors for end in (one.start, one.end)
+    }
+
+    def chosen(values: Values) -> Values:
+        return {id: values[id] for id in ids if id in values}
+
+    known = chosen({id: family.values for id, family in machines[0].ledger.families.items()})
+    return WantedPlans(key, plans, known, tuple(map(chosen, worlds)), frozenset(_words()))
+
+
+def _words() -> Iterator[str]:
+    """The word for “position” in every language."""
+    for language in get_args(Language):
+        yield spoken(str(load_words(search_path(language))["table"]["position"]))
+
+
+def read(path: Path, data: bytes, key: Key, plans: WantedPlans | None) -> FileReading:
+    """What a drawing shows of the plans; raises `RefusedError`."""
+    return read_drawing(read_lines(data, str(path)), str(path), plans or WantedPlans(key, (), {}))
+
+
+def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
+    """Which of some names stand in a drawing as words; raises `RefusedError`."""
+    text = "\n".join(text.text for text in read_lines(data, str(path)).texts).casefold()
+    return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
+
+
+def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
+    """The drawing with the right vector, and what is said of it, wherever one is wrong."""
+    words = words_of(marking.key)
+    said: dict[DrawnMark, list[str]] = {}
+    for cell in marking.cells:
+        answer = reading.values.get((cell.id, cell.position))
+        if answer is None or not isinstance(answer.mark, DrawnMark):
+            continue
+        # Beside a sheet or a report, that one counts where it has the value, too.
+        judged = (cell.id, cell.position) in marking.submission.measured
+        if judged and (cell.verdict in AT_FAULT or (cell.corrected and not cell.points)):
+            lines = said.setdefault(answer.mark, [])
+            lines.append(_told(cell, marking, cell_comment(cell, marking, words, policy.show_answers)))
+        elif judged and answer.mark.wrong:
+            said.setdefault(answer.mark, [])
+    for (id, position), mark in reading.beside.items():
+        row = marking.key.find(id)
+        if isinstance(mark, DrawnMark) and row is not None:
+            named = f"{symbol_text(row, marking.key)} ({marking.key.label(position, id)})"
+            said.setdefault(mark, []).append(f"{named}: {words['drawing']['wrong']}")
+    if not policy.show_answers:
+        vectors = [RedVector(mark.at, None, tuple(lines)) for mark, lines in said.items() if lines]
+    else:
+        turned = (words["drawing"]["turned"],)
+        vectors = [RedVector(mark.at, mark.right, tuple(lines) or turned) for mark, lines in said.items()]
+    units = {answer.mark.unit for answer in reading.values.values() if isinstance(answer.mark, DrawnMark)}
+    return MARKED, with_corrections(data, vectors, 1 / next(iter(units), 1.0))
+
+
+def _told(cell: Marked, marking: Marking, comment: str) -> str:
+    """What is said of a value in a line: v_C (3): wrong …"""
+    row = marking.key.row(cell.id)
+    label = marking.key.label(cell.position, cell.id)
+    return f"{symbol_text(row, marking.key)} ({label}): {' '.join(comment.splitlines())}"

@@ -1,0 +1,245 @@
+"""A drawing read: which plans it has, how long their vectors are over the scale that each is drawn to, and where to.
+
+The plans are those of the key first, and in what these leave those of the student's own values.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.units import MM
+from reportgen.handin import FileReading
+from reportgen.handin.arrowheads import arrowheads
+from reportgen.handin.dxf_lines import DrawnLines, DrawnText
+from reportgen.handin.plan_finder import FoundPlans, find
+from reportgen.handin.plan_fit import SEEN, Fit, Lines
+from reportgen.handin.plan_labels import Labels
+from reportgen.handin.plan_shapes import PlanShape, PlanSketch, Values
+from reportgen.handin.wrong_vectors import WrongVector, wrong_vectors
+from reportgen.marking.bands import PAPER_ERROR
+from reportgen.marking.marks import Answer, Place, ReadOff
+from reportgen.report.key import Key
+from reportgen.workbook.package import RefusedError
+
+OFF = PAPER_ERROR * MM
+"""How far off a drawn end may lie in each direction (mm), as for whoever measures on paper."""
+MOST_LINES = 20_000
+"""Lines among which plans are sought."""
+USUAL = (1.0, 10.0, 1000.0, 25.4)
+"""Units that people draw in (mm), whatever the file says."""
+
+
+@dataclass(frozen=True)
+class DrawnMark(Mark):
+    """Where a vector begins in a drawing, in its own units of so many mm, and where it should end.
+
+    A `wrong` one does not end there.
+    """
+
+    at: complex = 0j
+    right: complex = 0j
+    unit: float = 1.0
+    wrong: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.file}:({self.at.real:.6g}, {self.at.imag:.6g})"
+
+    @property
+    def place(self) -> tuple[str, int, int, int]:
+        """In a drawing one reads from top to bottom."""
+        return (self.file, 0, round(-self.at.imag), round(self.at.real))
+
+
+@dataclass(frozen=True)
+class WantedPlans:
+    """What is looked for in a drawing: the plans of an assignment, from the key's values and from a student's own."""
+
+    key: Key
+    sketches: Sequence[PlanSketch]
+    known: Values
+    worlds: Sequence[Values] = ()
+    words: frozenset[str] = frozenset()
+    """The words for “position”, plain and in small letters."""
+
+    def shapes(self, values: Values) -> list[PlanShape]:
+        return [shape for sketch in self.sketches for shape in sketch.shapes(values)]
+
+    def labels(self, texts: Sequence[DrawnText]) -> Labels:
+        names = {label.casefold(): k for k, label in enumerate(self.key.labels, start=1)}
+        return Labels(tuple(texts), self.words, names)
+
+
+def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
+    """What a drawing shows of the plans that are wanted, in the unit that it names or else in a usual one.
+
+    Raises `RefusedError` where it has more lines than any drawing of plans.
+    """
+    if len(drawn.ends) > MOST_LINES:
+        raise RefusedError("drawing-lines", Mark(file), most=str(MOST_LINES))
+    searches: list[_Search] = []
+    for unit in dict.fromkeys((*((drawn.unit,) if drawn.unit else ()), *USUAL)):
+        searches.append(_Search.of(drawn, unit, wanted))
+        if searches[-1].plans.plans:
+            break
+    best = searches[-1] if searches[-1].plans.plans else searches[0]
+    return _Reading(best, wanted.key, file).read(drawn.notes)
+
+
+@dataclass(frozen=True)
+class _Search:
+    """The lines of a drawing in mm, and the plans that were found among them."""
+
+    unit: float
+    lines: Lines
+    plans: FoundPlans
+    wrong: tuple[WrongVector, ...] = ()
+
+    @classmethod
+    def of(cls, drawn: DrawnLines, unit: float, wanted: WantedPlans) -> _Search:
+        ends = drawn.ends * unit
+        every = Lines(ends[np.abs(ends[:, 1] - ends[:, 0]) > OFF], OFF)
+        marked = arrowheads(every)
+        kept = ~marked.strokes & (np.abs(every.ends[:, 1] - every.ends[:, 0]) > 2 * every.reach)
+        lines, heads = Lines(every.ends[kept], OFF), marked.heads[kept]
+        texts = [DrawnText(text.text, text.at * unit, text.height * unit) for text in drawn.texts]
+        labels = wanted.labels(texts)
+        plans = find(wanted.shapes(wanted.known), lines, labels)
+        for world in wanted.worlds:
+            plans = _with_own(plans, wanted.shapes(world), lines, labels)
+        return cls(unit, lines, plans, wrong_vectors(plans, lines, heads, labels))
+
+
+def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labels: Labels) -> FoundPlans:
+    """The same with plans of own values in place of those that were not found, or of which vectors are missing.
+
+    They are sought among the lines that no complete plan has.
+    """
+    least = SEEN * lines.error
+    before = {(fit.shape.scale, fit.shape.position): fit for fit in plans.plans}
+    whole = {place for place, fit in before.items() if not fit.missing(least)}
+    used = [line for place in whole for line in before[place].used]
+    index = np.setdiff1d(np.arange(len(lines.ends)), np.array(used, dtype=int))
+    left = [shape for shape in shapes if (shape.scale, shape.position) not in whole]
+    own = find(left, Lines(lines.ends[index], lines.error), labels)
+    placed = {place: (fit, sure) for (place, fit), sure in zip(before.items(), plans.sure, strict=True)}
+    for fit, sure in zip(own.plans, own.sure, strict=True):
+        place, full = (fit.shape.scale, fit.shape.position), replace(fit, lines=np.append(index, -1)[fit.lines])
+        if place not in before or fit.missing(least) < before[place].missing(least):
+            placed[place] = full, sure
+    taken = {line for fit, _ in placed.values() for line in fit.used}
+    doubtful = [several for several in plans.doubtful if not several[0].used & taken]
+    fits, sures = zip(*placed.values(), strict=True) if placed else ((), ())
+    return FoundPlans(fits, sures, tuple(doubtful), max(plans.deviation, own.deviation))
+
+
+# --- what the vectors say -------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Reading:
+    search: _Search
+    key: Key
+    file: str
+
+    def read(self, notes: Sequence[Fault]) -> FileReading:
+        plans = self.search.plans
+        values: dict[Place, Answer] = {}
+        measured: dict[Place, ReadOff] = {}
+        unread: dict[Place, Fault] = {}
+        beside: dict[Place, Mark] = {}
+        wrong = {(id(one.plan), one.vector): (one.start, one.end) for one in self.search.wrong}
+        for fit, sure in zip(plans.plans, plans.sure, strict=True):
+            lengths = np.abs(fit.shape.ends - fit.shape.starts)
+            longest = fit.present[lengths[fit.present].argmax()]
+            for number, vector in enumerate(fit.shape.vectors):
+                line = wrong.get((id(fit), number), self.ends(fit, number) if sure[number] else None)
+                if line is None:
+                    unread |= self.doubts(fit, number)
+                    continue
+                # The longest vector says what scale the plan has, and so says nothing of its own length.
+                own = self.place(vector.length, fit) if number != longest else None
+                if (id(fit), number) in wrong and not (own or self.place(vector.direction, fit)):
+                    beside[vector.length, fit.shape.position] = self.mark(fit, number, line[0], wrong=True)
+                for place, read in ((own, _length), (self.place(vector.direction, fit), _direction)):
+                    if place is not None:
+                        value, error, expected = read(fit, number, *line)
+                        # A length is quoted as it is drawn.
+                        shown = value * fit.scale if place is own else value
+                        text = f"{shown:.4g} {self.key.row(place[0]).unit}"
+                        mark = self.mark(fit, number, line[0], (id(fit), number) in wrong)
+                        values[place] = Answer(value, text, mark)
+                        measured[place] = ReadOff(fit.scale, error, expected)
+        for fit in (fit for several in plans.doubtful for fit in several):
+            for number, vector in enumerate(fit.shape.vectors):
+                for place in filter(None, (self.place(name, fit) for name in (vector.length, vector.direction))):
+                    unread.setdefault(place, Fault("unread-two-plans", self.mark(fit, number)))
+        nothing = () if plans.plans or plans.doubtful else (Fault("drawing-no-plans", Mark(self.file)),)
+        unread = {place: fault for place, fault in unread.items() if place not in values}
+        drawn = frozenset((*values, *unread))
+        return FileReading(
+            self.key.id,
+            self.file,
+            values,
+            unread,
+            notes=(*notes, *nothing),
+            measured=measured,
+            drawn=drawn,
+            beside=beside,
+        )
+
+    def place(self, id: str, fit: Fit) -> Place | None:
+        """The place of a quantity at a plan's position, if the key has a cell for it there.
+
+        What is the same at all positions is the drawn crank, to which the plans are scaled.
+        """
+        row = self.key.find(id) if id else None
+        if row is None or row.single or fit.shape.position not in row.positions:
+            return None
+        return row.id, fit.shape.position
+
+    def ends(self, fit: Fit, number: int) -> tuple[complex, complex]:
+        """Where the line of a vector begins and ends (mm), in the vector's sense."""
+        first, second = self.search.lines.ends[fit.lines[number]]
+        return (complex(second), complex(first)) if fit.turned[number] else (complex(first), complex(second))
+
+    def doubts(self, fit: Fit, number: int) -> dict[Place, Fault]:
+        """Why a vector of a plan is not read; nothing of one that is too short, or need not be drawn."""
+        vector = fit.shape.vectors[number]
+        length = fit.scale * abs(fit.shape.ends[number] - fit.shape.starts[number])
+        here = fit.lines[number] >= 0
+        if length < SEEN * self.search.lines.error or not (vector.drawn or here):
+            return {}
+        fault = Fault("unread-beside" if here else "unread-vector", self.mark(fit, number))
+        return {place: fault for name in (vector.length, vector.direction) if (place := self.place(name, fit))}
+
+    def mark(self, fit: Fit, number: int, start: complex | None = None, wrong: bool = False) -> DrawnMark:
+        """Where a vector begins, as drawn or as it should, and where it should end."""
+        unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
+        along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
+        return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong)
+
+
+def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
+    """A vector's length (mm) as the report draws it, how far off it may be, and what the plan has."""
+    return abs(end - start) / fit.scale, 2 * float(fit.reach[number]) / fit.scale, abs(_vector(fit, number))
+
+
+def _direction(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:
+    """A vector's direction (°) from the x axis, how far off it may be, and what the plan has."""
+    off = min(2 * float(fit.reach[number]) / abs(end - start), math.pi)
+    return _angle(end - start), math.degrees(off), _angle(_vector(fit, number))
+
+
+def _vector(fit: Fit, number: int) -> complex:
+    """A vector of the plan (mm) as the report draws it."""
+    return complex(fit.shape.ends[number] - fit.shape.starts[number])
+
+
+def _angle(vector: complex) -> float:
+    return math.degrees(cmath.phase(vector)) % 360

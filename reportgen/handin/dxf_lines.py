@@ -1,0 +1,347 @@
+"""The lines and texts of a drawing in its own units, blocks unfolded after they are counted.
+
+An affine map of the plane is a z + b z̄ + c, with complex a, b, c.
+"""
+
+from __future__ import annotations
+
+import cmath
+import codecs
+import math
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+import numpy as np
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.handin.dxf_tags import MOST, Entities, Entity, is_drawn, read_entities
+from reportgen.workbook.package import RefusedError
+
+UNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 14: 100.0}
+"""Millimetres of the units that a drawing may name."""
+DEEPEST = 32
+"""So deep may blocks stand in one another."""
+STRAIGHT = 1e-3
+"""Pieces of a polyline whose directions differ by no more (rad) are one line."""
+Line = tuple[complex, complex]
+
+BARB = 0.1
+"""The strokes of an arrowhead that an entity draws by itself, as a share of its line."""
+
+
+@dataclass(frozen=True, slots=True)
+class DrawnText:
+    """A text and the place where it begins, or its middle, by how it is aligned; the height of its letters."""
+
+    text: str
+    at: complex
+    height: float
+
+
+@dataclass(frozen=True)
+class DrawnLines:
+    """All straight lines [M, 2] of a drawing and its texts, in its own units, of which `unit` is the one named (mm).
+
+    `notes` tell what was left alone.
+    """
+
+    ends: np.ndarray
+    texts: tuple[DrawnText, ...] = ()
+    unit: float | None = None
+    notes: tuple[Fault, ...] = ()
+
+
+def read_lines(data: bytes, file: str) -> DrawnLines:
+    """The lines and texts of a DXF.  Raises `RefusedError`."""
+    contents = read_entities(data, file)
+    encoding = encoding_of(contents.header)
+    model = _pieces(contents.model, encoding)
+    unfolding = _Unfolding(contents, encoding, file)
+    unfolding.check(model)
+    whole = unfolding.unfolded(model)
+    unit = UNITS.get(int(float(contents.header.get(b"$INSUNITS", b"0") or 0)))
+    mark = Mark(file)
+    notes = [Fault("drawing-pictures", mark, {"count": f"{contents.pictures}"})] if contents.pictures else []
+    names = [name.decode(encoding, "replace") for name, block in contents.blocks.items() if block.external]
+    notes += [Fault("drawing-external", mark, {"text": name}) for name in names]
+    return DrawnLines(whole.lines, tuple(whole.texts), unit, tuple(notes))
+
+
+def encoding_of(header: Mapping[bytes, bytes]) -> str:
+    """How the texts are written: UTF-8 since R2007, before by the code page that the header names."""
+    if header.get(b"$ACADVER", b"") >= b"AC1021":
+        return "utf-8"
+    page = header.get(b"$DWGCODEPAGE", b"").decode("ascii", "replace").upper().replace("ANSI_", "cp")
+    try:
+        return codecs.lookup(page or "cp1252").name
+    except LookupError:
+        return "cp1252"
+
+
+# --- blocks ---------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Affine:
+    """The map z → a z + b z̄ + c."""
+
+    a: complex = 1.0
+    b: complex = 0.0
+    c: complex = 0.0
+
+    def __call__(self, z: np.ndarray) -> np.ndarray:
+        return self.a * z + self.b * z.conj() + self.c
+
+
+MIRROR = Affine(0.0, -1.0)
+"""The plane of an entity whose own z axis points away from the viewer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Insertion:
+    """A block set in: its name, and the maps of its copies as they stand."""
+
+    name: bytes
+    maps: tuple[Affine, ...]
+
+
+@dataclass
+class Pieces:
+    """What stands in a block or in model space: lines [M, 2], texts, blocks set in."""
+
+    lines: np.ndarray
+    texts: list[DrawnText] = field(default_factory=list)
+    insertions: list[Insertion] = field(default_factory=list)
+
+
+@dataclass
+class _Unfolding:
+    contents: Entities
+    encoding: str
+    file: str
+    pieces: dict[bytes, Pieces] = field(default_factory=dict)
+    counts: dict[bytes, int] = field(default_factory=dict)
+    whole: dict[bytes, Pieces] = field(default_factory=dict)
+
+    def check(self, model: Pieces) -> None:
+        """Count before anything is unfolded: a file of a few kB may have millions of lines in blocks of blocks."""
+        if self.count(model, ()) > MOST:
+            raise RefusedError("drawing-elements", Mark(self.file), most=f"{MOST}")
+
+    def count(self, pieces: Pieces, within: tuple[bytes, ...]) -> int:
+        """Lines and texts with those of all blocks set in."""
+        if len(within) > DEEPEST:
+            raise RefusedError("drawing-deep", Mark(self.file), most=f"{DEEPEST}")
+        total = len(pieces.lines) + len(pieces.texts)
+        for insertion in pieces.insertions:
+            name = insertion.name
+            # A block that stands in itself can be drawn by no program.
+            if name in within or (inner := self.block(name)) is None:
+                continue
+            if name not in self.counts:
+                self.counts[name] = self.count(inner, (*within, name))
+            total += len(insertion.maps) * self.counts[name]
+        return total
+
+    def block(self, name: bytes) -> Pieces | None:
+        block = self.contents.blocks.get(name)
+        if block is None or block.external:
+            return None
+        if name not in self.pieces:
+            pieces = _pieces(block.entities, self.encoding)
+            self.pieces[name] = _moved(pieces, Affine(c=-block.base)) if block.base else pieces
+        return self.pieces[name]
+
+    def unfolded(self, pieces: Pieces, within: tuple[bytes, ...] = ()) -> Pieces:
+        """The same with all that is set in."""
+        lines, texts = [pieces.lines], list(pieces.texts)
+        for insertion in pieces.insertions:
+            name = insertion.name
+            if name in within or (inner := self.block(name)) is None:
+                continue
+            if name not in self.whole:
+                self.whole[name] = self.unfolded(inner, (*within, name))
+            for place in insertion.maps:
+                copy = _moved(self.whole[name], place)
+                lines.append(copy.lines)
+                texts += copy.texts
+        return Pieces(np.concatenate(lines), texts)
+
+
+def _moved(pieces: Pieces, by: Affine) -> Pieces:
+    texts = [replace(text, at=complex(by(np.array(text.at)))) for text in pieces.texts]
+    insertions = [replace(one, maps=tuple(_after(by, place) for place in one.maps)) for one in pieces.insertions]
+    return Pieces(by(pieces.lines), texts, insertions)
+
+
+def _after(outer: Affine, inner: Affine) -> Affine:
+    """The map that does the inner one first."""
+    a = outer.a * inner.a + outer.b * inner.b.conjugate()
+    b = outer.a * inner.b + outer.b * inner.a.conjugate()
+    return Affine(a, b, outer.a * inner.c + outer.b * inner.c.conjugate() + outer.c)
+
+
+# --- entities -------------------------------------------------------------------------------------
+
+
+def _pieces(entities: list[Entity], encoding: str) -> Pieces:
+    """What entities draw; those of a polyline's corners follow it."""
+    texts: list[DrawnText] = []
+    insertions: list[Insertion] = []
+    lines: list[Line] = []
+    corners: list[_Corner] | None = None
+    polyline: Entity | None = None
+    for entity in entities:
+        if entity.type == b"VERTEX":
+            if corners is not None and polyline is not None:
+                widths = polyline.get(40), polyline.get(41)
+                corners.append(
+                    _Corner(_at(entity), entity.get(40, widths[0]), entity.get(41, widths[1]), _bulge(entity))
+                )
+            continue
+        if polyline is not None and corners:
+            lines += _seen(polyline, _path(corners, bool(polyline.whole(70) & 1)))
+        polyline = corners = None
+        if not is_drawn(entity) or (plane := _plane(entity)) is None:
+            continue
+        match entity.type:
+            case b"LINE":
+                lines.append((_at(entity), _at(entity, 11)))
+            case b"LWPOLYLINE":
+                lines += _seen(entity, _path(_corners(entity), bool(entity.whole(70) & 1)))
+            case b"POLYLINE" if not entity.whole(70) & (16 | 64):
+                polyline, corners = entity, []
+            case b"SOLID" | b"TRACE":
+                outline = [_at(entity, code) for code in (10, 11, 13, 12) if any(tag == code for tag, _ in entity.tags)]
+                lines += _seen(entity, list(pairwise([*outline, *outline[:1]])))
+            case b"LEADER":
+                points = [corner.at for corner in _corners(entity)]
+                head = _head(points[1], points[0], 2 * BARB * abs(points[1] - points[0])) if len(points) > 1 else []
+                lines += _seen(entity, [*pairwise(points), *head])
+            case b"TEXT" | b"MTEXT" | b"ATTRIB":
+                texts.append(_text(entity, plane, encoding))
+            case b"INSERT":
+                insertions.append(Insertion(entity.text(2).strip().upper(), tuple(_places(entity, plane))))
+    if polyline is not None and corners:
+        lines += _seen(polyline, _path(corners, bool(polyline.whole(70) & 1)))
+    return Pieces(np.array(lines, dtype=complex).reshape(-1, 2), texts, insertions)
+
+
+@dataclass(frozen=True, slots=True)
+class _Corner:
+    """A corner of a polyline with the widths at both ends of the piece that begins there; whether it is an arc."""
+
+    at: complex
+    start_width: float = 0.0
+    end_width: float = 0.0
+    bent: bool = False
+
+
+def _at(entity: Entity, code: int = 10) -> complex:
+    return complex(entity.get(code), entity.get(code + 10))
+
+
+def _bulge(entity: Entity) -> bool:
+    return abs(entity.get(42)) > STRAIGHT
+
+
+def _plane(entity: Entity) -> Affine | None:
+    """The map of an entity's own plane; None if that is not seen from above."""
+    x, y, z = entity.get(210), entity.get(220), entity.get(230, 1.0)
+    if math.hypot(x, y) > STRAIGHT * abs(z):
+        return None
+    # The ends of a line stand in the plane of the drawing, whatever its own is.
+    return Affine() if z > 0 or entity.type in (b"LINE", b"LEADER") else MIRROR
+
+
+def _corners(entity: Entity) -> list[_Corner]:
+    """The corners of a polyline in one entity: its pairs come corner by corner."""
+    corners: list[_Corner] = []
+    constant = entity.get(43)
+    x = None
+    for code, value in entity.tags:
+        if code == 10:
+            x = float(value)
+        elif code == 20 and x is not None:
+            corners.append(_Corner(complex(x, float(value)), constant, constant))
+            x = None
+        elif corners and code == 40 and entity.type == b"LWPOLYLINE":
+            corners[-1] = replace(corners[-1], start_width=float(value))
+        elif corners and code == 41 and entity.type == b"LWPOLYLINE":
+            corners[-1] = replace(corners[-1], end_width=float(value))
+        elif corners and code == 42:
+            corners[-1] = replace(corners[-1], bent=abs(float(value)) > STRAIGHT)
+    return corners
+
+
+def _path(corners: list[_Corner], closed: bool) -> list[Line]:
+    """The straight lines of a polyline, pieces of one direction as one; a piece that tapers off draws an arrowhead."""
+    ring = [*corners, *(corners[:1] if closed else ())]
+    lines: list[Line] = []
+    heads: list[Line] = []
+    joined = False
+    for first, second in pairwise(ring):
+        along = second.at - first.at
+        if first.bent or not along:
+            joined = joined and not first.bent
+            continue
+        last = lines[-1][1] - lines[-1][0] if lines and joined else 0j
+        if last and abs(cmath.phase(along / last)) < STRAIGHT:
+            lines[-1] = (lines[-1][0], second.at)
+        else:
+            lines.append((first.at, second.at))
+        joined = True
+        if first.start_width > 2 * first.end_width:
+            heads += _head(first.at, second.at, first.start_width, whole=True)
+        elif first.end_width > 2 * first.start_width:
+            heads += _head(second.at, first.at, first.end_width, whole=True)
+    return [*lines, *heads]
+
+
+def _head(back: complex, tip: complex, width: float, whole: bool = False) -> list[Line]:
+    """The two strokes of an arrowhead, as long as its piece or only as its width."""
+    along = (back - tip) / abs(back - tip) if back != tip else 0j
+    base = back if whole else tip + 1.5 * width * along
+    return [(tip, base + side * width / 2 * 1j * along) for side in (1, -1)]
+
+
+def _seen(entity: Entity, lines: list[Line]) -> list[Line]:
+    """Lines of an entity's own plane as they are seen."""
+    return [(-a.conjugate(), -b.conjugate()) for a, b in lines] if _plane(entity) is MIRROR else lines
+
+
+def _places(entity: Entity, plane: Affine) -> Iterator[Affine]:
+    """The maps of a block set in, of each copy of its rows and columns."""
+    sx, sy = entity.get(41, 1.0), entity.get(42, 1.0)
+    turn = cmath.rect(1.0, math.radians(entity.get(50)))
+    rows, columns = max(entity.whole(71), 1), max(entity.whole(70), 1)
+    if rows * columns > MOST:
+        rows, columns = MOST + 1, 1
+    for row in range(rows):
+        for column in range(columns):
+            apart = turn * complex(column * entity.get(44), row * entity.get(45))
+            own = Affine(turn * (sx + sy) / 2, turn * (sx - sy) / 2, _at(entity) + apart)
+            yield _after(plane, own)
+
+
+# --- texts ----------------------------------------------------------------------------------------
+
+_CODE = re.compile(r"\\[Uu]\+([0-9A-Fa-f]{4})")
+_STACKED = re.compile(r"\\S([^;]*);")
+_ORDER = re.compile(r"\\[ACFHQTWfp][^;]*;|\\[LlOoKkN~]|[{}]")
+_SIGN = re.compile("%%[cdpuoCDPUO]")
+
+
+def _text(entity: Entity, plane: Affine, encoding: str) -> DrawnText:
+    written = b"".join(value for code, value in entity.tags if code in (3, 1))
+    text = _CODE.sub(lambda code: chr(int(code[1], 16)), written.decode(encoding, "replace"))
+    if entity.type == b"MTEXT":
+        text = _STACKED.sub(lambda stacked: stacked[1].replace("^", "").replace(" ", ""), text)
+        text = _ORDER.sub("", text.replace("\\P", "\n"))
+    else:
+        text = _SIGN.sub("", text)
+    aligned = entity.type != b"MTEXT" and (entity.whole(72) or entity.whole(73)) and entity.whole(72) not in (3, 5)
+    at = complex(plane(np.array(_at(entity, 11 if aligned else 10))))
+    return DrawnText(text.strip(), at, entity.get(40))

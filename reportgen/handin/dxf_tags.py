@@ -1,0 +1,177 @@
+"""A drawing in DXF as its entities: pairs of a code and a value, R12 to R2018, by the blocks that they are in.
+
+Only what may be a vector, an arrowhead or a label is kept.  Nothing that the file names is ever opened.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+from reportgen.base.errors import Mark
+from reportgen.workbook.package import RefusedError
+
+LARGEST = 50_000_000
+"""Bytes of a drawing."""
+MOST = 300_000
+"""Lines and texts of a drawing, its blocks unfolded."""
+KEPT = frozenset(b"LINE LWPOLYLINE POLYLINE VERTEX SEQEND SOLID TRACE LEADER INSERT TEXT MTEXT ATTRIB".split())
+"""Entities that are read."""
+PICTURES = frozenset(b"IMAGE OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY".split())
+"""Entities that are left alone, and told."""
+BINARY = b"AutoCAD Binary DXF"
+DRAWING = b"AC10"
+"""What a DWG begins with."""
+EXTERNAL = 4 | 8 | 16 | 32
+"""Flags of a block that stands for another file."""
+_COMMENT = 999
+_INVISIBLE, _PAPER = 60, 67
+
+Tags = list[tuple[int, bytes]]
+
+
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """An entity: its type, its pairs in their order, and the line of the file where it begins."""
+
+    type: bytes
+    tags: Tags
+    line: int
+
+    def get(self, code: int, otherwise: float = 0.0) -> float:
+        """The first number of a code."""
+        return next((float(value) for tag, value in self.tags if tag == code), otherwise)
+
+    def whole(self, code: int) -> int:
+        """The first whole number of a code, 0 without one."""
+        return int(self.get(code))
+
+    def text(self, code: int) -> bytes:
+        """The first text of a code."""
+        return next((value for tag, value in self.tags if tag == code), b"")
+
+
+@dataclass
+class Block:
+    """A block: its base point, and its entities; `external` ones stand for another file."""
+
+    base: complex = 0j
+    external: bool = False
+    entities: list[Entity] = field(default_factory=list)
+
+
+@dataclass
+class Entities:
+    """A drawing's header, its blocks by name, and what stands in its model space; `pictures` are counted."""
+
+    header: dict[bytes, bytes] = field(default_factory=dict)
+    blocks: dict[bytes, Block] = field(default_factory=dict)
+    model: list[Entity] = field(default_factory=list)
+    pictures: int = 0
+
+
+def read_entities(data: bytes, file: str) -> Entities:
+    """The entities of a drawing.  Raises `RefusedError` for what is no DXF, is damaged or too large."""
+
+    def refuse(code: str, line: int = 1, **about: str) -> RefusedError:
+        return RefusedError(code, Mark(file, line), **about)
+
+    if len(data) > LARGEST:
+        raise refuse("drawing-large", largest=f"{LARGEST / 1e6:g}")
+    if data.startswith(DRAWING):
+        raise refuse("drawing-dwg")
+    if data.startswith(BINARY):
+        raise refuse("drawing-binary")
+    contents, kept = Entities(), 0
+    section = variable = b""
+    block: Block | None = None
+    entity: Entity | None = None
+    sections = 0
+    for code, value, line, _ in pairs(data, refuse):
+        if code == 0:
+            entity = None
+            if value == b"SECTION":
+                section, sections = b"?", sections + 1
+            elif value in (b"ENDSEC", b"EOF"):
+                section, block = b"", None
+            elif section == b"BLOCKS" and value in (b"BLOCK", b"ENDBLK"):
+                block = Block() if value == b"BLOCK" else None
+                entity = Entity(value, [], line) if block else None
+            elif section == b"ENTITIES" or block is not None:
+                contents.pictures += value in PICTURES
+                if value in KEPT:
+                    kept += 1
+                    if kept > MOST:
+                        raise refuse("drawing-elements", line, most=f"{MOST}")
+                    entity = Entity(value, [], line)
+                    (contents.model if block is None else block.entities).append(entity)
+        elif section == b"?":
+            section = value.upper() if code == 2 else section
+        elif section == b"HEADER":
+            if code == 9:
+                variable = value
+            else:
+                contents.header.setdefault(variable, value)
+        elif entity is not None:
+            if entity.type == b"BLOCK":
+                if code in (10, 20, 70) and not _is_number(value):
+                    raise refuse("drawing-damaged", line + 1)
+                _of_block(contents, block or Block(), code, value)
+            else:
+                if code in _NUMBERS and not _is_number(value):
+                    raise refuse("drawing-damaged", line + 1)
+                entity.tags.append((code, value))
+    if not sections:
+        raise refuse("drawing-none")
+    return contents
+
+
+Refuse = Callable[..., RefusedError]
+
+
+def pairs(data: bytes, refuse: Refuse) -> Iterator[tuple[int, bytes, int, int]]:
+    """Codes and values, the line of each code and its byte, up to the end that the file names or has."""
+    lines, line, offset = io.BytesIO(data), 1, 0
+    for code_line in lines:
+        value = lines.readline()
+        try:
+            code = int(code_line)
+        except ValueError:
+            if not (code_line + value).strip() and not lines.read().strip():
+                return
+            raise refuse("drawing-damaged", line) from None
+        if code != _COMMENT:
+            yield code, value.strip(b"\r\n") if code in _TEXTS else value.strip(), line, offset
+        if code == 0 and value.strip() == b"EOF":
+            return
+        line, offset = line + 2, offset + len(code_line) + len(value)
+
+
+_TEXTS = frozenset({1, 3})
+_NUMBERS = frozenset(range(10, 60)) | {60, 67, 70, 71, 210, 220, 230}
+_FURTHEST = 1e12
+
+
+def _is_number(value: bytes) -> bool:
+    try:
+        return abs(float(value)) < _FURTHEST
+    except ValueError:
+        return False
+
+
+def _of_block(contents: Entities, block: Block, code: int, value: bytes) -> None:
+    """What a pair says of the block that begins with it."""
+    if code == 2:
+        contents.blocks.setdefault(value.upper(), block)
+    elif code == 70:
+        block.external = bool(int(float(value)) & EXTERNAL)
+    elif code == 10:
+        block.base += float(value)
+    elif code == 20:
+        block.base += 1j * float(value)
+
+
+def is_drawn(entity: Entity) -> bool:
+    """Whether an entity is seen in model space."""
+    return not (entity.whole(_INVISIBLE) or entity.whole(_PAPER))

@@ -1,0 +1,246 @@
+"""Which of the places that a plan fits is beyond doubt, and which line of it is which vector.
+
+What speaks for a fit is counted as the logarithm of odds.  A figure that has nothing to do with a plan has an end at a
+third corner only by chance: one of its lines would have to end within ±2.5 σ instead of anywhere in the figure, once
+in each direction.  A plan is taken where the odds are `BEYOND_DOUBT` against chance and against every other plan at
+its place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, LONG, SEEN, Beside, Fit, Lines, fits, fitted, named
+from reportgen.handin.plan_labels import TITLE, Labels, names_of
+from reportgen.handin.plan_shapes import PlanShape
+
+BEYOND_DOUBT = float(np.log(1e5))
+"""Odds against another plan at the same place."""
+BY_CHANCE = float(np.log(1e3))
+"""Odds against lines that meet so by chance, of all placings that were tried."""
+WITHIN = 2.5
+"""Deviations within which an end lies that is where it should be: √(2π) σ is the width of a normal distribution."""
+LEFT_OUT = float(np.log(20.0))
+"""Odds against a vector that was not drawn: students leave out one of twenty."""
+CLOSED = 1.0
+"""What speaks for a line between two ends that are there anyhow, as every polygon has it."""
+OTHER_SCALE = float(np.log(0.05))
+"""Odds of a plan that is drawn to another scale than most."""
+MANY = 3
+"""So many plans of one kind show the scale that they are drawn to."""
+FINEST = 0.03
+"""No drawing is taken for more exact (mm): lengths are rounded before they are drawn."""
+SHARED = 1 / 3
+"""Two fits are of one place if they share more of the lines of either."""
+UNLABELLED = Labels(())
+
+
+@dataclass(frozen=True)
+class FoundPlans:
+    """The plans found beyond doubt, those that share a place with others, and how exactly ends were drawn (mm)."""
+
+    plans: tuple[Fit, ...]
+    sure: tuple[np.ndarray, ...]
+    """Of each whether the line of each vector is beyond doubt [E]."""
+    doubtful: tuple[tuple[Fit, ...], ...]
+    deviation: float
+
+
+def find(shapes: Sequence[PlanShape], lines: Lines, labels: Labels = UNLABELLED) -> FoundPlans:
+    """The plans among the lines."""
+    every = [fit for shape in shapes for fit in fits(shape, lines)]
+    judge = _Judge(lines, len(shapes), lines.error / np.sqrt(3), {}, labels)
+    clear, _ = judge.decided(every)
+    deviation = _deviation(clear, lines)
+    judge = replace(judge, deviation=deviation)
+    again = [fit for one in every if (fit := _closer(one, lines, deviation)) is not None]
+    scales = _common_scales(again, judge) | _common_scales(judge.decided(again)[0], judge)
+    judge = replace(judge, scales=scales)
+    small = [
+        fit
+        for shape in shapes
+        if shape.scale in scales
+        for one in fits(shape, lines, [scales[shape.scale] if shape.is_of_motion else shape.unit / scales[shape.scale]])
+        if (fit := _closer(one, lines, deviation)) is not None
+    ]
+    plans, doubtful = judge.decided(_distinct([*again, *small]))
+    sure = [named(fit, lines, deviation, BEYOND_DOUBT, _names(fit, lines, labels)) for fit in plans]
+    return FoundPlans(tuple(plans), tuple(sure), tuple(doubtful), deviation)
+
+
+def _names(fit: Fit, lines: Lines, labels: Labels) -> Beside:
+    """What tells the vectors of a plan apart where they lie beside one another."""
+
+    def beside(vector: int, line: int) -> bool:
+        start, end = lines.ends[line]
+        return labels.beside(names_of(fit.shape, vector), complex(start), complex(end))
+
+    return beside
+
+
+def _closer(fit: Fit, lines: Lines, deviation: float) -> Fit | None:
+    return fitted(fit.shape, lines, fit.scale, fit.shift, deviation)
+
+
+def _distinct(several: Sequence[Fit]) -> list[Fit]:
+    distinct: dict[tuple[int, frozenset[int]], Fit] = {}
+    for fit in several:
+        key = id(fit.shape), fit.used
+        if key not in distinct or fit.square < distinct[key].square:
+            distinct[key] = fit
+    return list(distinct.values())
+
+
+def _deviation(plans: Sequence[Fit], lines: Lines) -> float:
+    """The standard deviation (mm) of ends from their places in each direction over all plans, not above the usual."""
+    usual = lines.error / np.sqrt(3)
+    count = sum(4 * len(fit.present) - 3 for fit in plans)
+    if count < 4 * MANY:
+        return float(usual)
+    square = sum(fit.square for fit in plans)
+    return float(np.clip(np.sqrt(square / count), FINEST, usual))
+
+
+def _drawn_to(fit: Fit) -> float:
+    """The scale of a plan over the report's; of forces, whose report has one for each position, the scale itself."""
+    return fit.scale if fit.shape.is_of_motion else fit.shape.unit / fit.scale
+
+
+def _common_scales(plans: Sequence[Fit], judge: _Judge) -> dict[str, float]:
+    """The scale that most plans of a kind share, by kinds."""
+    scales: dict[str, float] = {}
+    for kind in {fit.shape.scale for fit in plans}:
+        own = [fit for fit in plans if fit.shape.scale == kind]
+        drawn = np.log([_drawn_to(fit) for fit in own])
+        room = np.array([WITHIN * fit.scale_error(judge.deviation) / fit.scale for fit in own])
+        agree = np.abs(drawn[:, None] - drawn) <= room[:, None] + room
+        names = np.array([id(fit.shape) for fit in own])
+        votes = [len(set(names[row])) for row in agree]
+        best = int(np.argmax(votes))
+        if votes[best] >= MANY and 2 * votes[best] > len(set(names)):
+            weights = 1 / np.maximum(room[agree[best]], 1e-6) ** 2
+            scales[kind] = float(np.exp((drawn[agree[best]] * weights).sum() / weights.sum()))
+    return scales
+
+
+@dataclass(frozen=True)
+class _Judge:
+    lines: Lines
+    shapes: int
+    deviation: float
+    scales: Mapping[str, float]
+    labels: Labels
+
+    def for_it(self, fit: Fit) -> float:
+        """What speaks for a fit (logarithm of odds), chance not yet taken off."""
+        corners, square = fit.corners_met(2 * self.lines.reach)
+        closing = len(fit.used) - (len(corners) - 1)
+        of_scale = self._of_scale(fit)
+        return (
+            _of_corners(corners, WITHIN * self.deviation, of_scale > 0)
+            + CLOSED * max(closing, 0)
+            - LEFT_OUT * fit.missing(SEEN * self.lines.error)
+            - square / (2 * self.deviation**2)
+            + of_scale
+        )
+
+    def _of_scale(self, fit: Fit) -> float:
+        """What the scale says: nothing where none is common."""
+        if fit.shape.scale not in self.scales:
+            return 0.0
+        off = abs(np.log(_drawn_to(fit) / self.scales[fit.shape.scale]))
+        room = max(WITHIN * fit.scale_error(self.deviation) / fit.scale, 1e-4)
+        return float(np.log(ANYWHERE / (2 * room))) if off <= room else OTHER_SCALE
+
+    @cached_property
+    def _long(self) -> tuple[np.ndarray, np.ndarray]:
+        """The numbers of all two lines with a common end that both have a direction."""
+        first, second = self.lines.touching
+        length = np.abs(self.lines.ways)
+        long = np.minimum(length[first], length[second]) > LONG * self.lines.error
+        count = len(self.lines.ends)
+        return first[long] % count, second[long] % count
+
+    def by_chance(self, taken: Collection[int], left: int) -> float:
+        """How many placings can be tried, as a logarithm: two lines that meet and that no plan has, for each left."""
+        free = np.ones(len(self.lines.ends), dtype=bool)
+        free[list(taken)] = False
+        first, second = self._long
+        return float(np.log(max((free[first] & free[second]).sum() * left, 1)))
+
+    def decided(self, every: Sequence[Fit]) -> tuple[list[Fit], list[tuple[Fit, ...]]]:
+        """The fits beyond doubt, the best first, and those of places that several plans fit.
+
+        What is found leaves fewer lines and fewer plans, for which less is to be had by chance.
+        """
+        odds = {id(fit): self.for_it(fit) for fit in every}
+        # Letters speak for a figure, and make none.
+        likely = [fit for fit in every if odds[id(fit)] >= BY_CHANCE]
+        odds |= {id(fit): odds[id(fit)] + self.labels.speak_for(fit) for fit in likely}
+        for at, positions in self.labels.owned(likely, self.lines.ends).items():
+            if len(positions) == 1:
+                odds[id(likely[at])] += TITLE if likely[at].shape.position in positions else -TITLE
+        shaped = [fit for fit in likely if len(fit.corners_met(2 * self.lines.reach)[0]) >= FEWEST_CORNERS]
+        order = sorted(shaped, key=lambda fit: -odds[id(fit)])
+        by_line: dict[int, list[Fit]] = {}
+        for fit in order:
+            for line in fit.used:
+                by_line.setdefault(line, []).append(fit)
+        plans: list[Fit] = []
+        doubtful: list[tuple[Fit, ...]] = []
+        placed: set[int] = set()
+        taken: set[int] = set()
+        before = -1
+        while len(taken) > before:
+            before = len(taken)
+            least = self.by_chance(taken, self.shapes - len(placed)) + BY_CHANCE
+            for fit in order:
+                if odds[id(fit)] < least:
+                    break
+                if id(fit.shape) in placed or len(fit.used & taken) > SHARED * len(fit.used):
+                    continue
+                others = {id(other): other for line in fit.used for other in by_line[line]}.values()
+                rivals = [
+                    other
+                    for other in others
+                    if other.shape is not fit.shape
+                    and id(other.shape) not in placed
+                    and len(other.used & fit.used) > SHARED * min(len(other.used), len(fit.used))
+                    and odds[id(other)] > odds[id(fit)] - BEYOND_DOUBT
+                ]
+                taken |= fit.used
+                if rivals:
+                    doubtful.append((fit, *rivals))
+                else:
+                    placed.add(id(fit.shape))
+                    plans.append(fit)
+        return plans, doubtful
+
+
+def _of_corners(corners: np.ndarray, width: float, scaled: bool) -> float:
+    """What it says that lines end within a `width` (mm) of so many corners, in each direction, if nothing made them.
+
+    An end may lie anywhere about the corner next to it, as far as that is; the first one gives the place, the farthest
+    one the scale.  Corners on one line are no figure: that others lie on it, too, counts only at the common scale.
+    """
+    if len(corners) < FEWEST_CORNERS:
+        return 0.0
+    apart = np.abs(corners[:, None] - corners)
+    reached, steps = apart[0].copy(), []
+    left = np.ones(len(corners), dtype=bool)
+    left[0] = False
+    while left.any():
+        following = int(np.where(left, reached, np.inf).argmin())
+        steps.append(reached[following])
+        left[following] = False
+        reached = np.minimum(reached, apart[following])
+    gains = np.maximum(np.log(np.array(steps) / width), 0.0)
+    along = corners - corners[0]
+    direction = along[np.abs(along).argmax()]
+    off_line = np.abs((along * direction.conjugate()).imag) / np.abs(direction)
+    on_line = off_line.max() < width and not scaled
+    return float(gains.sum() if on_line else 2 * gains.sum() - gains.max())

@@ -1,0 +1,445 @@
+"""Where a plan of known shape lies among the lines of a drawing: found by its corners, fitted by least squares.
+
+A plan may be drawn at any place and to any scale, but not turned: a corner z of the report's figure lies at f z + t,
+with a real f > 0.  Two lines that share an end are tried for each two vectors that share a corner; what they say of f
+and t is tested at all other corners, and fitted to all lines that lie there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.handin.plan_shapes import PlanShape
+
+FURTHEST = 5.0
+"""A plan is drawn at most so many times larger or smaller than in the report."""
+ANYWHERE = float(np.log(FURTHEST**2))
+"""The range of scales, as a logarithm."""
+FEWEST_CORNERS = 3
+"""Fewer corners have no shape."""
+HALF = 0.5
+"""So many of the vectors that would be seen must have a line before anything is fitted."""
+MOST_PAIRS = 400_000
+"""Lines that share an end; more are no drawing of plans."""
+MOST_TRIED = 15
+"""Placings of a plan that are fitted, those that have most lines first."""
+CROWD = 40
+"""Ends nearer to one than others; more are a hatching."""
+ROUNDS = 4
+LONG = 10.0
+"""A line shorter than so many errors of an end has hardly a direction, and a vector no arrowhead (5 mm)."""
+REACH = float(np.sqrt(6))
+"""Deviations that an end lies off its place at most: √3 in each direction where errors are evenly spread."""
+SEEN = 6.0
+"""A vector as long as so many errors of an end is seen on paper (3 mm); what is shorter is drawn enlarged beside it."""
+
+
+@dataclass(frozen=True)
+class Lines:
+    """Lines [M, 2] (mm) of a drawing whose ends lie within ±`error` (mm) in each direction of where they should."""
+
+    ends: np.ndarray
+    error: float
+
+    @property
+    def reach(self) -> float:
+        """How far an end may lie off its place (mm)."""
+        return float(np.sqrt(2) * self.error)
+
+    @cached_property
+    def points(self) -> np.ndarray:
+        """All ends [2 M]: those of the starts first."""
+        return np.concatenate((self.ends[:, 0], self.ends[:, 1]))
+
+    @cached_property
+    def touching(self) -> tuple[np.ndarray, np.ndarray]:
+        """The numbers of all two ends, of two lines, that may be one, each pair in either order."""
+        first, second = _near(self.points, 2 * self.reach)
+        several = np.flatnonzero(first % len(self.ends) != second % len(self.ends))[:MOST_PAIRS]
+        first, second = first[several], second[several]
+        return np.concatenate((first, second)), np.concatenate((second, first))
+
+    @cached_property
+    def ways(self) -> np.ndarray:
+        """The lines as vectors from each of their ends [2 M]."""
+        along = self.ends[:, 1] - self.ends[:, 0]
+        return np.concatenate((along, -along))
+
+    @cached_property
+    def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Two lines each with a common end: the first angle, that end, both as vectors from it, by the angle."""
+        first, second = self.touching
+        along, beside = self.ways[first], self.ways[second]
+        at = (self.points[first] + self.points[second]) / 2
+        angle = np.angle(along)
+        order = np.argsort(angle, kind="stable")
+        return angle[order], at[order], along[order], beside[order]
+
+    @property
+    def cell(self) -> float:
+        """The width of a cell (mm): what a first guess of scale and place may be off by."""
+        return 3 * self.reach
+
+    @cached_property
+    def cells(self) -> np.ndarray:
+        """The numbers of the cells of a grid that lines run between, or of cells beside these, sorted."""
+        keys = np.concatenate([_between(self.ends[:, n], self.ends[:, 1 - n], self.cell) for n in (0, 1)])
+        steps = np.array([-1, 0, 1], dtype=np.int64)
+        for factor in _FACTORS:
+            keys = (keys[:, None] + steps * factor).ravel()
+        return np.unique(keys)
+
+    def run_between(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
+        """Whether a line runs between places about these."""
+        keys = _between(starts, ends, self.cell)
+        if not len(self.cells):
+            return np.zeros(keys.shape, dtype=bool)
+        place = np.searchsorted(self.cells, keys).clip(max=len(self.cells) - 1)
+        run: np.ndarray = self.cells[place] == keys
+        return run
+
+
+_FACTORS = tuple(np.int64(factor) for factor in (1, 0x1F123BB5, 0x2545F4914F6CDD1D, 0x369DEA0F31A53F85))
+"""What rows and columns of two cells are multiplied by: it is unlikely that two others have the same sum."""
+
+
+def _between(starts: np.ndarray, ends: np.ndarray, cell: float) -> np.ndarray:
+    """A number for the cells that each line starts and ends in."""
+    numbers = (np.floor(part / cell).astype(np.int64) for part in (starts.real, starts.imag, ends.real, ends.imag))
+    with np.errstate(over="ignore"):
+        parts = [number * factor for number, factor in zip(numbers, _FACTORS, strict=True)]
+        total: np.ndarray = np.sum(parts, axis=0)
+    return total
+
+
+def _key(x: int, y: int) -> int:
+    return (x << 32) + y
+
+
+def _keys(points: np.ndarray, cell: float) -> np.ndarray:
+    """The number of the cell that each point lies in."""
+    x, y = np.floor(points.real / cell), np.floor(points.imag / cell)
+    keys: np.ndarray = (x.astype(np.int64) << 32) + y.astype(np.int64)
+    return keys
+
+
+def _near(points: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
+    """All two points nearer than `reach`, each pair once: sought in each cell of a grid and its next ones."""
+    keys = _keys(points, reach)
+    order = np.argsort(keys, kind="stable")
+    ranked = keys[order]
+    firsts, seconds = [], []
+    for step in (_key(0, 0), _key(0, 1), _key(1, -1), _key(1, 0), _key(1, 1)):
+        low, high = (np.searchsorted(ranked, ranked + step, side=side) for side in ("left", "right"))
+        if step == 0:
+            low = np.arange(1, len(ranked) + 1)
+        count = np.maximum(high - low, 0)
+        count = np.minimum(count, CROWD)
+        first = np.repeat(np.arange(len(ranked)), count)
+        second = np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count) + np.repeat(low, count)
+        a, b = order[first], order[second]
+        close = np.abs(points[a] - points[b]) <= reach
+        firsts.append(a[close])
+        seconds.append(b[close])
+    return np.concatenate(firsts), np.concatenate(seconds)
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A plan found among lines: corners z at `scale` z + `shift`; the line of each vector by number, −1 for none.
+
+    `turned` lines begin where their vector ends.  `rest` [2 K] are the ends of the K lines found, first where their
+    vectors start, less their places (mm), `size` is the extent of what was found (mm).
+    """
+
+    shape: PlanShape
+    scale: float
+    shift: complex
+    lines: np.ndarray
+    turned: np.ndarray
+    rest: np.ndarray
+    size: float
+    off_centre: float
+    """The sum of the squared distances (mm², report's scale) of the fitted corners from their middle."""
+    reach: np.ndarray
+    """How far the ends of each vector may lie off their places (mm) [E]."""
+
+    @property
+    def present(self) -> np.ndarray:
+        """The numbers of the vectors that have a line."""
+        return np.flatnonzero(self.lines >= 0)
+
+    @cached_property
+    def used(self) -> frozenset[int]:
+        """The lines that it explains."""
+        return frozenset(int(line) for line in self.lines[self.lines >= 0])
+
+    @property
+    def square(self) -> float:
+        """The sum of the squared distances of all ends from their places (mm²)."""
+        return float((np.abs(self.rest) ** 2).sum())
+
+    def missing(self, least: float) -> int:
+        """Vectors of the report's figure that would be seen, being longer than `least` (mm), and have no line."""
+        lengths = self.scale * np.abs(self.shape.ends - self.shape.starts)
+        drawn = np.array([vector.drawn for vector in self.shape.vectors])
+        return int((drawn & (self.lines < 0) & (lengths > least)).sum())
+
+    def at(self, corners: np.ndarray) -> np.ndarray:
+        """Where corners of the report's figure lie in the drawing (mm)."""
+        return self.scale * corners + self.shift
+
+    def corners_met(self, apart: float) -> tuple[np.ndarray, float]:
+        """The corners [n] (mm) that the lines have, those nearer than `apart` (mm) being one, and how far off they lie.
+
+        The second is the sum over the corners of the squared mean distance of their ends, each as often as it has ends
+        (mm²): how far the ends of one corner lie from each other speaks neither for this plan nor against it.
+        """
+        shape, present = self.shape, self.present
+        met = [shape.vectors[number].start for number in present] + [shape.vectors[number].end for number in present]
+        places = (self.scale * shape.corners).tolist()
+        kept: list[complex] = []
+        at: list[int] = []
+        for corner in met:
+            near = next((n for n, one in enumerate(kept) if abs(places[corner] - one) <= apart), None)
+            if near is None:
+                near = len(kept)
+                kept.append(places[corner])
+            at.append(near)
+        count = np.bincount(at)
+        means = (np.bincount(at, self.rest.real) + 1j * np.bincount(at, self.rest.imag)) / count
+        return np.array(kept), float((count * np.abs(means) ** 2).sum())
+
+    def scale_error(self, deviation: float) -> float:
+        """The standard deviation of the scale where every end has that `deviation` (mm) in each direction."""
+        return float(deviation / np.sqrt(self.off_centre)) if self.off_centre > 0 else np.inf
+
+
+def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[Fit]:
+    """All places where a plan fits some of the lines, at any scale or at about those given; each once."""
+    tried = [_by_corners(shape, lines)] if not scales else [_by_vectors(shape, lines, scale) for scale in scales]
+    scale, shift = (np.concatenate(part) for part in zip(*tried, strict=True))
+    if not len(scale):
+        return []
+    starts, ends = (scale[:, None] * part + shift[:, None] for part in (shape.starts, shape.ends))
+    seen = (np.abs(ends - starts) >= SEEN * lines.error) & np.array([vector.drawn for vector in shape.vectors])
+    met = (lines.run_between(starts, ends) & seen).sum(axis=1)
+    enough = np.flatnonzero(met >= np.maximum(2, HALF * seen.sum(axis=1)))
+    enough = enough[np.argsort(-met[enough], kind="stable")]
+    placed: dict[frozenset[int], Fit] = {}
+    tried_about: set[tuple[int, int, int]] = set()
+    for number in enough:
+        step = lines.cell / 2
+        about = (round(np.log(scale[number]) * 50), round(shift[number].real / step), round(shift[number].imag / step))
+        if about in tried_about:
+            continue
+        tried_about.add(about)
+        if len(tried_about) > MOST_TRIED:
+            break
+        fit = fitted(shape, lines, float(scale[number]), complex(shift[number]))
+        if fit is not None and (fit.used not in placed or fit.square < placed[fit.used].square):
+            placed[fit.used] = fit
+    return list(placed.values())
+
+
+def _by_corners(shape: PlanShape, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
+    """Scales and shifts of a plan by all two lines that meet as two of its vectors do."""
+    angle, at, along, beside = lines.pairs
+    scales, shifts = [np.zeros(0)], [np.zeros(0, dtype=complex)]
+    off = 2 * lines.reach
+    for corner, first, second in _meeting(shape):
+        longest = abs(first)
+        turn = np.arcsin(min(off / (longest / FURTHEST), 0.3))
+        for low, high in _window(angle, float(np.angle(first)), float(turn)):
+            u, v = along[low:high], beside[low:high]
+            scale = (u * first.conjugate() + v * second.conjugate()).real / (longest**2 + abs(second) ** 2)
+            fits = (np.abs(u - scale * first) <= off) & (np.abs(v - scale * second) <= off)
+            fits &= (scale > 1 / FURTHEST) & (scale < FURTHEST)
+            some = scale[fits]
+            places = at[low:high][fits] + (u[fits] + v[fits] - some * (first + second)) / 3
+            scales.append(some)
+            shifts.append(places - some * corner)
+    return np.concatenate(scales), np.concatenate(shifts)
+
+
+def _meeting(shape: PlanShape) -> Iterator[tuple[complex, complex, complex]]:
+    """Each corner at which two vectors meet, and both from there, the longer one first; those along one line too."""
+    touching: dict[int, list[complex]] = {}
+    for vector in shape.vectors:
+        start, end = complex(shape.corners[vector.start]), complex(shape.corners[vector.end])
+        touching.setdefault(vector.start, []).append(end - start)
+        touching.setdefault(vector.end, []).append(start - end)
+    for corner, ways in touching.items():
+        ways = sorted(ways, key=abs, reverse=True)
+        for number, first in enumerate(ways):
+            for second in ways[number + 1 :]:
+                if first != second:
+                    yield complex(shape.corners[corner]), first, second
+
+
+def _window(angle: np.ndarray, middle: float, turn: float) -> Iterator[tuple[int, int]]:
+    """The ranges of sorted angles within ±`turn` of one, around the circle."""
+    for whole in (-2 * np.pi, 0.0, 2 * np.pi):
+        low, high = np.searchsorted(angle, (middle - turn + whole, middle + turn + whole))
+        if high > low:
+            yield int(low), int(high)
+
+
+def _by_vectors(shape: PlanShape, lines: Lines, scale: float) -> tuple[np.ndarray, np.ndarray]:
+    """Shifts of a plan of known scale by every line that is as long as one of its vectors, and of its direction."""
+    starts, ways = shape.starts, scale * (shape.ends - shape.starts)
+    shifts = []
+    for sense, start in ((1, lines.ends[:, 0]), (-1, lines.ends[:, 1])):
+        along = sense * (lines.ends[:, 1] - lines.ends[:, 0])
+        vector, line = np.nonzero(np.abs(ways[:, None] - along) <= 2 * lines.reach)
+        shifts.append(start[line] - scale * starts[vector])
+    shift = np.concatenate(shifts)
+    return np.full(len(shift), scale), shift
+
+
+def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviation: float | None = None) -> Fit | None:
+    """The best fit of a plan about a first guess of scale and shift; None where less than two of its vectors lie there.
+
+    `deviation` is that of an end in each direction (mm); without it that of ends spread evenly over their errors.
+    """
+    starts, ends = shape.starts, shape.ends
+    sigma = lines.error / np.sqrt(3) if deviation is None else deviation
+    near = _around(lines, scale * shape.corners + shift)
+    if not len(near):
+        return None
+    some = lines.ends[near]
+    reach = np.full(len(starts), lines.cell)
+    rows = np.arange(len(starts))
+    for turn in range(ROUNDS):
+        a, b = scale * starts + shift, scale * ends + shift
+        farthest, turned, squares = off_place(some, a, b)
+        # What is shorter than two ends may lie off has no direction.
+        fits_there = (farthest <= reach[:, None]) & (np.abs(b - a) > 2 * REACH * sigma)[:, None]
+        line = _each_its_own(np.where(fits_there, squares, np.inf))
+        seen = line >= 0
+        kept = np.flatnonzero(seen)
+        if len(kept) < 2:
+            return None
+        z = np.concatenate((starts[kept], ends[kept]))
+        w = _ends_of(some[line[kept]], turned[kept, line[kept]])
+        off_centre = float((np.abs(z - z.mean()) ** 2).sum())
+        if off_centre == 0.0:
+            return None
+        scale = float(((w - w.mean()) * (z - z.mean()).conjugate()).real.sum() / off_centre)
+        shift = complex(w.mean() - scale * z.mean())
+        if not 1 / FURTHEST < scale < FURTHEST:
+            return None
+        reach = _reach(shape, z, sigma)
+        # The first guess is finer than the cells, but not as fine as the fit.
+        reach = np.maximum(reach, lines.cell / 2) if turn == 0 else reach
+    numbers = np.where(seen, near[line], -1)
+    extent = float(np.abs(w[:, None] - w).max())
+    rest = w - (scale * z + shift)
+    return Fit(shape, scale, shift, numbers, turned[rows, line], rest, size=extent, off_centre=off_centre, reach=reach)
+
+
+def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of vectors from a to b [E] and some lines [M, 2]: how far off the farther end lies (mm) [E, M], whether the line
+    is turned round, and the sum of both squares (mm²)."""
+    starts, ends = [np.abs(some[:, n] - a[:, None]) for n in (0, 1)], [np.abs(some[:, n] - b[:, None]) for n in (0, 1)]
+    straight, opposite = np.maximum(starts[0], ends[1]), np.maximum(starts[1], ends[0])
+    turned = opposite < straight
+    squares = np.where(turned, starts[1] ** 2 + ends[0] ** 2, starts[0] ** 2 + ends[1] ** 2)
+    return np.minimum(straight, opposite), turned, squares
+
+
+def _each_its_own(squares: np.ndarray) -> np.ndarray:
+    """The line of each vector [E], −1 without one, from how badly they fit [E, M]: the best first, no line twice.
+
+    A vector that is left without a line may have that of another: both are one line on paper where nothing else is.
+    """
+    best = np.where(np.isfinite(squares.min(axis=1)), squares.argmin(axis=1), -1)
+    kept = best[best >= 0]
+    if len(set(kept.tolist())) == len(kept):
+        return best
+    chosen, used = np.full(len(best), -1), set()
+    vectors, lines = np.nonzero(np.isfinite(squares))
+    for number in np.argsort(squares[vectors, lines], kind="stable"):
+        vector, line = int(vectors[number]), int(lines[number])
+        if chosen[vector] < 0 and line not in used:
+            chosen[vector] = line
+            used.add(line)
+    return np.where(chosen < 0, best, chosen)
+
+
+def _ends_of(some: np.ndarray, turned: np.ndarray) -> np.ndarray:
+    """The ends [2 K] of lines [K, 2], first those where their vectors start."""
+    return np.concatenate((np.where(turned, some[:, 1], some[:, 0]), np.where(turned, some[:, 0], some[:, 1])))
+
+
+def _reach(shape: PlanShape, fitted_to: np.ndarray, sigma: float) -> np.ndarray:
+    """How far from their places (mm) [E] the ends of each vector may lie: an end's own error and three of the fit's.
+
+    Evenly spread errors reach to √3 deviations in each direction; the fit's own deviation is σ √h, with the leverage
+    h = 1/n + |z − z̄|²/Σ|z − z̄|².
+    """
+    middle = fitted_to.mean()
+    spread = float((np.abs(fitted_to - middle) ** 2).sum())
+    from_middle = np.maximum(np.abs(shape.starts - middle), np.abs(shape.ends - middle))
+    leverage = 1 / len(fitted_to) + from_middle**2 / spread
+    reach: np.ndarray = REACH * sigma + 3 * sigma * np.sqrt(leverage)
+    return reach
+
+
+Beside = Callable[[int, int], bool]
+"""Whether the name of a vector, by its number, stands beside a line, by its number."""
+
+
+def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside) -> np.ndarray:
+    """Whether it is beyond doubt, for each vector [E] of a fit, that its line is its and no other vector's.
+
+    `odds` (logarithm) is what must speak against every other line at its place, and against every other vector at that
+    of its line; a name beside it, that does not stand beside the other, says it as well.  Vectors whose
+    ends are no farther apart than a drawn point may be off are one line on paper, which is both.
+    """
+    a, b = fit.at(fit.shape.starts), fit.at(fit.shape.ends)
+    near = _around(lines, fit.at(fit.shape.corners))
+    farthest, _, squares = off_place(lines.ends[near], a, b)
+    place = {int(line): column for column, line in enumerate(near)}
+    own = {int(number): place[int(fit.lines[number])] for number in fit.present}
+    fits_there = farthest <= fit.reach[:, None]
+    least = 2 * odds * deviation**2
+    sure = (fit.lines >= 0) & (np.abs(b - a) >= SEEN * lines.error)
+    for i, column in own.items():
+        free = fits_there[i].copy()
+        free[list(own.values())] = False
+        if (squares[i, free] - squares[i, column] < least).any():
+            sure[i] = False
+        for j in np.flatnonzero(fits_there[:, column]):
+            if j == i or _off_place_of(a, b, i, int(j)) < lines.error:
+                continue
+            # A name says little of a line that two vectors have.
+            alone = own.get(int(j)) != column
+            if alone and beside(i, int(fit.lines[i])) and not beside(int(j), int(fit.lines[i])):
+                continue
+            against = squares[j, column] - squares[i, column]
+            if j in own and own[int(j)] != column:
+                against += squares[i, own[int(j)]] - squares[j, own[int(j)]]
+            if against < least:
+                sure[i] = False
+    return np.asarray(sure)
+
+
+def _off_place_of(a: np.ndarray, b: np.ndarray, first: int, second: int) -> float:
+    """How far the ends of two vectors lie apart at most (mm), whichever way round."""
+    straight = max(abs(a[first] - a[second]), abs(b[first] - b[second]))
+    return float(min(straight, max(abs(a[first] - b[second]), abs(b[first] - a[second]))))
+
+
+def _around(lines: Lines, places: np.ndarray) -> np.ndarray:
+    """The numbers of the lines that lie wholly about some places."""
+    room = lines.cell
+    low = complex(places.real.min() - room, places.imag.min() - room)
+    high = complex(places.real.max() + room, places.imag.max() + room)
+    x, y = lines.ends.real, lines.ends.imag
+    within = (x >= low.real) & (x <= high.real) & (y >= low.imag) & (y <= high.imag)
+    return np.flatnonzero(within.all(axis=1))

@@ -1,0 +1,147 @@
+"""What is written beside plans: the position of one, the letters of its corners, the names of its vectors.
+
+Letters are welcome and never needed; they speak for a plan that its shape leaves in doubt.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from reportgen.handin.dxf_lines import DrawnText
+from reportgen.handin.plan_fit import Fit
+from reportgen.handin.plan_shapes import PlanShape
+
+LETTER = float(np.log(20.0))
+"""What a letter at its place says: of twenty that may stand there it is the one."""
+TITLE = float(np.log(1e5))
+"""What a position that is written beside a plan says."""
+BESIDE = 3.0
+"""So many heights of its letters a text stands from what it names at most."""
+ROOM = 30.0
+"""The position of a plan is written at most so far from it (mm)."""
+
+_DROPPED = re.compile(r"[\s_^{}()′'’`,.\-]")
+_SAME = str.maketrans({"τ": "t", "đ": "d", "Đ": "D"})
+
+
+def plain(text: str) -> str:
+    """A text without accents, primes and what raises or lowers."""
+    letters = unicodedata.normalize("NFKD", text.translate(_SAME))
+    return _DROPPED.sub("", "".join(one for one in letters if not unicodedata.combining(one)))
+
+
+def spoken(text: str) -> str:
+    """A text in small letters without accents."""
+    letters = unicodedata.normalize("NFKD", text.translate(_SAME)).casefold()
+    return "".join(one for one in letters if not unicodedata.combining(one))
+
+
+@dataclass(frozen=True)
+class Labels:
+    """The texts of a drawing, in mm; `words` are those for “position” and `labels` what positions are called."""
+
+    texts: tuple[DrawnText, ...]
+    words: frozenset[str] = frozenset()
+    labels: Mapping[str, int] | None = None
+
+    @cached_property
+    def places(self) -> np.ndarray:
+        """The middle of each text [T]: letters are about as wide as two thirds of their height."""
+        return np.array([one.at + one.height * complex(len(one.text) / 3, 0.5) for one in self.texts], dtype=complex)
+
+    @cached_property
+    def heights(self) -> np.ndarray:
+        return np.array([one.height for one in self.texts])
+
+    @cached_property
+    def by_text(self) -> Mapping[str, np.ndarray]:
+        """The numbers of the texts by what they say."""
+        said: dict[str, list[int]] = {}
+        for number, text in enumerate(self.texts):
+            said.setdefault(plain(text.text), []).append(number)
+        return {text: np.array(numbers) for text, numbers in said.items()}
+
+    @cached_property
+    def titles(self) -> list[tuple[int, int]]:
+        """The positions that texts name, each with the number of its text."""
+        titles = []
+        for number, text in enumerate(self.texts):
+            said = spoken(text.text)
+            named = {
+                match[1]
+                for word in self.words
+                for match in re.finditer(rf"{re.escape(word)}\s*[:=]?\s*(\w+[′']?)", said)
+            }
+            known = {position for name in named if (position := (self.labels or {}).get(name.replace("'", "′")))}
+            if len(known) == 1:
+                titles.append((known.pop(), number))
+        return titles
+
+    def beside(self, names: Sequence[str], start: complex, end: complex) -> bool:
+        """Whether one of some names stands beside a line, or beside a point where both ends are one."""
+        for name in names:
+            for number in self.by_text.get(name, ()):
+                along, to = end - start, self.places[number] - start
+                share = float(np.clip((to * along.conjugate()).real / (abs(along) ** 2 or 1.0), 0.0, 1.0))
+                if abs(to - share * along) <= BESIDE * self.heights[number]:
+                    return True
+        return False
+
+    def speak_for(self, fit: Fit) -> float:
+        """What the letters at corners and vectors say for a fit (logarithm of odds)."""
+        if not len(self.texts):
+            return 0.0
+        shape = fit.shape
+        corners = {end for number in fit.present for end in (shape.vectors[number].start, shape.vectors[number].end)}
+        places = fit.at(shape.corners)
+        count = sum(self.beside(letters_of(shape, corner), places[corner], places[corner]) for corner in corners)
+        for number in fit.present:
+            vector = shape.vectors[number]
+            count += self.beside(names_of(shape, int(number)), places[vector.start], places[vector.end])
+        return LETTER * count
+
+    def owned(self, fits: Sequence[Fit], ends: np.ndarray) -> dict[int, set[int]]:
+        """The positions that are written beside the lines of each fit, by the number of the fit.
+
+        A title belongs to what it is nearest to, and to all fits that share lines with that.
+        """
+        boxes = [_box(ends[list(fit.used)]) for fit in fits]
+        owned: dict[int, set[int]] = {}
+        for position, number in self.titles:
+            distances = [_distance(box, complex(self.places[number])) for box in boxes]
+            if not distances or min(distances) > ROOM:
+                continue
+            nearest = fits[int(np.argmin(distances))]
+            for at, fit in enumerate(fits):
+                if fit.used & nearest.used:
+                    owned.setdefault(at, set()).add(position)
+        return owned
+
+
+def letters_of(shape: PlanShape, corner: int) -> list[str]:
+    """What may stand at a corner."""
+    return [plain(letter) for letter in shape.letters[corner]]
+
+
+def names_of(shape: PlanShape, number: int) -> list[str]:
+    """What may stand beside a vector: its symbol, or the letters of its ends."""
+    vector = shape.vectors[number]
+    starts, ends = letters_of(shape, vector.start), letters_of(shape, vector.end)
+    return [*(plain(name) for name in vector.names), *(a + b for a in starts for b in ends)]
+
+
+def _box(ends: np.ndarray) -> tuple[complex, complex]:
+    return complex(ends.real.min(), ends.imag.min()), complex(ends.real.max(), ends.imag.max())
+
+
+def _distance(box: tuple[complex, complex], place: complex) -> float:
+    low, high = box
+    x = max(low.real - place.real, 0.0, place.real - high.real)
+    y = max(low.imag - place.imag, 0.0, place.imag - high.imag)
+    return float(np.hypot(x, y))

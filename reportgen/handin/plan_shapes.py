@@ -1,0 +1,178 @@
+"""The plans of velocities, accelerations and forces as shapes to be looked for in a drawing: corners and vectors.
+
+The corners are those of the report's figures, from the key's values or from a student's own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from reportgen.base.units import MM
+from reportgen.formula import Symbol, ids
+from reportgen.report.case import Case, MachineAnalysis
+from reportgen.report.plans import POLE, force_construction, motion_construction
+from reportgen.report.report import Report
+
+What = Literal["v", "a"]
+
+NOTHING = 0.01
+"""What is shorter (mm) is a point on any paper."""
+PAIR = 2
+_PARTS = {"n": "n", "τ": "t", "k": "k", "r": "r"}
+
+Values = Mapping[str, np.ndarray]
+"""Values (SI) by id, [N] or [1]."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeVector:
+    """A vector of a plan between two of its corners, by the ids of its length and, if it has one, of its direction.
+
+    One that is not `drawn` in the report, as the whole relative acceleration, may be drawn or not.
+    """
+
+    length: str
+    direction: str
+    start: int
+    end: int
+    names: tuple[str, ...] = ()
+    drawn: bool = True
+
+
+@dataclass(frozen=True, eq=False)
+class PlanShape:
+    """A plan at a position: corners [n] (mm at the report's scale) and vectors, none of which is a point.
+
+    `scale` is the id of μ, `unit` what a millimetre stands for (SI); `letters` are those of its corners.
+    """
+
+    scale: str
+    position: int
+    unit: float
+    corners: np.ndarray
+    vectors: tuple[ShapeVector, ...]
+    letters: tuple[tuple[str, ...], ...] = ()
+
+    @property
+    def is_of_motion(self) -> bool:
+        """Whether it is a plan of velocities or accelerations, which have one scale at all positions."""
+        names = ids.scale.read(self.scale)
+        return names is not None and names["plan"] in ("v", "a")
+
+    @property
+    def starts(self) -> np.ndarray:
+        """Where its vectors begin [E]."""
+        return self.corners[[vector.start for vector in self.vectors]]
+
+    @property
+    def ends(self) -> np.ndarray:
+        """Where they end [E]."""
+        return self.corners[[vector.end for vector in self.vectors]]
+
+
+@dataclass(frozen=True, slots=True)
+class SketchedVector:
+    """A vector of a plan between two corners, by their ids; otherwise as a `ShapeVector`."""
+
+    length: str
+    direction: str
+    start: str
+    end: str
+    names: tuple[str, ...] = ()
+    drawn: bool = True
+
+
+@dataclass(frozen=True)
+class PlanSketch:
+    """A plan whatever its values are, at the first `count` positions."""
+
+    scale: str
+    count: int
+    vectors: tuple[SketchedVector, ...]
+    letters: Mapping[str, tuple[str, ...]]
+
+    def shapes(self, values: Values) -> Iterator[PlanShape]:
+        """The plan at each position from values by their ids."""
+        ends = dict.fromkeys(corner for vector in self.vectors for corner in (vector.start, vector.end))
+        index = {id: number for number, id in enumerate(ends)}
+        places = MM * np.array([self._over(np.zeros(1) if id == POLE else values[id]) for id in ends])
+        units = self._over(values[self.scale]).real / MM
+        letters = tuple(self.letters.get(id, ()) for id in ends)
+        for k, at in enumerate(places.T):
+            vectors = tuple(
+                ShapeVector(one.length, one.direction, index[one.start], index[one.end], one.names, one.drawn)
+                for one in self.vectors
+                if abs(at[index[one.end]] - at[index[one.start]]) > NOTHING
+            )
+            if np.isfinite(at).all() and units[k] > 0 and vectors:
+                yield PlanShape(self.scale, k + 1, float(units[k]), at, vectors, letters)
+
+    def _over(self, values: np.ndarray) -> np.ndarray:
+        """Values at the positions [count]."""
+        return np.broadcast_to(values, (self.count,)) if values.size == 1 else values[: self.count]
+
+
+def sketches(case: Case) -> tuple[PlanSketch, ...]:
+    """The plans of a machine: of velocities, of accelerations, of the forces of each group and of the driver."""
+    if not isinstance(case, MachineAnalysis):
+        return ()
+    report = Report(case)
+    plans = [_of_motion(report, what, case.span.count) for what in ("v", "a")]
+    return (*plans, *(_of_forces(report, number, len(case.span.labels)) for number in range(len(case.polygons))))
+
+
+def _of_motion(report: Report, what: What, count: int) -> PlanSketch:
+    """The plan of velocities or accelerations of one turn, with the lengths that it has besides its vectors."""
+    ledger, construction = report.ledger, motion_construction(report, what)
+    corners = {corner: corner.rpartition(".")[2] for corner in construction.corners if corner != POLE}
+    named = {ids.POLE: POLE} | {letter: corner for corner, letter in corners.items()}
+    lengths: dict[frozenset[str], str] = {}
+    for id in ledger.families:
+        names = ids.segment.read(id)
+        if names and names["what"] == what and {names["start"], names["end"]} <= named.keys():
+            lengths[frozenset((named[names["start"]], named[names["end"]]))] = id
+    vectors = []
+    for vector in construction.vectors:
+        ends = frozenset((vector.start, vector.end))
+        part, relative = _PARTS.get(vector.name[:1], ""), vector.name[1:]
+        own = ids.relative_segment(part, relative) if part else ""
+        length = own if own in ledger else lengths.pop(ends, "")
+        direction = ids.direction(what, vector.name) if vector.start == POLE else ""
+        known = direction if direction in ledger else ""
+        vectors.append(SketchedVector(length, known, vector.start, vector.end, _plain(vector.label)))
+    further = [(id, *sorted(ends)) for ends, id in lengths.items() if len(ends) == PAIR]
+    vectors += [SketchedVector(id, "", start, end, drawn=False) for id, start, end in further]
+    letters = _letters((point.at, point.label) for point in construction.points)
+    return PlanSketch(ids.scale(what), count, tuple(vectors), letters)
+
+
+def _of_forces(report: Report, number: int, count: int) -> PlanSketch:
+    """The force plan of a group or of the driver, by its number, through the cycle."""
+    polygon = report.case.polygons[number]
+    ledger, construction = report.ledger, force_construction(report, polygon)
+    vectors = []
+    for vector, edge in zip(construction.vectors, (*polygon.edges, *polygon.reads), strict=True):
+        length, direction = ids.force_segment(polygon.name, edge.name), ids.force_direction(edge.name)
+        known = [id if id in ledger else "" for id in (length, direction)]
+        vectors.append(SketchedVector(known[0], known[1], vector.start, vector.end, _plain(vector.label)))
+    letters = _letters((point.at, point.label) for point in construction.points)
+    return PlanSketch(ids.force_scale(polygon.name), count, tuple(vectors), letters)
+
+
+def _letters(points: Iterable[tuple[str, object]]) -> dict[str, tuple[str, ...]]:
+    """The letters at each corner."""
+    letters: dict[str, tuple[str, ...]] = {}
+    for corner, label in points:
+        letters[corner] = (*letters.get(corner, ()), *_plain(label))
+    return letters
+
+
+def _plain(label: object) -> tuple[str, ...]:
+    """A symbol as a drawing has it, without what raises, lowers or marks a vector."""
+    if not isinstance(label, Symbol):
+        return ()
+    return tuple(dict.fromkeys((f"{label.base}{label.sup}{label.sub}", f"{label.base}{label.sub}{label.sup}")))

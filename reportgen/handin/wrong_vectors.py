@@ -1,0 +1,123 @@
+"""Vectors that are drawn where their plan does not have them: each is known by its start and one more witness.
+
+The witness is its arrowhead, its name, or a neighbour that goes on from its end.  A line that may be a vector which was
+left out, or one of several, is none's.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.handin.plan_finder import FoundPlans
+from reportgen.handin.plan_fit import LONG, SEEN, Fit, Lines
+from reportgen.handin.plan_labels import Labels, names_of
+
+
+@dataclass(frozen=True, eq=False)
+class WrongVector:
+    """A vector of a plan, by its number, that is drawn from its right start to a wrong end: its line as drawn (mm)."""
+
+    plan: Fit
+    vector: int
+    line: int
+    start: complex
+    end: complex
+
+
+def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: Labels) -> tuple[WrongVector, ...]:
+    """The wrong vectors of the plans that were found; `heads` [M, 2] says which ends have an arrowhead."""
+    used = {line for plan in plans.plans for line in plan.used}
+    used |= {line for several in plans.doubtful for fit in several for line in fit.used}
+    free = np.array([line for line in range(len(lines.ends)) if line not in used], dtype=int)
+    search = _Search(lines, heads, labels, free)
+    several = zip(plans.plans, plans.sure, strict=True)
+    return tuple(wrong for plan, sure in several for wrong in search.of(plan, sure))
+
+
+@dataclass(frozen=True)
+class _Search:
+    lines: Lines
+    heads: np.ndarray
+    labels: Labels
+    free: np.ndarray
+
+    def of(self, plan: Fit, sure: np.ndarray) -> Iterator[WrongVector]:
+        """Of each corner the one line that nobody else begins there, if one vector is wanting that begins there."""
+        shape = plan.shape
+        a, b = plan.at(shape.starts), plan.at(shape.ends)
+        # Of two vectors that have one line, or lines that may be either's, one may well have been drawn elsewhere.
+        count = Counter(plan.lines[plan.present].tolist())
+        unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1 or not sure[n]]
+        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error]
+        for corner in {shape.vectors[number].start for number in wanting}:
+            place = complex(plan.at(shape.corners[corner]))
+            reach = max(float(plan.reach[number]) for number in wanting)
+            # Corners that ends may belong to as well are one.
+            begin = [int(number) for number in wanting if abs(a[number] - place) <= 2 * reach]
+            lines = [line for line in self._from(place, reach) if abs(line.end - line.start) >= LONG * self.lines.error]
+            # A line of construction has no head, and a vector that ends here has it here.
+            telling = [line for line in lines if line.headed or self._named(plan, begin, line) is not None]
+            for line in telling:
+                named = self._named(plan, begin, line)
+                alone = len(begin) == 1 and len(telling) == 1
+                vector = named if named is not None else begin[0] if alone else self._alike(plan, begin, line)
+                if vector is None or not shape.vectors[vector].drawn or plan.lines[vector] >= 0:
+                    continue
+                if abs(b[vector] - a[vector]) < LONG * self.lines.error:
+                    continue
+                rivals = [other for other in telling if other is not line and self._may_be(plan, vector, other)]
+                if not rivals or named is not None:
+                    yield WrongVector(plan, vector, line.number, line.start, line.end)
+
+    def _from(self, place: complex, reach: float) -> list[_Begun]:
+        """The free lines that begin at a place, in the sense that their arrowhead says or else from there."""
+        begun = []
+        for number in self.free:
+            for end in (0, 1):
+                start, far = complex(self.lines.ends[number, end]), complex(self.lines.ends[number, 1 - end])
+                if abs(start - place) <= reach and not self.heads[number, end]:
+                    begun.append(_Begun(int(number), start, far, bool(self.heads[number, 1 - end])))
+        return begun
+
+    def _named(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:
+        """The one vector whose name stands beside a line, if no other has its length or its direction.
+
+        A line that goes wrong may pass by what another plan's vector is called.
+        """
+        named = [n for n in begin if self.labels.beside(names_of(plan.shape, n), line.start, line.end)]
+        alike = [n for n in begin if self._may_be(plan, n, line)]
+        return named[0] if len(named) == 1 and (named[0] in alike or not alike) else None
+
+    def _may_be(self, plan: Fit, vector: int, line: _Begun) -> bool:
+        """Whether a line has the length or the direction of a vector, as far as it can be told."""
+        along = plan.scale * complex(plan.shape.ends[vector] - plan.shape.starts[vector])
+        drawn, off = line.end - line.start, 2 * self.lines.reach
+        across = abs((drawn * along.conjugate()).imag) / abs(along)
+        return abs(abs(drawn) - abs(along)) <= off or across <= off
+
+    def _alike(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:
+        """The one of several vectors that a line has the length or the direction of.
+
+        Of two that end at nearly the same place it is the one that the report's figure has.
+        """
+        alike = [vector for vector in begin if self._may_be(plan, vector, line)]
+        drawn = [vector for vector in alike if plan.shape.vectors[vector].drawn]
+        if len(drawn) != 1:
+            return None
+        ends = plan.at(plan.shape.ends[alike])
+        apart = np.abs(ends - plan.at(plan.shape.ends[drawn[0]])).max()
+        return drawn[0] if apart <= 2 * self.lines.reach else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Begun:
+    """A line as a vector from its start; whether it has an arrowhead at its end."""
+
+    number: int
+    start: complex
+    end: complex
+    headed: bool
