@@ -39,6 +39,7 @@ SHOWN = {
     "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
     "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
+    "friction": ROOT / "assignments" / "friction" / "wedge.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"

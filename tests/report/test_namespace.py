@@ -30,6 +30,7 @@ OTHERS = {
     "cam/roller-01.yaml": {"cam.md"},
     "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
     "gears/train-motor.yaml": {"planetary-train.md"},
+    "friction/belt.yaml": {"friction.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]
