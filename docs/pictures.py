@@ -39,7 +39,7 @@ SHOWN = {
     "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
     "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
-    "friction": ROOT / "assignments" / "friction" / "wedge.yaml",
+    "friction": ROOT / "assignments" / "friction" / "incline.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
@@ -56,7 +56,7 @@ MARGIN = 72.0
 
 AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
-BELOW = {"cam": 8.0}
+BELOW = {"cam": 8.0, "friction": 8.0}
 """More room below what has labels there (pt)."""
 
 DRAW = """

@@ -47,7 +47,7 @@ def incline_sheet(given: Incline) -> Sheet:
             F = q.define(f"friction.incline.{end}F", f * N)
             q.set_out("lowering" if end else "raising", force, N, F)
         sizes = map(q.si, (Q, P, P1, q["friction.incline.N"], q["friction.incline.lowering.N"]))
-        q.give("friction.incline.mu", force_scale(*sizes))
+        q.give("friction.incline.mu", force_scale(*sizes), optional=True)
     with q.within(Chapter.torque):
         P0 = q.define("friction.incline.P0", Q * sin(α) if β is None else Q * sin(α) / cos(β))
         η = q.define("friction.incline.eta", P0 / P)
@@ -92,7 +92,7 @@ def wedge_sheet(given: Wedge) -> Sheet:
         q.define("friction.wedge.lowering.R2", back * cos(returning) / cos(φ["2"]))
         q.define("friction.wedge.lowering.R3", across(returning), scale=given.Q.si)
         q.set_out("lowering", back, P1, "friction.wedge.lowering.R2", "friction.wedge.lowering.R3")
-        q.give("friction.wedge.mu", force_scale(*map(q.si, (Q, P, R1, R2, R3, back))))
+        q.give("friction.wedge.mu", force_scale(*map(q.si, (Q, P, R1, R2, R3, back))), optional=True)
     with q.within(Chapter.torque):
         P0 = q.define("friction.wedge.P0", Q * tan(α))
         q.set_out("efficiency", P0, q.define("friction.wedge.eta", P0 / P))
