@@ -1,7 +1,7 @@
 """Write the tables of keys in `docs/machines.md` of the words of the kinds, as the form and the remarks of `new` are.
 
-`make pictures` runs this in the project's folder, too.  Keys that several kinds share have a table of their own there,
-and kinds whose keys need more than a line each are told by hand.
+`make pictures` runs this in the project's folder, too.  Keys that several kinds share, and what stands in them, have
+tables of their own there.
 """
 
 from __future__ import annotations
@@ -11,15 +11,17 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from reportgen import catalogue
-from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places
+from reportgen.assignment.schema import Schema, alternatives_to, choices_of, file_schema, places
+from reportgen.base.errors import Where
 from reportgen.base.field_words import PARAMETERS, field_words, shared_keys
 
 PAGE = Path(__file__).resolve().parent / "machines.md"
 KINDS = (
     *("engine-twin", "engine-single", "engine-v", "slider-crank", "four-bar", "lever-six-bar", "toggle-press"),
-    *("scotch-yoke", "slotted-lever", "shaper"),
+    *("scotch-yoke", "slotted-lever", "shaper", "linkage", "cam", "gear-pair", "planetary-train", "plane-motion"),
+    *("rotor", "engine-balance", "friction"),
 )
-"""The kinds whose table is written."""
+FIND = "`find`"
 HEAD = "| key of `parameters` | is |\n| --- | --- |\n"
 
 
@@ -33,24 +35,44 @@ def rows(name: str) -> Iterator[tuple[str, str]]:
     schema, words, met = file_schema(kind), field_words(name, "en"), set[str]()
     for path in words:
         head, _, key = path.partition(".")
-        if head != PARAMETERS or not key or key in shared_keys("en") or path in met:
+        if head != PARAMETERS or not key or key.partition(".")[0] in shared_keys("en") or path in met:
             continue
         steps = tuple(path.split("."))
         alike = [".".join((*steps[:-1], key)) for key in alternatives_to(kind, steps)]
         others = [other for other in alike if other in words and other not in met]
         met |= set(others)
-        choices = [f"`{choice}`" for about in places(schema, schema, steps) for choice in choices_of(about)]
-        default = next(iter(defaults(schema, steps)), "")
+        where = place(schema, steps)
+        allowed = places(schema, schema, where)
+        choices = list(dict.fromkeys(f"`{choice}`" for about in allowed for choice in choices_of(about)))
+        default = next(iter(defaults(schema, where)), "")
         text = "; or ".join(words[each].whole for each in (path, *others))
-        text += (f": {', '.join(choices)}" if choices else "") + (f"; default `{default}`" if default else "")
+        # `find` stands beside what may be typed, which the words say where it is not plain.
+        if choices == [FIND]:
+            text += "" if "find" in text else f"; or {FIND}"
+        elif choices:
+            text += f": {', '.join(choices)}"
+        text += f"; default `{default}`" if default else ""
         keys = " or ".join(f"`{each.partition('.')[2]}`" for each in (path, *others))
         yield keys, text.replace("|", "\\|")
 
 
-def defaults(schema: dict[str, object], steps: tuple[str, ...]) -> Iterator[str]:
+def place(schema: Schema, steps: tuple[str, ...]) -> Where:
+    """The place of a key in a file: of a list the first item, of a table of names one of them."""
+    where: Where = ()
+    for step in steps[:-1]:
+        where = (*where, step)
+        alternatives = places(schema, schema, where)
+        if any(isinstance(each.get("items"), dict) for each in alternatives):
+            where = (*where, 0)
+        elif not any("properties" in each for each in alternatives):
+            where = (*where, "name")
+    return (*where, steps[-1])
+
+
+def defaults(schema: Schema, where: Where) -> Iterator[str]:
     """What a key is where it is left out, as a file would have it."""
-    for above in places(schema, schema, steps[:-1]):
-        default = above.get("properties", {}).get(steps[-1], {}).get("default")
+    for above in places(schema, schema, where[:-1]):
+        default = above.get("properties", {}).get(where[-1], {}).get("default")
         if isinstance(default, str | int | float) and not isinstance(default, bool):
             yield str(default)
 

@@ -40,6 +40,8 @@ SHOWN = {
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
     "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
     "friction": ROOT / "assignments" / "friction" / "incline.yaml",
+    "rotor": ROOT / "assignments" / "rotor" / "rotor-two-planes.yaml",
+    "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
 }
 """What the README shows of kinds with a folder of their own."""
 LAID_OUT = ROOT / "assignments" / "four-bar-01.yaml"
@@ -56,7 +58,7 @@ MARGIN = 72.0
 
 AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
-BELOW = {"cam": 8.0, "friction": 8.0}
+BELOW = {"cam": 8.0, "rotor": 8.0, "friction": 8.0}
 """More room below what has labels there (pt)."""
 
 DRAW = """

@@ -33,10 +33,15 @@ from reportgen.cases import MachineCase, open_case
 from reportgen.classes.draw import Draw, judge_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.spec import read_spec
+from reportgen.handin.files import read_file
+from reportgen.handin.word_comments import MarginNote, with_comments
+from reportgen.handin.word_file import open_word
+from reportgen.marking.frame import frame_of
 from reportgen.marking.key import key_of
 from reportgen.marking.paper import task_of
 from reportgen.marking.policy import read_policy
 from reportgen.marking.sheet import answer_book, read_submission
+from reportgen.report import Figure, Plate
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key
 from reportgen.report.layout import Letter
@@ -345,6 +350,34 @@ def _sheet(number: int, chance: random.Random, folder: Path) -> None:
     read_submission(file, key)
 
 
+def _handed_in(number: int, chance: random.Random, folder: Path) -> None:
+    """A report that was handed in, with its text spoilt as a text or as elements, or with some bytes changed."""
+    file, made = folder / "handed.docx", io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(_report_file())) as old, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as new:
+        for name in old.namelist():
+            text = old.read(name).decode()
+            for _ in range(chance.choice((1, 3, 9)) if name == "word/document.xml" else 0):
+                text = chance.choice((_element, _value, _letter, _scaled, _extreme))(text, chance)
+            new.writestr(name, text.encode("utf-8", "surrogatepass"))
+    content = bytearray(made.getvalue())
+    for _ in range(chance.choice((1, 20)) if number % 8 == 0 else 0):
+        content[chance.randrange(len(content))] = chance.randrange(256)
+    file.write_bytes(content)
+    key = _key()[0]
+    reading = read_file(file, bytes(content), key, "en")
+    remarks = [MarginNote(answer.text, getattr(answer.mark, "element", None)) for answer in reading.values.values()]
+    with_comments(open_word(file, bytes(content)), [MarginNote("\0 <&>"), *remarks])
+
+
+@cache
+def _report_file() -> bytes:
+    """A report in Word, its figures left out, and the frame of one."""
+    case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
+    blocks = (*case.document().blocks, *frame_of(case, _key()[0]).blocks)
+    tree = replace(case.document(), blocks=tuple(block for block in blocks if not isinstance(block, Figure | Plate)))
+    return word.write(tree, lambda scenes: [(b"", b"") for _ in scenes], Letter(word.FONT, 13.0))
+
+
 @cache
 def _key() -> tuple[Key, str, bytes]:
     """The key of a sample with its empty sheet as CSV and as a workbook."""
@@ -373,6 +406,7 @@ KINDS: dict[str, Callable[[int, random.Random, Path], None]] = {
     "template": _template,
     "words": _words,
     "letterhead": _letterhead,
+    "handed-in": _handed_in,
 }
 WRITTEN = frozenset(
     {
@@ -385,10 +419,11 @@ WRITTEN = frozenset(
         "block.yaml",
         "en.md",
         "report.docx",
+        "handed.docx",
     }
 )
 """The files that are tried; a text that was run would make another."""
-SHARES = (44, 10, 3, 7, 10, 8, 10, 4, 4)
+SHARES = (42, 10, 3, 7, 9, 8, 10, 4, 4, 3)
 """How many of a hundred files are of each kind."""
 
 
@@ -426,6 +461,7 @@ def guard() -> Guard:
     _case().document()
     _key()
     _word_file()
+    _report_file()
     sys.addaudithook(found.hear)
     return found
 

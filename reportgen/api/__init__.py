@@ -19,8 +19,9 @@ from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs, placed
 from reportgen.base import made
 from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
-from reportgen.base.files import reported, scratch, version
+from reportgen.base.files import put_files, reported, scratch, version
 from reportgen.base.source import read_source
+from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, templates_hash, word
@@ -148,7 +149,9 @@ def build_each(
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)), _ahead(assignment, engine, letter) as ahead:
+        step("solve")
         case = opened(assignment)
+        step("compose")
         tree = case.document()
         if "pdf" in formats:
             if ahead is not None:
@@ -192,6 +195,7 @@ def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> Abs
 def _page(case: Case, tree: Document) -> bytes:
     from reportgen.page import page
 
+    step("page")
     return page(case, tree).encode()
 
 
@@ -202,6 +206,7 @@ def _word(assignment: Assignment, tree: Document) -> bytes:
     """
     from reportgen.workbook.letterhead import LETTERHEAD
 
+    step("word")
     look = school_folder(assignment.school) / LETTERHEAD if assignment.school is not None else None
     return bounded(assignment, _written, assignment, tree, look)
 
@@ -257,6 +262,7 @@ def typeset(
     """
     from reportgen.report.layout import Letter
 
+    step("typeset")
     letter = letter or Letter()
     if engine == "latex":
         from reportgen.writers import latex, pdflatex
@@ -273,6 +279,7 @@ def typeset_sheet(sheet: DrawingSheet, title: str, language: Language) -> bytes:
     """The PDF of a drawing sheet.  Raises `TypesetterError`."""
     from reportgen.writers import typst
 
+    step("typeset")
     return typst.compile(typst.write_sheet(sheet, title, language))
 
 
@@ -328,6 +335,15 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     return files | ({"assignment.yaml": handed_out(path).encode()} if chosen.self_check else {})
 
 
+def frame_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
+    """The frame of a report as a Word file, with a field for each result that is asked for, whatever the engine."""
+    from reportgen.marking.frame import frame_of
+    from reportgen.marking.key import Ask, key_of
+
+    case = open_case(path, language)
+    return {"frame.docx": _word(case.assignment, frame_of(case, (ask or Ask()).of(key_of(case))))}
+
+
 def key_files(
     path: Path,
     engine: Engine,
@@ -340,6 +356,7 @@ def key_files(
     from reportgen.marking.key import Ask, key_of
     from reportgen.workbook import write_csv, write_xlsx
 
+    step("solve")
     case = open_case(path, language)
     key = (ask or Ask()).of(key_of(case))
     makers: Mapping[str, Callable[[], bytes]] = {
@@ -372,6 +389,7 @@ def sheet_files(
     """
     from reportgen.sheets import drawing_sheets, dxf
 
+    step("solve")
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
@@ -399,11 +417,12 @@ MAKERS: Mapping[str, Maker] = {
     "docx": word_files,
     "key": key_files,
     "sheet": sheet_files,
+    "frame": frame_files,
 }
 """The products by the names that `--make` takes."""
 USUAL = ("task", "report", "key")
 """What a batch makes unless it is told."""
-ASKING = frozenset({"task", "key"})
+ASKING = frozenset({"task", "key", "frame"})
 """Those that depend on what the answer sheet asks for."""
 
 
@@ -415,15 +434,33 @@ def policy(path: Path | None, language: Language | None) -> Policy:
 
 
 def compare(
-    path: Path, sheet: Path, hint: bool = False, language: Language | None = None
+    path: Path, files: Sequence[Path], hint: bool = False, language: Language | None = None
 ) -> tuple[tuple[str, ...], bool]:
-    """What a student is told of a filled answer sheet, and whether it agrees with the assignment as far as it goes.
+    """What a student is told of a filled answer sheet, or of a report and drawings, and whether they agree so far.
 
     Raises `AssignmentError`.
     """
-    from reportgen.marking import marking
+    from reportgen.handin import checking
 
-    return marking.compare(open_case(path, language), sheet, hint)
+    return checking.compare(open_case(path, language), open_case(path), files, hint)
+
+
+def read(
+    path: Path, files: Sequence[Path], out: Path, ask: Ask | None = None, language: Language | None = None
+) -> tuple[Path, str]:
+    """Write what was read of a report and drawings to `out`/<id>/reading.xlsx; gives the path and a line about it.
+
+    Raises `AssignmentError` also where somebody has completed the sheet that stands there, and `OutputError`.
+    """
+    from reportgen.handin import checking, reading_book
+    from reportgen.marking.key import Ask
+
+    case = open_case(path, language)
+    key, own = checking.read(case, open_case(path), files, ask or Ask())
+    folder = out / case.assignment.id
+    book = checking.reading(key, own, folder / reading_book.NAME)
+    (written,) = put_files(folder, {reading_book.NAME: book})
+    return written, checking.summary(own, case.assignment.language)
 
 
 def check_ask(ask: Ask | None, files: Iterable[Path], language: Language | None) -> None:

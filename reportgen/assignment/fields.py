@@ -182,6 +182,26 @@ class Decimal(Reader):
 
 
 @dataclass(frozen=True, slots=True)
+class Percent(Reader):
+    """A share from 0 to 1, written `80 %` or `0.8`."""
+
+    interval: Interval = Interval(least=0, most=1)
+
+    def read(self, value: object) -> float:
+        text = _text(value, "number").strip()
+        bare = text.removesuffix("%")
+        given = _measured(lambda number: read_ratio(number, fractions=False), bare)
+        share = given.si / 100 if bare != text else given.si
+        self.interval.require(share, text)
+        return share
+
+    def schema(self) -> dict[str, Any]:
+        return {
+            "anyOf": [{"type": "number", **self.interval.schema()}, {"type": "string", "pattern": rf"^{NUMBER}\s*%$"}]
+        }
+
+
+@dataclass(frozen=True, slots=True)
 class Whole(Reader):
     """A whole number from `least` to `most`."""
 

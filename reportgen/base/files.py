@@ -23,11 +23,12 @@ SETS = {
     "task": r"task\.pdf|answers\.xlsx|assignment\.yaml",
     "report": r"report\.(pdf|html|docx|py)",
     "key": r"key\.(pdf|xlsx|csv|json)",
+    "frame": r"frame\.docx",
     "sheet": r"sheet-\d+\.(pdf|dxf)",
     "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
     "plots": r".+\.(svg|png|pdf|eps)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
-    "feedback": r"feedback\.(pdf|xlsx|txt)",
+    "feedback": r"feedback\.(pdf|xlsx|txt)|marked\.docx",
     "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.zip",
 }
 """The names of files that belong together, as patterns."""

@@ -38,6 +38,8 @@ _TIME: Dimension = (("second", 1),)
 _VELOCITY: Dimension = (("meter", 1), ("second", -1))
 _ACCELERATION: Dimension = (("meter", 1), ("second", -2))
 _STIFFNESS: Dimension = (("kilogram", 1), ("second", -2))
+_POWER: Dimension = (("kilogram", 1), ("meter", 2), ("second", -3))
+_DAMPING: Dimension = (("kilogram", 1), ("meter", 2), ("second", -1))
 _TORSION: Dimension = (("kilogram", 1), ("meter", 2), ("radian", -1), ("second", -2))
 _ANGULAR_ACCELERATION: Dimension = (("radian", 1), ("second", -2))
 
@@ -69,6 +71,8 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "N/mm": (1e3, _STIFFNESS),
     "N/m": (1.0, _STIFFNESS),
     "N m/rad": (1.0, _TORSION),
+    "N m s": (1.0, _DAMPING),
+    "kW": (1e3, _POWER),
 }
 """SI factor and dimension of the commonest spellings: those of all units that files are asked for among them."""
 

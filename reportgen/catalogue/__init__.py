@@ -35,7 +35,7 @@ from reportgen.base.source_text import put, text_of
 from reportgen.base.template_folders import kind_file, samples
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
-from reportgen.catalogue import assembly, declared_loads, given_friction, given_springs, wide_sliders
+from reportgen.catalogue import assembly, declared_loads, given_friction, given_motion, given_springs, wide_sliders
 from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import FULL_TURN
@@ -68,8 +68,12 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     assignment, faults = understood(source, path)
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
         machine = machine_of(assignment)
-        faults = reading.placed(source, [*_misplaced(assignment, machine), *_out_of_reach(machine)])
-        faults = faults or reading.placed(source, [*given_friction.locks(machine, assignment.worked_positions)])
+        findings = [*_misplaced(assignment, machine), *_out_of_reach(machine)]
+        findings = findings or [
+            *given_friction.locks(machine, assignment.worked_positions),
+            *given_motion.faults(machine),
+        ]
+        faults = reading.placed(source, findings)
     return (None if faults else assignment), faults
 
 
@@ -83,7 +87,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
     slides = bool(machine.span)
     for index, at in enumerate(assignment.positions.at or ()):
         if slides == measures(at.unit, "deg"):
-            words = {"given": at.text, "unit": "mm" if slides else "deg"}
+            words = {"given": at.unit, "unit": "mm" if slides else "deg"}
             yield Finding("wrong-unit", ("positions", "at", index), words)
     if isinstance(assignment.parameters, UnderGravity):
         yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, given_friction, given_springs, wide_sliders
+from reportgen.catalogue import declared_loads, given_friction, given_motion, given_springs, wide_sliders
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -25,6 +25,7 @@ def outline(
     loads: bool,
     flywheel: Flywheel | None,
     *,
+    motion: bool = False,
     curves: bool = True,
     further: bool = False,
     springs: bool = False,
@@ -40,14 +41,14 @@ def outline(
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, sliders may have `faces` and joints `friction`.
+    be `springs`, sliders may have `faces` and joints `friction`.  The true `motion` follows the flywheel.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
     if not (masses or loads):
         return (*kinematics, *CLOSING)
     inertia = ("loads",) if masses else ()
-    wheel = () if flywheel is None else ("flywheel",)
+    wheel = (*(() if flywheel is None else ("flywheel",)), *(("true-motion",) if motion else ()))
     beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
     wide = ("faces",) if faces else ()
     rubbing = ("friction",) if friction else ()
@@ -63,7 +64,8 @@ def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
     if placed or not isinstance(driver, Crank) or not any(q.of_link(letter, DRIVER) for letter in "GmJs"):
         return linkage
     share = q.of_link("s", DRIVER)
-    if given.crank_on_axis if share is None else share.si == 0:
+    weightless = not any(q.of_link(letter, DRIVER) for letter in "Gm")
+    if (given.crank_on_axis or weightless) if share is None else share.si == 0:
         # A body on its own axis is no rod: its moment of inertia is given, or none.
         q.mass(DRIVER)
         q.moment(DRIVER, None)
@@ -103,6 +105,7 @@ def driven(
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
     friction = given_friction.entered(given.friction, linkage, faces, q.datum)
+    given_motion.entered(given.motion, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
     further = {*(row.id for row in rows), *(load.name for load in of_springs)}
     # What a kind sets out by its name is its own load.
@@ -117,6 +120,7 @@ def driven(
         "faces": bool(faces),
         "friction": friction is not None,
         "curves": not positions.at,
+        "motion": given.motion is not None,
         "further": bool(rows) and (acts or parts.get("load") == "no-gas"),
     }
     fields: dict[str, Any] = {
@@ -138,6 +142,7 @@ def driven(
         friction=friction,
         sheet=q,
         unevenness=given.unevenness,
+        true_motion=None if given.motion is None else given.motion.asked,
         applied=loads.applied,
         torques=loads.torques,
         idle=loads.idle,

@@ -12,8 +12,6 @@ from collections.abc import Iterator
 from string import ascii_lowercase
 from typing import Annotated, ClassVar
 
-import numpy as np
-
 from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.fields import Gravity, Interval, Length, Offset, Ratio, Share
@@ -21,7 +19,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue import given_loads
 from reportgen.catalogue.driven import driven
-from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet
+from reportgen.catalogue.given_sheet import CRANK_DRAWN, GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import (
     CENTRE_PLANS,
@@ -196,7 +194,8 @@ def machine(assignment: Assignment) -> Machine:
     if given.e.si:
         q.fix("guide.3.at", geometry.line, q["e"])
     piston = Piston.on(geometry.course(start, TURNS), given.D.si, assignment.indicator.table)
-    angles, offset = start + np.tile(places, TURNS), q["e"] if given.e.si else None
+    angles = start + cycle_angles(positions, TURNS, places)
+    offset = q["e"] if given.e.si else None
     return driven(
         assignment,
         q,

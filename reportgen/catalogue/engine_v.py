@@ -10,8 +10,6 @@ import math
 from collections.abc import Iterator
 from typing import Annotated
 
-import numpy as np
-
 from reportgen.assignment.checks import of_parameters
 from reportgen.assignment.common import Assignment, Draft, Positions
 from reportgen.assignment.fields import Angle, Length, Offset, Whole, quantity
@@ -20,7 +18,7 @@ from reportgen.base.units import Given
 from reportgen.catalogue import assembly, given_loads
 from reportgen.catalogue.assembly import Member
 from reportgen.catalogue.driven import driven
-from reportgen.catalogue.given_sheet import GivenSheet
+from reportgen.catalogue.given_sheet import GivenSheet, cycle_angles
 from reportgen.catalogue.parameters import Driven
 from reportgen.catalogue.sliders import centred_slider, compared, second_cylinder
 from reportgen.formula import PI, Symbol, cis, ids
@@ -185,7 +183,7 @@ def machine(assignment: Assignment) -> Machine:
     pistons: tuple[Piston, ...] = ()
     if given.D is not None:
         pistons = tuple(Piston.on(one, given.D.si, assignment.indicator.table) for one in courses)
-    angle = turn * (start - given.alpha.si) + np.tile(places, given.turns)
+    angle = turn * (start - given.alpha.si) + cycle_angles(positions, given.turns, places)
     on_rod = given.joint == "D"
 
     def formulas(q: Sheet) -> None:

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -174,10 +174,15 @@ class GivenSheet(Sheet):
         return tuple(one for one in every if one.mass or one.moment)
 
 
-def cycle_angles(positions: Positions, turns: int = 1) -> np.ndarray:
-    """Cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N]."""
+def cycle_angles(positions: Positions, turns: int = 1, places: Sequence[float] = ()) -> np.ndarray:
+    """Cycle angles (rad) of evenly spaced positions [count·turns], or of the instants [N].
+
+    Those of uneven `places` in a turn are the same in each of the turns.
+    """
     if positions.at:
         return np.array(positions.instants(turns))
+    if places:
+        return np.tile(places, turns)
     return np.arange(positions.count * turns) * (FULL_TURN / positions.count)
 
 

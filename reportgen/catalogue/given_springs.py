@@ -115,7 +115,7 @@ def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at
     for key, given, unit in (("c", spring.c, rate), ("free", spring.free, slack)):
         # Nothing said of a torsion spring's angle is 0°.
         if not measures(given.unit, unit) and key in spring.model_fields_set:
-            yield Finding("wrong-unit", (*at, key), {"given": given.text, "unit": unit})
+            yield Finding("wrong-unit", (*at, key), {"given": given.unit, "unit": unit})
     if spring.twists:
         for key in ("at", "to"):
             if getattr(spring, key) is not None:

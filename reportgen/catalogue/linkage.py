@@ -16,7 +16,14 @@ from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
-from reportgen.catalogue import declared_loads, given_friction, given_springs, linkage_checks, wide_sliders
+from reportgen.catalogue import (
+    declared_loads,
+    given_friction,
+    given_motion,
+    given_springs,
+    linkage_checks,
+    wide_sliders,
+)
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.driven import outline
 from reportgen.catalogue.given_sheet import GivenSheet
@@ -46,9 +53,10 @@ STEPS = 72
 
 @of_parameters
 def _check_flywheel(given: Parameters) -> Iterator[Finding]:
-    """A flywheel turns with a crank."""
-    if given.flywheel is not None and isinstance(given.driver, file.SlideDriver):
-        yield Finding("flywheel-of-slide", ("parameters", "flywheel"), at="key")
+    """A flywheel turns with a crank, and so does what drives a machine."""
+    for key in ("flywheel", "motion"):
+        if getattr(given, key) is not None and isinstance(given.driver, file.SlideDriver):
+            yield Finding(f"{key}-of-slide", ("parameters", key), at="key")
 
 
 def _check_weights(draft: Draft) -> Iterator[Finding]:
@@ -63,6 +71,7 @@ CHECKS = (
     needs_loads(("masses", "loads", "springs")),
     _check_flywheel,
     steady_flywheel("parameters", "driver", "epsilon1"),
+    given_motion.check,
     _check_weights,
     linkage_checks.check,
 )
@@ -126,6 +135,7 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("loads", *acting)
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
     friction = given_friction.entered(given.friction, linkage, faces, q.datum)
+    given_motion.entered(given.motion, q.datum)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
     loops = ClosedLoops(linkage, turn, fixed_points, accelerates=float(np.sign(built.acceleration)))
     return replace(
@@ -143,6 +153,7 @@ def machine(assignment: Assignment) -> Machine:
             bool(linkage.inertias),
             loads.act,
             given.flywheel,
+            motion=given.motion is not None,
             curves=not positions.at,
             springs=bool(springs),
             faces=bool(faces),
@@ -150,6 +161,7 @@ def machine(assignment: Assignment) -> Machine:
             driver="crank" if crank else "slide",
         ),
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
+        true_motion=None if given.motion is None else given.motion.asked,
         facts={**facts(given, tuple(load.name for load in declared), acting), "springs": springs},
     )
 

@@ -29,6 +29,7 @@ from reportgen.base.errors import Where
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import LAST_LINK, LEVEL, Constant, Link, Name, OverAngle, OverWay
 from reportgen.catalogue.given_loads import Diagram
+from reportgen.catalogue.given_motion import MotionSection
 from reportgen.catalogue.parameters import Flywheel, UnderGravity
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 
@@ -324,6 +325,7 @@ class Parameters(UnderGravity):
     also_at: Annotated[tuple[Angle, ...], Field(max_length=24)] = ()
     paths: Annotated[tuple[Name, ...], Field(max_length=MOST_NAMES)] = ()
     flywheel: Flywheel | None = None
+    motion: MotionSection | None = None
     declared: Declared = Declared()
 
     @property

@@ -28,8 +28,10 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
+from reportgen.catalogue import given_motion
 from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
 from reportgen.catalogue.given_friction import JointFriction
+from reportgen.catalogue.given_motion import MotionSection
 from reportgen.catalogue.given_springs import Spring
 from reportgen.catalogue.wide_sliders import Face
 from reportgen.machine import DRIVER
@@ -80,6 +82,7 @@ class Driven(UnderGravity):
     omega1: AngularVelocity | None = None
     epsilon1: AngularAcceleration | None = None
     flywheel: Flywheel | None = None
+    motion: MotionSection | None = None
     loads: Annotated[tuple[CrankLoading, ...], Field(max_length=MOST_LOADS)] = ()
 
     links: ClassVar[Mapping[str, tuple[int, ...]]] = {}
@@ -132,7 +135,7 @@ class Driven(UnderGravity):
         )
         evened = (*(f"{letter}{link}" for letter in "GmJ" for link in cls.links[letter]), *cls.evened)
         weights = [("parameters", f"G{link}") for link in cls.links["G"]]
-        needed = needs_loads(evened), steady_flywheel("parameters", "epsilon1")
+        needed = needs_loads(evened), steady_flywheel("parameters", "epsilon1"), given_motion.check
         return one_of("parameters", "n", "omega1"), *one_mass, *needed, weightless(weights)
 
 
@@ -149,15 +152,14 @@ def needs_loads(keys: Iterable[str]) -> Check:
 
 
 def steady_flywheel(*acceleration: str) -> Check:
-    """A flywheel evens a speed out that is constant in the mean, over a whole turn."""
+    """A flywheel evens a speed out that is constant in the mean, over a whole turn; true motion goes through one."""
 
     def check(draft: Draft) -> Iterator[Finding]:
-        if draft.at("parameters", "flywheel") is None:
-            return
-        for place, key in ((acceleration, acceleration[-1]), (("positions", "at"), "at")):
-            if draft.at(*place) is not None:
-                yield Finding("flywheel-without-turn", ("parameters", "flywheel"), {"key": key}, at="key")
-                return
+        for asked in ("flywheel", "motion"):
+            keys = ((acceleration, acceleration[-1]), (("positions", "at"), "at"))
+            given = [key for place, key in keys if draft.at(*place) is not None]
+            if given and draft.at("parameters", asked) is not None:
+                yield Finding(f"{asked}-without-turn", ("parameters", asked), {"key": given[0]}, at="key")
 
     return check
 

@@ -14,6 +14,7 @@ UNITS = {
     "rad/s2": "rad/s²",
     "N/cm2": "N/cm²",
     "N m/rad": "N·m/rad",
+    "N m s": "N·m·s",
 }
 """Units as they are printed, by what is typed."""
 

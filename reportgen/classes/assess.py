@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import chain
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Problem, ReportgenError
@@ -18,11 +19,13 @@ from reportgen.classes.collecting import Collected, Refused, collect, named_afte
 from reportgen.classes.corrections import Correction, applied
 from reportgen.classes.gradebooks import Gradebook, Participant
 from reportgen.classes.lateness import Handing, days_late
-from reportgen.classes.platforms import Owner, handed_in
+from reportgen.classes.own_work import OwnWork, completed, own_works, with_own, without_own
+from reportgen.classes.platforms import Handed, Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
 from reportgen.classes.roster import RosterEntry, assignment_files, comparable, read_roster
 from reportgen.marking.grades import person
 from reportgen.marking.guard import Classmate
+from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Marking, Submission, Unmarked
 from reportgen.marking.parts import check_shares
@@ -65,6 +68,11 @@ class Classroom:
                 continue
         return tuple(keys)
 
+    def handed_out(self, key: Key) -> Key:
+        """What is asked for by the symbols of the papers, which are in the assignment's own language."""
+        own = key if self.language is None else key_of(open_case(self.files[comparable(key.id)], None))
+        return self.policy.ask.of(own)
+
     def participant(self, key: Key, owner: Owner | None = None) -> Participant:
         """What a platform may know the student of a key by."""
         email = self.people[stem].card.get("email") if (stem := comparable(key.id)) in self.people else None
@@ -85,16 +93,25 @@ class Graded:
     unmarked: tuple[Unmarked, ...]
     owners: Mapping[str, Owner] = field(default_factory=dict)
     known: Mapping[str, Participant] = field(default_factory=dict)
+    own: Mapping[str, OwnWork] = field(default_factory=dict)
+    """The students' own files that were read, by assignment."""
+    kept: Mapping[str, tuple[Submission, Handed]] = field(default_factory=dict)
+    """What was written of them before and nobody has changed."""
 
     @property
     def missing(self) -> tuple[Key, ...]:
         """The keys of those who handed nothing in."""
-        return tuple(one.key for one in self.unmarked if not one.reasons)
+        return tuple(one.key for one in self.unmarked if not one.reasons and one.unsettled is None)
 
     @property
     def refused(self) -> tuple[Key, ...]:
         """The keys of those of whose files none could be marked."""
-        return tuple(one.key for one in self.unmarked if one.reasons)
+        return tuple(one.key for one in self.unmarked if one.reasons and one.unsettled is None)
+
+    @property
+    def unsettled(self) -> tuple[Unmarked, ...]:
+        """Those of whose own files too little was read for a mark."""
+        return tuple(one for one in self.unmarked if one.unsettled is not None)
 
 
 def grade(
@@ -105,10 +122,12 @@ def grade(
     roster: Path | None = None,
     corrections: Iterable[Correction] = (),
     gradebook: Gradebook | None = None,
+    out: Path | None = None,
 ) -> Graded:
     """Mark the sheets of files, folders and downloads of a platform, with names from a roster if there is one.
 
-    `corrections` hold over what is found; the `gradebook` of the platform says when each was handed in.  Raises
+    Who handed no sheet in has the own report and drawings read.  `corrections` hold over what is found; the `gradebook`
+    of the platform says when each was handed in; `out` may have readings that were completed by hand.  Raises
     `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
     """
     files = assignment_files(assignments, language)
@@ -118,8 +137,15 @@ def grade(
     policy.ask.check(room.keys, language)
     check_shares(policy, room.keys, language)
     faults: list[Fault] = []
-    handed = read_sheets(handed_in(submissions, faults), language)
+    own: list[Handed] = []
+    came = chain(handed_in(submissions, faults), completed(out, submissions))
+    handed = read_sheets(without_own(came, own), language)
     collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
+    keys = {comparable(key.id): key for key in room.keys} if own else {}
+    works = own_works(
+        own, keys, lambda file: _student_of(file, room, gradebook), room.handed_out, policy.twice, language
+    )
+    collected = with_own(collected, works, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
@@ -134,9 +160,17 @@ def grade(
         days, late = days_late(policy.late, _handings(collected, known, people), gradebook, language)
         marked = [replace(marking, days_late=days.get(marking.key.id, 0)) for marking in marked]
     reasons = _reasons(collected.refused, room, gradebook)
-    unmarked = [Unmarked(key, reasons.get(key.id, ())) for key in room.keys if key.id not in markings]
+    too_little = {
+        marking.key.id: marking.submission for marking in marked if marking.submission.share_read < policy.least_read
+    }
+    marked = [marking for marking in marked if marking.key.id not in too_little]
+    unmarked = [
+        Unmarked(key, reasons.get(key.id, ()), too_little.get(key.id))
+        for key in room.keys
+        if key.id not in markings or key.id in too_little
+    ]
     problems = (*collected.problems, *(as_problem(fault, language) for fault in faults), *misfits, *late)
-    return Graded(tuple(marked), problems, tuple(unmarked), owners, known)
+    return Graded(tuple(marked), problems, tuple(unmarked), owners, known, own=works.works, kept=collected.readings)
 
 
 def _handings(
@@ -155,20 +189,20 @@ def _reasons(refused: Iterable[Refused], room: Classroom, gradebook: Gradebook |
     """Why files of a student are not marked, by assignment; a file that is nobody's for certain is left out."""
     reasons: dict[str, tuple[str, ...]] = {}
     for file in refused:
-        if key := _student_of(file, room, gradebook):
+        if key := _student_of(file.handed, room, gradebook):
             reasons[key.id] = (*reasons.get(key.id, ()), *file.reasons)
     return reasons
 
 
-def _student_of(refused: Refused, room: Classroom, gradebook: Gradebook | None) -> Key | None:
+def _student_of(handed: Handed, room: Classroom, gradebook: Gradebook | None) -> Key | None:
     """Whose a file is that cannot tell it itself: by whom the platform or the name of the file names."""
-    if owner := refused.handed.owner:
+    if owner := handed.owner:
         names = gradebook.names(owner.number) if gradebook else frozenset()
         fitting = [key for key in room.keys if room.participant(key).ids & names]
         own = [(key, key.student.get("name", "")) for key in room.keys]
         fitting = fitting or [key for key, name in own if name and owner.name and owner.may_be(name)]
     else:
-        stem = named_after(refused.handed.path, room.files)
+        stem = named_after(handed.path, room.files)
         fitting = [key for key in room.keys if comparable(key.id) == stem]
     return fitting[0] if len(fitting) == 1 else None
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
@@ -13,6 +13,7 @@ from reportgen.base.words import as_problem
 from reportgen.classes.platforms import Handed, Owner
 from reportgen.classes.reading_sheets import Pages
 from reportgen.classes.roster import comparable
+from reportgen.handin.reading_book import is_unchanged
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice
 from reportgen.marking.sheet import read_submission
@@ -39,6 +40,8 @@ class Collected:
     sheets: Mapping[str, tuple[Submission, Handed]]
     refused: tuple[Refused, ...]
     problems: tuple[Problem, ...]
+    readings: Mapping[str, tuple[Submission, Handed]] = field(default_factory=dict)
+    """Sheets that only say what was read of a student's own files before, and that nobody has changed since."""
 
     @property
     def owners(self) -> dict[str, Owner]:
@@ -57,6 +60,7 @@ def collect(
     of_assignment: dict[str, list[tuple[Submission, Handed]]] = {}
     refused: list[Refused] = []
     problems: list[Problem] = []
+    readings: dict[str, tuple[Submission, Handed]] = {}
     for file, pages in handed:
         try:
             if isinstance(pages, list):
@@ -70,6 +74,9 @@ def collect(
             refused.append(Refused(file, error.problems))
             problems += error.problems
             continue
+        if is_unchanged(submission):
+            readings[submission.assignment] = submission, file
+            continue
         named = named_after(file.path, files)
         if named not in (None, comparable(submission.assignment)):
             about = {"named": files[named].stem, "text": submission.assignment}
@@ -78,12 +85,19 @@ def collect(
     sheets: dict[str, tuple[Submission, Handed]] = {}
     for assignment, several in of_assignment.items():
         name = key_of(assignment).student.get("name", "")
-        chosen, *others = _in_order([file for _, file in several], assignment, name, files, twice)
+        chosen, left = chosen_of([file for _, file in several], assignment, name, files, twice)
         sheets[assignment] = next(pair for pair in several if pair[1] is chosen)
-        for left in others:
-            about = {"text": assignment, "first": _told_apart(chosen.path, left.path)}
-            problems.append(as_problem(Fault("sheet-twice", Mark(str(left.path)), about), language))
-    return Collected(sheets, tuple(refused), tuple(problems))
+        problems += [as_problem(fault, language) for fault in left]
+    return Collected(sheets, tuple(refused), tuple(problems), readings)
+
+
+def chosen_of(
+    several: Sequence[Handed], assignment: str, name: str, known: Container[str], twice: Twice
+) -> tuple[Handed, list[Fault]]:
+    """Which of several files of one assignment counts, and what is told of the others."""
+    chosen, *others = _in_order(several, assignment, name, known, twice)
+    about = ({"text": assignment, "first": _told_apart(chosen.path, left.path)} for left in others)
+    return chosen, [Fault("sheet-twice", Mark(str(left.path)), text) for left, text in zip(others, about, strict=True)]
 
 
 def named_after(path: Path, known: Container[str]) -> str | None:

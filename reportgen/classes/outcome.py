@@ -16,8 +16,12 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult
+from reportgen.classes.own_work import renewable
 from reportgen.classes.platforms import zipped
 from reportgen.classes.roster import folder_name
+from reportgen.handin.checking import summary as summary_of_reading
+from reportgen.handin.files import marked_copies
+from reportgen.handin.reading_book import NAME, reading_book
 from reportgen.marking.class_page import class_document
 from reportgen.marking.comment import comment
 from reportgen.marking.feedback import feedback_book, feedback_document
@@ -26,11 +30,17 @@ from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 from reportgen.marking.questions import question_rows
 from reportgen.marking.variant_marks import groups, variant_rows
+from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 
 
-def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language | None) -> Iterator[tuple[Path, bytes]]:
+def files_of(
+    graded: Graded, policy: Policy, engine: Engine, language: Language | None, out: Path | None = None
+) -> Iterator[tuple[Path, bytes]]:
     """Every file of a graded class with its content: three for each student, and those of the instructor.
+
+    Of a student's own files there are marked copies, too, and the sheet of what was read of them, but for one that was
+    completed below `out`.
 
     What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
     students.
@@ -38,12 +48,14 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
     returned: dict[str, bytes] = {}
     for marking in graded.markings:
         key = marking.key
-        # As the batch names it, or the assignment's own stem.
-        folder = Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
+        folder = _folder(key)
         files = dict(_feedback(marking, policy, engine))
-        yield from ((folder / name, content) for name, content in files.items())
+        copies = dict(_copies(graded, marking, policy, language))
+        yield from ((folder / name, content) for name, content in {**copies, **files}.items())
         if owner := graded.owners.get(key.id):
-            returned |= {f"{owner.prefix}{name}": files[name] for name in ("feedback.xlsx", "feedback.pdf")}
+            given_back = {name: files[name] for name in ("feedback.xlsx", "feedback.pdf")} | copies
+            returned |= {f"{owner.prefix}{name}": content for name, content in given_back.items()}
+    yield from _readings(graded, policy, out)
     if returned:
         yield Path("feedback.zip"), zipped(returned)
     if graded.markings:
@@ -58,6 +70,31 @@ def files_of(graded: Graded, policy: Policy, engine: Engine, language: Language 
         yield Path("class.pdf"), api.typeset(overview, engine)[1]
 
 
+def _folder(key: Key) -> Path:
+    """The folder of a student as the batch names it, or the assignment's own stem."""
+    return Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
+
+
+def _copies(graded: Graded, marking: Marking, policy: Policy, language: Language | None) -> Iterator[tuple[str, bytes]]:
+    """The own files of a student with what was found written into them."""
+    if (work := graded.own.get(marking.key.id)) is not None:
+        yield from marked_copies(list(work.contents(language)), marking, policy)
+
+
+def _readings(graded: Graded, policy: Policy, out: Path | None) -> Iterator[tuple[Path, bytes]]:
+    """What was read of own files, as sheets to be completed; one that somebody has changed stays."""
+    read = [(marking.key, marking.submission) for marking in graded.markings]
+    read += [(one.key, one.unsettled) for one in graded.unmarked if one.unsettled is not None]
+    for key, submission in read:
+        target = _folder(key) / NAME
+        if (
+            submission.own_files
+            and not submission.fingerprint
+            and (out is None or renewable(graded.kept, out / target))
+        ):
+            yield target, reading_book(policy.ask.of(key), submission)
+
+
 def _feedback(marking: Marking, policy: Policy, engine: Engine) -> Iterator[tuple[str, bytes]]:
     """The files of one student: the own sheet, a page, and a text to paste."""
     key = marking.key
@@ -70,7 +107,7 @@ def _feedback(marking: Marking, policy: Policy, engine: Engine) -> Iterator[tupl
 def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
     """Write every file of a graded class below `out`, those of a folder together; raises `OutputError`."""
     with reported(out), scratch(out):
-        made = files_of(graded, policy, engine, language)
+        made = files_of(graded, policy, engine, language, out)
         for folder, files in groupby(made, key=lambda file: file[0].parent):
             yield from put_files(out / folder, {path.name: content for path, content in files})
 
@@ -110,7 +147,13 @@ def summary(graded: Graded, language: Language | None) -> Iterator[str]:
     for marking in graded.markings:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
         who, firsts = person(marking.key), len(marking.first_errors)
-        yield word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
+        line = word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
+        yield line + summary_of_reading(marking.submission, language)
+    for student in graded.unsettled:
+        assert student.unsettled is not None
+        yield word("graded_unsettled", language, id=person(student.key)) + summary_of_reading(
+            student.unsettled, language
+        )
     if graded.missing:
         yield counted("graded_missing", language, len(graded.missing))
     if graded.refused:

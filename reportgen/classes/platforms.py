@@ -1,4 +1,5 @@
-"""Sheets as they are handed in: files, folders, and what a learning platform gives for download, also as a zip.
+"""What is handed in, sheets and own reports and drawings: files, folders, and what a learning platform gives for
+download, also as a zip.
 
 Moodle puts the files of a student into a folder `Name_4711_assignsubmission_file`, or before the names of the files;
 Canvas names each file `name_userid_attachmentid_file`.  What is given back to the student must carry the same
@@ -22,12 +23,15 @@ from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, leads_out
+from reportgen.handin import files as own_files
 from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP
 from reportgen.workbook.reading import BOOKS, LARGEST
 from reportgen.workbook.writing import MOMENT
 
-SUBMISSIONS = BOOKS | {".csv"}
+SHEETS = BOOKS | {".csv"}
 """Endings of files that may be meant as sheets; a fault is reported for those that cannot be read."""
+SUBMISSIONS = SHEETS | own_files.OWN
+"""Those of all files that are read: sheets, and a student's own report and drawings."""
 ARCHIVE = ".zip"
 MOST_MEMBERS = 20_000
 MOST_BYTES = 2_000_000_000
@@ -75,6 +79,11 @@ class Handed:
     when: tuple[int, ...] = ()
     fault: Fault | None = None
 
+    @property
+    def is_own(self) -> bool:
+        """Whether it is a report or a drawing in place of a sheet."""
+        return self.fault is None and self.path.suffix.lower() in own_files.OWN
+
 
 def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
     """The answer sheets among files, in folders and archives, one at a time.
@@ -89,15 +98,16 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
             faults += [Fault("path-outside", Mark(str(file)), {"text": file.name}) for file in strays]
             named = [(file.relative_to(path.parent).as_posix(), file) for file in inside]
             owners = _owners([name for name, _ in named])
-            yield from (Handed(file, owners[name], when=_changed(file)) for name, file in named if _is_sheet(name))
+            yield from (Handed(file, owners[name], when=changed(file)) for name, file in named if _is_sheet(name))
             yield from _without_sheet(path.parent, owners)
         elif path.suffix.lower() == ARCHIVE and path.is_file():
             yield from _from_archive(path, faults)
         else:
-            yield Handed(path, owner_of(path.as_posix()), when=_changed(path))
+            fault = Fault("own-not-read", Mark(str(path))) if path.suffix.lower() in own_files.NOT_READ else None
+            yield Handed(path, owner_of(path.as_posix()), when=changed(path), fault=fault)
 
 
-def _changed(path: Path) -> tuple[int, ...]:
+def changed(path: Path) -> tuple[int, ...]:
     """When a file was last changed; who reads it tells of one that is not there."""
     with suppress(OSError):
         return time.localtime(path.stat().st_mtime)[:6]
@@ -149,7 +159,12 @@ def _without_sheet(place: Path, owners: dict[str, Owner | None]) -> Iterator[Han
     for name, owner in owners.items():
         if owner and owner.number not in sheets and owner.number not in seen:
             seen.add(owner.number)
-            fault = Fault("download-no-sheet", Mark(str(place / name)), {"text": owner.name or owner.number})
+            own = (one for one, owned in owners.items() if owned and owned.number == owner.number)
+            works = sorted(one for one in own if PurePosixPath(one).suffix.lower() in own_files.NOT_READ)
+            about = {"text": owner.name or owner.number}
+            fault = Fault("download-no-sheet", Mark(str(place / name)), about)
+            if works:
+                fault = Fault("own-not-read", Mark(str(place / works[0])))
             yield Handed(place / name, owner, fault=fault)
 
 
@@ -179,8 +194,9 @@ def _from_archive(path: Path, faults: list[Fault]) -> Iterator[Handed]:
 
 def _content(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:
     """What a member holds, but no more than a sheet may have and one byte, which shows that it has too many."""
+    own = PurePosixPath(info.filename).suffix.lower() in own_files.OWN
     with archive.open(info) as stream:
-        return stream.read(LARGEST + 1)
+        return stream.read((own_files.LARGEST if own else LARGEST) + 1)
 
 
 def _refused(members: Sequence[zipfile.ZipInfo], path: Path) -> Fault | None:

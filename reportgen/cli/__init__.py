@@ -116,6 +116,7 @@ def _app() -> typer.Typer:
         student.edit,
         student.solve,
         student.compare,
+        student.read,
         student.kinds,
         student.samples,
         student.schema,

@@ -25,6 +25,7 @@ PAGES = {
     "new": "machines",
     "kinds": "machines",
     "compare": "class",
+    "read": "class",
     "variants": "class",
     "batch": "class",
     "key": "class",

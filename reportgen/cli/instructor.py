@@ -101,7 +101,7 @@ def batch(
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
     make: Annotated[
-        str, typer.Option("--make", help="Of task, report, page, docx, key, sheet; parted by commas.")
+        str, typer.Option("--make", help="Of task, frame, report, page, docx, key, sheet; parted by commas.")
     ] = "task,report,key",
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
@@ -125,7 +125,7 @@ def batch(
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, api.MAKERS, "--make", "no_product", lang)
     with ending(lang):
-        made = (path for kind in ("task", "report", "key", "sheet") for path in standing(out, kind, "*/"))
+        made = (path for kind in ("task", "report", "key", "sheet", "frame") for path in standing(out, kind, "*/"))
         refuse_inputs((out / NAME, *made), [roster, spec, policy], lang)
         ask = None if policy is None else api.policy(policy, lang).ask
         order = Order(
@@ -187,7 +187,9 @@ def key(
 def grade(
     submissions: Annotated[
         list[Path],
-        typer.Argument(metavar="SUBMISSION", help="Sheets, folders, downloads of a platform.", show_default=False),
+        typer.Argument(
+            metavar="SUBMISSION", help="Sheets, reports, folders, downloads of a platform.", show_default=False
+        ),
     ],
     assignments: Annotated[
         Path, typer.Option("--assignments", metavar="DIR", help="The class's assignment files.", show_default=False)
@@ -214,7 +216,7 @@ def grade(
     ] = "",
     templates: TemplatesOption = None,
 ) -> None:
-    """Mark filled answer sheets from each student's own values. Feedback, grades.csv and the class page are written."""
+    """Mark sheets, or reports, from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen import api
     from reportgen.classes import assess, outcome
     from reportgen.classes.corrections import read_corrections
@@ -229,7 +231,9 @@ def grade(
         # What is wrong with it is told before an hour's marking, not after.
         table = None if gradebook is None else read_gradebook(gradebook, column, lang)
         judged = () if corrections is None else read_corrections(corrections, lang)
-        graded = assess.grade(submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table)
+        graded = assess.grade(
+            submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table, out=out
+        )
         problems = list(graded.problems)
         for path in outcome.put(graded, rules, out, engine, lang):
             print(path, flush=True)

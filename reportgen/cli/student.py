@@ -349,11 +349,15 @@ def schema(lang: LangOption = None) -> None:
     print(json.dumps(api.schema(lang), ensure_ascii=False, indent=2))
 
 
+HandedIn = Annotated[
+    list[Path],
+    typer.Argument(metavar="SHEET", help="Your filled answer sheet, or your report (.docx).", show_default=False),
+]
+
+
 def compare(
     file: File,
-    sheet: Annotated[
-        Path, typer.Argument(metavar="SHEET", help="Your filled answer sheet, XLSX or CSV.", show_default=False)
-    ],
+    sheet: HandedIn,
     hint: Annotated[bool, typer.Option("--hint", help="Also say where to look.")] = False,
     lang: LangOption = None,
     templates: TemplatesOption = None,
@@ -365,3 +369,23 @@ def compare(
         lines, agrees = api.compare(file, sheet, hint, lang)
         print(*lines, sep="\n")
         raise typer.Exit(0 if agrees else AT_FAULT)
+
+
+def read(
+    file: File,
+    report: Annotated[list[Path], typer.Argument(metavar="REPORT", help="A report (.docx).", show_default=False)],
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the results.")] = Path("out"),
+    policy: Annotated[
+        Path | None,
+        typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
+    ] = None,
+    lang: LangOption = None,
+    templates: TemplatesOption = None,
+) -> None:
+    """Read a REPORT into an answer sheet. DIR/<id>/reading.xlsx has what was read, and why the rest was not."""
+    from reportgen import api
+
+    with ending(lang):
+        ask = None if policy is None else api.policy(policy, lang).ask
+        written, said = api.read(file, report, out, ask, lang)
+        print(f"{written}{said}")

@@ -191,11 +191,30 @@ class Curve:
 
 @dataclass(frozen=True, slots=True)
 class Chart:
-    """A chart that a cursor runs over, the driver's way across."""
+    """A chart that a cursor runs over, the driver's way across.
+
+    On that `of_run` the working point of the drive moves: the speed across, the torque upwards.
+    """
 
     title: str
     plotted: Plotted
     curves: tuple[Curve, ...]
+    of_run: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class TimedRun:
+    """A motion that can be played in time: "steady", "start" or "stop".
+
+    At the times t (s) [K] the driver has turned by the `angle` (degrees) from the first position, which may be more
+    than a cycle or less than 0, and has the `speed` (rad/s); `drive` is the torque of the drive (N·m).
+    """
+
+    key: str
+    time: np.ndarray
+    angle: np.ndarray
+    speed: np.ndarray
+    drive: np.ndarray
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,6 +263,8 @@ class Animation:
     """What can be switched on, of `LAYERS`, in their order."""
     name: str = ""
     title: str = ""
+    runs: tuple[TimedRun, ...] = ()
+    """Motions that are played as the time goes, the steady one first; none without a drive."""
     instants: tuple[float, ...] = ()
     """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
 

@@ -139,7 +139,9 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
     if no value is finite.
     """
     series, turn, levels = diagram.curves, diagram.turn, diagram.levels
-    window, x_ticks, y_ticks = _window(series, [level for level, _ in levels], turn, half, area, height)
+    window, x_ticks, y_ticks = _window(
+        series, [level for level, _ in levels], turn, half, area, height, zero=diagram.zero
+    )
     items = _frame(window, x_ticks, y_ticks, "°" if turn else "")
     requests: list[Request] = []
     for level, name in levels:
@@ -208,13 +210,15 @@ def _window(
     half: bool,
     area: Area | None,
     height: float = HEIGHT,
+    *,
+    zero: bool = True,
 ) -> tuple[_Window, list[float], list[float]]:
     """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, of a round step upwards."""
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
     values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
     if not (np.isfinite(x).any() and np.isfinite(values).any()):
         raise ValueError("a chart needs finite values")
-    y = np.concatenate((values, [0.0, *levels]))
+    y = np.concatenate((values, [0.0] if zero else [], levels))
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
     y_ticks = _ticks(float(np.nanmin(y)), float(np.nanmax(y)), 6 if half else 7)
     if turn:

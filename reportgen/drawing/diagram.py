@@ -57,7 +57,7 @@ class Diagram:
     """Curves in one frame whose axes are named `x` and `y`.
 
     With `turn` x is an angle in degrees.  `levels` are horizontal lines with a name, e.g. a mean; `equal` are the
-    scales of both axes of a hodograph.
+    scales of both axes of a hodograph.  On paper y = 0 is in sight, unless `zero` is False.
     """
 
     curves: tuple[PlottedCurve, ...]
@@ -68,6 +68,7 @@ class Diagram:
     inclinations: tuple[Inclination, ...] = ()
     equal: bool = False
     title: str = ""
+    zero: bool = True
 
     def on(self, axes: Any, language: Language = "en", **look: Any) -> Any:
         """Draw it on axes of matplotlib, over what is there, and give them back; `look` is that of their `plot`."""

@@ -47,7 +47,7 @@ class FrictionPage(DesignPage["FrictionCase"]):
             "lines": self.lines,
             "math": self.math,
             "figure": self.figure,
-            "told": case.told,
+            "holds": case.holds,
         }
 
     def figure(self, name: str) -> Figure:
@@ -78,8 +78,8 @@ class FrictionCase(DesignCase):
 
     @property
     @abstractmethod
-    def told(self) -> Mapping[str, bool]:
-        """What the text tells in words."""
+    def holds(self) -> Mapping[str, bool]:
+        """What holds of it that the text tells in words."""
 
     @property
     @abstractmethod
@@ -95,12 +95,12 @@ class FrictionCase(DesignCase):
     def entries(self) -> ResultEntries:
         """All that is worked out, by the ends of the ids, and whether it locks itself."""
         head = f"friction.{self.TASK.name}."
-        found: dict[str, Any] = {
+        results: dict[str, Any] = {
             id.removeprefix(head): family.at(1)
             for id, family in self.ledger.families.items()
             if family.definition is not None and not family.hidden
         }
-        return ResultEntries([{"number": 1, self.TASK.name: {**found, "self_locking": self.locks}}])
+        return ResultEntries([{"number": 1, self.TASK.name: {**results, "self_locking": self.locks}}])
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
@@ -149,7 +149,7 @@ class InclineCase(FrictionCase):
         return self.at("alpha") <= self.at("phi")
 
     @property
-    def told(self) -> Mapping[str, bool]:
+    def holds(self) -> Mapping[str, bool]:
         return {"locks": self.locks, "is_along": not self.at("beta"), "is_horizontal": self.given.beta is None}
 
 
@@ -176,7 +176,7 @@ class WedgeCase(FrictionCase):
         return self.at("alpha") <= self.at("phi1") + self.at("phi2")
 
     @property
-    def told(self) -> Mapping[str, bool]:
+    def holds(self) -> Mapping[str, bool]:
         leans_back = self.at("alpha") < self.at("phi1")
         return {"locks": self.locks, "rough_guide": bool(self.at("phi3")), "leans_back": leans_back}
 
@@ -202,7 +202,7 @@ class ScrewCase(FrictionCase):
         return self.at("lowering.M") >= 0
 
     @property
-    def told(self) -> Mapping[str, bool]:
+    def holds(self) -> Mapping[str, bool]:
         thread = self.at("gamma") <= self.at("phi")
         return {
             "thread_locks": thread,
@@ -231,7 +231,7 @@ class BeltCase(FrictionCase):
         return False
 
     @property
-    def told(self) -> Mapping[str, bool]:
+    def holds(self) -> Mapping[str, bool]:
         return {"has_width": self.given.b is not None, "torque_given": self.given.M is not None}
 
 
@@ -253,7 +253,7 @@ class BandCase(FrictionCase):
         return min(self.at("P"), self.at("backward.P")) <= 0
 
     @property
-    def told(self) -> Mapping[str, bool]:
+    def holds(self) -> Mapping[str, bool]:
         return {"locks_forward": self.at("P") <= 0, "locks_backward": self.at("backward.P") <= 0}
 
 
@@ -275,7 +275,7 @@ class ShoeCase(FrictionCase):
         return self.at("P") <= 0
 
     @property
-    def told(self) -> Mapping[str, bool]:
+    def holds(self) -> Mapping[str, bool]:
         return {"locks": self.locks}
 
 

@@ -13,11 +13,11 @@ Changed = Iterator[tuple[str, str, Expression]]
 
 def changed(task: str, q: Sheet) -> dict[str, list[tuple[str, Expression]]]:
     """The mistakes of a task by the ids of its quantities, of those that the sheet has."""
-    found: dict[str, list[tuple[str, Expression]]] = {}
+    mistakes: dict[str, list[tuple[str, Expression]]] = {}
     for id, name, formula in TASKS[task](q):
         if id in q:
-            found.setdefault(id, []).append((name, formula))
-    return found
+            mistakes.setdefault(id, []).append((name, formula))
+    return mistakes
 
 
 def against(q: Sheet, id: str, *angles: str) -> Expression:
@@ -112,10 +112,10 @@ def of_shoe(q: Sheet) -> Changed:
 
 def exchanged_senses(task: str, q: Sheet) -> Changed:
     """The force on the lever of the other sense of rotation."""
-    for id, other in ((f"friction.{task}.P", "backward.P"), (f"friction.{task}.backward.P", "P")):
-        definition = q.families[f"friction.{task}.{other}"].definition
+    for id, opposite in ((f"friction.{task}.P", "backward.P"), (f"friction.{task}.backward.P", "P")):
+        definition = q.families[f"friction.{task}.{opposite}"].definition
         assert definition is not None
-        if q.si(id) != q.si(f"friction.{task}.{other}"):
+        if q.si(id) != q.si(f"friction.{task}.{opposite}"):
             yield id, "friction-senses-exchanged", definition
 
 

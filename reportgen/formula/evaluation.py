@@ -96,6 +96,32 @@ def excess(value: Value, steps: Value) -> Value:
     return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) - np.sum(parts, axis=-1, keepdims=True)
 
 
+def along(a: Value, v: Value) -> Value:
+    """The component of a along v; 0 where v is nothing beside the greatest of all positions."""
+    size = np.abs(v)
+    moves = size > EDGE * np.max(size, axis=-1, keepdims=True)
+    return np.where(moves, constructions.dot(a, v) / np.where(moves, size, 1.0), 0.0)
+
+
+def summed(value: Value, steps: Value) -> Value:
+    """The integral from the first position to each, by the trapezoid rule."""
+    parts = (np.asarray(value) + np.roll(value, -1, axis=-1)) / 2 * steps
+    return np.roll(np.cumsum(parts, axis=-1), 1, axis=-1) * (np.arange(parts.shape[-1]) > 0)
+
+
+def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
+    """The speed of a crank from position to position, from that at the first, with what acts and moves at each.
+
+    ω′ = M Δφ/(J ω) + (3J − J′)ω/(2J): the equation of energy, ΔT = M Δφ, with Δ(J ω²)/2 to the first order.
+    """
+    speed, torque, inertia, steps = np.broadcast_arrays(speed, torque, inertia, steps)
+    at = [np.asarray(speed)[..., 0]]
+    for k in range(speed.shape[-1] - 1):
+        J, ω = inertia[..., k], at[-1]
+        at.append(torque[..., k] * steps[..., k] / (J * ω) + (3 * J - inertia[..., k + 1]) * ω / (2 * J))
+    return np.stack(at, axis=-1)
+
+
 def heading(vector: Value) -> Value:
     """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
     return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
@@ -147,6 +173,9 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "mean": mean,
     "level": level,
     "excess": excess,
+    "along": along,
+    "summed": summed,
+    "stepped": stepped,
     "highest": lambda value: np.max(value, axis=-1, keepdims=True),
     "lowest": lambda value: np.min(value, axis=-1, keepdims=True),
     "quotient": quotient,

@@ -37,7 +37,20 @@ BELOW_A_TURN = 1e-12
 
 CONSTRUCTIONS = frozenset(
     {"meet", "circle_line", "circle_circle", "abs", "cis", "turned", "arg", "re", "im", "cross", "dot"}
-    | {"mean", "level", "excess", "highest", "lowest", "quotient", "if_zero", "sign", "heading"}
+    | {
+        "mean",
+        "level",
+        "excess",
+        "along",
+        "summed",
+        "stepped",
+        "highest",
+        "lowest",
+        "quotient",
+        "if_zero",
+        "sign",
+        "heading",
+    }
 )
 """Functions that stand for drawing and measuring: a definition with one of them is not printed as a formula."""
 

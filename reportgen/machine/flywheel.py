@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks
-from reportgen.machine.forces import Load, virtual_work_torque
+from reportgen.machine.forces import Load
 from reportgen.machine.laws import FULL_TURN
-from reportgen.machine.motion import Motion
 from reportgen.machine.quadrature import accumulated
+from reportgen.machine.reduction import reduced_inertia, reduced_torque
 
 Floats = NDArray[np.float64]
 ORDER = 8
@@ -90,21 +90,6 @@ SAME_ANGLE = 1e-9
 """Angles nearer than this (rad) are one; a torque below this share of what the loads could do is none."""
 
 
-def reduced_inertia(machine: Machine, motion: Motion) -> np.ndarray:
-    """J_r = Σ m (v_S/ω₁)² + J (ω/ω₁)² [N] (kg·m²)."""
-    total = np.zeros_like(motion.driver)
-    for body in machine.linkage.inertias:
-        total += body.mass * np.abs(motion.points[body.centre].v) ** 2
-        total += body.moment * motion.links[body.link].omega ** 2
-    return np.asarray(total / motion.rate**2)
-
-
-def reduced_torque(analysis: Analysis) -> np.ndarray:
-    """M_r [N] (N·m) of weights and applied loads, positive in the direction of rotation."""
-    static = (*analysis.weights, *analysis.applied)
-    return np.asarray(-analysis.machine.turn * virtual_work_torque(analysis.machine.linkage, analysis.motion, static))
-
-
 def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
     """The torque (N·m) of these loads if all acted on the fastest point and link, along their motion."""
     motion = analysis.motion
@@ -115,6 +100,11 @@ def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
     return (force * fastest + couple * turning) / float(np.abs(motion.rate).max())
 
 
+def _torque(analysis: Analysis) -> Floats:
+    """M_r [N] (N·m) of weights and applied loads."""
+    return reduced_torque(analysis.machine, analysis.motion, (*analysis.weights, *analysis.applied))
+
+
 def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
     """The flywheel (kg·m²) for the unevenness δ, over angles among which are all positions and corners of the loads."""
     whole = machine.turns * FULL_TURN
@@ -123,12 +113,12 @@ def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
     every = np.sort(np.concatenate((grid, own)))
     angle = every[np.concatenate(([True], np.diff(every) > SAME_ANGLE))]
     analysis = analyse(machine, angle)
-    torque, least = reduced_torque(analysis), SAME_ANGLE * possible(analysis, (*analysis.weights, *analysis.applied))
+    torque, least = _torque(analysis), SAME_ANGLE * possible(analysis, (*analysis.weights, *analysis.applied))
     idle = np.abs(torque).max() <= least
     return regulate(
         angle,
         np.zeros_like(torque) if idle else torque,
-        np.zeros_like(torque) if idle else accumulated(lambda at: reduced_torque(analyse(machine, at)), angle, ORDER),
+        np.zeros_like(torque) if idle else accumulated(lambda at: _torque(analyse(machine, at)), angle, ORDER),
         reduced_inertia(machine, analysis.motion),
         machine.speed,
         unevenness,

@@ -233,12 +233,48 @@ def _on_paper(ledger: Ledger, id: str) -> Family:
 # The report integrates continuously. With some ten positions a student cannot, so the difference belongs to the
 # tolerance; where it is large, the quantity cannot be worked out from the positions and is not asked for.
 
+TRUE_MOTION = "run."
+OF_CURVE = frozenset({"max", "min", "mean", "delta"})
 LARGE = 0.1
 """The share of a quantity's largest value that the rule may miss it by."""
 
 
 def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
-    """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI)."""
+    """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI).
+
+    And all that is found of the true motion, which the same rule integrates.
+    """
+    return {**_of_flywheel(ledger), **_of_true_motion(ledger)}
+
+
+def _of_true_motion(ledger: Ledger) -> Mapping[str, np.ndarray]:
+    """How far what stands on integrals of the true motion is from what the rule makes of the positions.
+
+    The bounds of the speed are those of its curve, wherever the positions lie.
+    """
+    rests = [id for id in ledger.families if (names := ids.rest.read(id)) and names["id"].startswith(TRUE_MOTION)]
+    if not rests:
+        return {}
+    following = [
+        id
+        for id, family in ledger.families.items()
+        if id.startswith(TRUE_MOTION) and not (family.residue or id.split(".")[1] in OF_CURVE)
+    ]
+    values = ledger.evaluate(dict.fromkeys(rests, 0.0))
+    errors = {id: np.abs(np.real(values[id]) - ledger[id].values.real) for id in following}
+    for id in following:
+        speed = id.replace(".Md", ".omega")
+        if ledger[id].definition is None and speed != id and speed in ledger:
+            # A torque is read off its characteristic at a speed that has so many figures.
+            read, at = ledger[id].values.real, ledger[speed].values.real
+            with np.errstate(all="ignore"):
+                slopes = np.abs(np.diff(read, append=read[:1]) / np.diff(at, append=at[:1]))
+            steepest = float(np.max(slopes, initial=0.0, where=np.isfinite(slopes)))
+            errors[id] = steepest * half_unit(at, DIGITS)
+    return {id: error for id, error in errors.items() if error.max() > 0}
+
+
+def _of_flywheel(ledger: Ledger) -> Mapping[str, np.ndarray]:
     if "J.d" not in ledger:
         return {}
     torque = ledger["M.r"].values.real
@@ -263,4 +299,7 @@ def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
 def is_workable(ledger: Ledger, id: str, errors: Mapping[str, np.ndarray]) -> bool:
     """Whether a quantity can be worked out from the positions alone; speed only where excess work can (errors SI)."""
     id = "A.excess" if id == "omega.of" else id
+    if id.startswith(TRUE_MOTION) and id in errors and ledger[id].definition is not None:
+        # What stands on the work of all torques is found where that is.
+        id = f"{TRUE_MOTION}A{id[id.rindex('.') :]}" if id.count(".") > 1 else f"{TRUE_MOTION}A"
     return id not in errors or bool(np.nanmax(errors[id]) <= LARGE * np.nanmax(np.abs(ledger[id].values)))

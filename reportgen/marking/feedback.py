@@ -30,6 +30,7 @@ STYLES: Mapping[Verdict, Style] = {
     Verdict.blank: "input",
     Verdict.unreadable: "doubt",
     Verdict.implausible: "doubt",
+    Verdict.unread: "doubt",
 }
 FIRST: Style = "bad"
 """The look of the first wrong value of a chain."""
@@ -84,13 +85,13 @@ def feedback_book(marking: Marking, show_answers: bool = True) -> Book:
         return page(name, (*rows, (Entry(), Entry(feedback["total"], "bold"), *between, *total)))
 
     pages = (marked_page(name, part) for name, part in named_pages(key, feedback["marked"]))
-    return Book((*pages, _legend(words), info_page(key)), f"{feedback['marked']} {key.id}")
+    legend = _legend(words, bool(marking.submission.unread))
+    return Book((*pages, legend, info_page(key)), f"{feedback['marked']} {key.id}")
 
 
 def _marked(marking: Marking, words: Mapping[str, Any], cell: Marked, show_answers: bool) -> Entry:
     """A judged cell: the student's value on the colour of its verdict."""
-    problem = marking.submission.problems.get((cell.id, cell.position))
-    comment = _comment(cell, marking.key, words, problem.message if problem else "", show_answers)
+    comment = cell_comment(cell, marking, words, show_answers)
     return Entry(cell.written, FIRST if cell.first else STYLES[cell.verdict], comment)
 
 
@@ -100,10 +101,10 @@ def _points(judged: Sequence[Marked], style: Style = "") -> tuple[Entry, Entry]:
     return (Entry(round(earned, 2), style), Entry(round(worth, 2), style))
 
 
-def _legend(words: Mapping[str, Any]) -> BookSheet:
-    """What the colours mean."""
+def _legend(words: Mapping[str, Any], unread: bool) -> BookSheet:
+    """What the colours mean; where nothing is `unread`, no sheet has such a cell."""
     notes, verdicts = words["verdict_notes"], words["verdicts"]
-    styles = [(verdict.value, style) for verdict, style in STYLES.items()]
+    styles = [(verdict.value, style) for verdict, style in STYLES.items() if unread or verdict is not Verdict.unread]
     styles.insert(2, ("first", FIRST))
     rows = tuple(
         (Entry(str(verdicts[name]), style), Entry(str(notes[name]).partition(":")[0])) for name, style in styles
@@ -295,15 +296,17 @@ def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines
     return sentence(named[cell.mistake], symbol=InlineMath(row.symbol))
 
 
-def _comment(cell: Marked, key: Key, words: Mapping[str, Any], message: str, show_answers: bool) -> str:
-    """The comment on a cell that is not right; `message` says why it could not be read."""
+def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_answers: bool) -> str:
+    """The comment on a cell that is not right; "" where there is nothing to say."""
+    key, place = marking.key, (cell.id, cell.position)
     notes = words["verdict_notes"]
     if cell.corrected:
         return str(words["feedback"]["amended_note"]).format(reason=cell.corrected)
     if cell.verdict is Verdict.right:
         return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
-    if cell.verdict is Verdict.unreadable:
-        return str(notes["unreadable"]).format(message=message)
+    if cell.verdict in (Verdict.unreadable, Verdict.unread):
+        problem = marking.submission.problems.get(place) or marking.submission.unread[place]
+        return str(notes[cell.verdict]).format(message=problem.message)
     lines = [str(notes["first" if cell.first else cell.verdict])]
     if cell.first and cell.mistake:
         lines.append(plain(mistake_inlines(cell, key, words), key.language))

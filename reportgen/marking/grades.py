@@ -13,7 +13,7 @@ from reportgen.base.words import load_words
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.feedback import amended
 from reportgen.marking.key import symbol_text
-from reportgen.marking.marks import Marked, Marking, Unmarked, points_of
+from reportgen.marking.marks import Marked, Marking, Submission, Unmarked, points_of
 from reportgen.marking.policy import Policy
 from reportgen.report import plain
 from reportgen.report.key import Key, KeyRow
@@ -28,7 +28,8 @@ def grade_rows(
     markings: Sequence[Marking], language: Language, unmarked: Sequence[Unmarked] = (), policy: Policy | None = None
 ) -> tuple[tuple[Value, ...], ...]:
     """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks,
-    what was handed in, how late and for how much off the mark, the instructor's corrections.
+    what was handed in, how late and for how much off the mark, the instructor's corrections.  Where reports or drawings
+    were read in place of sheets, two more columns say how much of each was read and how many values are open.
 
     The points of those who are `unmarked` stay empty.
     """
@@ -47,6 +48,10 @@ def grade_rows(
             for name in ("firsts", "warnings", "flags", "elsewhere", "state", "late", "deducted", "corrections")
         ),
     )
+    submissions = {marking.key.id: marking.submission for marking in markings}
+    submissions |= {one.key.id: one.unsettled for one in unmarked if one.unsettled is not None}
+    of_files = any(submission.own_files for submission in submissions.values())
+    head += tuple(names[name] for name in ("read", "to_settle")) if of_files else ()
     keys = (*(marking.key for marking in markings), *(one.key for one in unmarked))
     people = {key.id: person(key) for key in keys}
     rows: list[tuple[Value, ...]] = [head]
@@ -83,12 +88,25 @@ def grade_rows(
         )
         for student in unmarked
     ]
+    if of_files:
+        ids = [*(marking.key.id for marking in markings), *(one.key.id for one in unmarked)]
+        rows[1:] = [(*row, *_read(submissions.get(id))) for row, id in zip(rows[1:], ids, strict=True)]
     return tuple(rows)
+
+
+def _read(submission: Submission | None) -> tuple[Value, Value]:
+    """How much of a student's own files was read, in per cent, and how many values are to be settled."""
+    if submission is None or not submission.own_files:
+        return None, None
+    return round(100 * submission.share_read, 1), float(len(submission.unread))
 
 
 def state(student: Unmarked, words: Mapping[str, Any]) -> str:
     """Why a student has no marks: nothing was handed in, or what was could not be marked."""
     states = words["states"]
+    if student.unsettled is not None:
+        read = round(100 * student.unsettled.share_read)
+        return str(states["to_settle"].format(read=read, count=len(student.unsettled.unread)))
     return str(states["refused"].format(reasons="; ".join(student.reasons)) if student.reasons else states["missing"])
 
 

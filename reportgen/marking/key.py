@@ -95,7 +95,7 @@ def key_of(case: Case) -> Key:
             positive=words["signs"].get(sense, sense),
             open_sense=is_open(values, sense),
             plans=tuple(sorted(read[id])) if role is Role.asked else (),
-            formula=_formula(ledger, id) if sense in BY_FORMULA else None,
+            formula=formula_in_symbols(ledger, id) if sense in BY_FORMULA else None,
         )
 
     parts, families = list(Chapter), ledger.families.values()
@@ -154,7 +154,7 @@ def _sense(family: Family, value: float, words: Mapping[str, str]) -> str:
     return words["none"] if value == 0 else words["anticlockwise"] if value > 0 else words["clockwise"]
 
 
-def _formula(ledger: Ledger, id: str) -> Expression:
+def formula_in_symbols(ledger: Ledger, id: str) -> Expression:
     """What a quantity is defined as, in symbols."""
     return substitute(definition_of(ledger, id), lambda ref: ledger.symbol(ref.id))
 
@@ -177,6 +177,7 @@ DEFAULT = (
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
     # Second ways to the same result.
     *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-psi.*"),
+    *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
 )

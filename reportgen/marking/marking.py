@@ -88,6 +88,8 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
     verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:
         verdict = Verdict.unreadable
+    elif place in submission.unread:
+        verdict = Verdict.unread
     elif np.isnan(value):
         verdict = Verdict.blank
     elif scheme.distance(row.id, value, key) <= band:
@@ -175,6 +177,11 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
     scheme = marking_scheme(case, Policy(guard=False))
     # What the file is called does not matter: whose sheet it is shows by its data.
     submission = read_submission(sheet, lambda _: scheme.key, scheme.key.language, by_data=True)
+    return compared(scheme, submission, hint)
+
+
+def compared(scheme: MarkingScheme, submission: Submission, hint: bool = False) -> tuple[tuple[str, ...], bool]:
+    """The same of what has been read: what has a row is asked for."""
     # What the sheet has no row for is not missing, nor is a scale.
     filled = {id for id, _ in (*submission.values, *submission.problems)}
     rows = {id for id in submission.rows if id in filled or scheme.key.row(id).role is not Role.scale}
@@ -189,6 +196,7 @@ def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) ->
     """A line for each first divergence, with the cell it stands in; `hint` adds where to look, never the answer."""
     words = words_of(marking.key)["compare"]
     yield from map(str, (*marking.submission.problems.values(), *marking.submission.notes))
+    yield from _unread(marking)
     counted = Counter(cell.verdict for cell in marking.cells)
     for cell in marking.first_errors:
         given = marking.submission.values[(cell.id, cell.position)]
@@ -204,6 +212,17 @@ def _lines(scheme: MarkingScheme, marking: Marking, hint: bool, agrees: bool) ->
         yield words["blank"].format(count=counted[Verdict.blank])
     if agrees:
         yield words["agrees"].format(count=counted[Verdict.right] + counted[Verdict.follows])
+
+
+def _unread(marking: Marking) -> Iterator[str]:
+    """What stands in the student's own files and was not read, place by place, and how much was."""
+    submission, words = marking.submission, words_of(marking.key)["compare"]
+    for (id, position), problem in submission.unread.items():
+        symbol = symbol_text(marking.key.row(id), marking.key)
+        named = words["at"].format(symbol=symbol, label=marking.key.label(position, id)) if position else symbol
+        yield words["unread"].format(mark=str(problem.mark), symbol=named, message=problem.message)
+    if submission.own_files:
+        yield words["read"].format(read=round(100 * submission.share_read), count=len(submission.values))
 
 
 def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:

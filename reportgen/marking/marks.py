@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Mark, Problem
@@ -29,6 +29,9 @@ class Submission:
 
     `notes` say what was found beside: rows and positions that the assignment does not ask for, values of
     formulas, numbers that could be read in two ways.  `rows` are the ids of all its rows, filled in or not.
+
+    Of the student's `own_files`, a report or a drawing in place of a sheet, `unread` is what stands there and was not
+    read beyond doubt: it neither earns nor costs anything until it is settled.
     """
 
     assignment: str
@@ -37,6 +40,16 @@ class Submission:
     problems: Mapping[Place, Problem]
     notes: tuple[Problem, ...] = ()
     rows: frozenset[str] = frozenset()
+    unread: Mapping[Place, Problem] = field(default_factory=dict)
+    own_files: bool = False
+    fingerprint: str = ""
+    """Of a sheet that was filled with what was read of such files: what it held when it was written."""
+
+    @property
+    def share_read(self) -> float:
+        """The share of what stands in the student's own files that was read, 1 where nothing stands there."""
+        count = len(self.values) + len(self.unread)
+        return len(self.values) / count if count else 1.0
 
 
 class Verdict(StrEnum):
@@ -48,6 +61,8 @@ class Verdict(StrEnum):
     unreadable = "unreadable"
     implausible = "implausible"
     """It follows, or is right by chance, but its marks were taken for a reason that the marking lists."""
+    unread = "unread"
+    """It stands in the student's own file, but was not read beyond doubt: it is not counted until it is settled."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +113,11 @@ class Marked:
     """The number in the cell, in that unit."""
 
     @property
+    def counts(self) -> bool:
+        """Whether it counts for the mark: not while nobody has settled what stands there."""
+        return self.verdict is not Verdict.unread
+
+    @property
     def on_sheet(self) -> OnSheet:
         """The values as a sheet has them: for those who read it, and for what is found on it without working out."""
         return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
@@ -107,8 +127,8 @@ Cells = Mapping[Place, Marked]
 
 
 def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
-    """The points that cells earned, and those that they are worth."""
-    earned = [(cell.points, cell.worth) for cell in cells]
+    """The points that cells earned, and those that they are worth; what is unread is not counted."""
+    earned = [(cell.points, cell.worth) for cell in cells if cell.counts]
     return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 
@@ -192,7 +212,11 @@ class Marking:
 
 @dataclass(frozen=True, slots=True)
 class Unmarked:
-    """A student without marks: the reasons why what was handed in is not marked, none where nothing was."""
+    """A student without marks: the reasons why what was handed in is not marked, none where nothing was.
+
+    Of `unsettled` work less was read than the policy asks for.
+    """
 
     key: Key
     reasons: tuple[str, ...] = ()
+    unsettled: Submission | None = None

@@ -69,7 +69,9 @@ def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
         return {(part.own(id), k): one for (id, k), one in values.items() if key.owner(id) == part.name}
 
     rows = frozenset(part.own(id) for id in whole.rows if key.owner(id) == part.name)
-    return replace(whole, values=own(whole.values), problems=own(whole.problems), notes=(), rows=rows)
+    return replace(
+        whole, values=own(whole.values), problems=own(whole.problems), notes=(), rows=rows, unread=own(whole.unread)
+    )
 
 
 def _own_classmate(classmate: Classmate, name: str) -> Classmate | None:

@@ -13,7 +13,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from reportgen.assignment.common import Part
-from reportgen.assignment.fields import Decimal, Flag, Interval, TypedText, Until, Whole, quantity
+from reportgen.assignment.fields import Decimal, Flag, Interval, Percent, TypedText, Until, Whole, quantity
 from reportgen.assignment.reading import read_model
 from reportgen.base.units import Given, Language
 from reportgen.marking.bands import DIGITS, PAPER_ERROR
@@ -51,6 +51,8 @@ class Lateness:
         return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
 
 
+LEAST_READ = 0.8
+
 Twice = Literal["last", "first"]
 """Which of two sheets of one student is marked."""
 
@@ -78,6 +80,8 @@ class Policy:
     """The shares of the parts of a coursework, by name; without them each value counts alike."""
     late: Lateness | None = None
     twice: Twice = "last"
+    least_read: float = LEAST_READ
+    """Where a smaller share of what stands in a student's own files was read, there is no mark."""
     file: Path | None = None
 
     def deducted(self, share: float, days_late: int) -> float:
@@ -136,6 +140,7 @@ class _PolicyFile(Part):
     parts: dict[str, Annotated[float, Decimal(Interval(least=0, most=1000))]] = {}  # noqa: RUF012
     late: _Late | None = None
     twice: Annotated[Twice, Field(json_schema_extra={})] = "last"
+    least_read: Annotated[float, Percent()] = LEAST_READ
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -167,6 +172,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
       per_day: 1
       most: 5
     twice: last              # which of two sheets of one student is marked, or: first
+    least_read: 80 %         # of what stands in a report or a drawing without a sheet; below it there is no mark
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points
@@ -188,5 +194,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         parts=content.parts,
         late=Lateness(late.due, late.per_day, late.most) if (late := content.late) else None,
         twice=content.twice,
+        least_read=content.least_read,
         file=path,
     )

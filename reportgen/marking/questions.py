@@ -45,12 +45,15 @@ class Item:
 
 
 def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
-    """An item for each name that the cells have, in the order of the sheets; what earns no points is left out."""
+    """An item for each name that the cells have, in the order of the sheets.
+
+    What earns no points, or is not read yet, is left out.
+    """
     of_name: dict[object, list[tuple[Marking, list[Marked]]]] = {}
     for marking in markings:
         own: dict[object, list[Marked]] = {}
         for cell in marking.cells:
-            if cell.worth:
+            if cell.worth and cell.counts:
                 own.setdefault(name(marking.key, cell), []).append(cell)
         for called, cells in own.items():
             of_name.setdefault(called, []).append((marking, cells))

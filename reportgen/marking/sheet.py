@@ -184,6 +184,8 @@ def _answer_page(key: Key, name: str, note: str, by_section: bool) -> BookSheet:
 # decimal comma or point, thousands apart, powers of ten, a unit behind.
 
 
+UNSETTLED = "?"
+"""In a cell of a reading: something stands in the student's file for it, and nobody has said yet what."""
 HEAD_WITHIN = 60
 """Rows among which the head of a sheet is looked for."""
 _UNREADABLE = {"date": "cell-date", "error": "cell-error", "boolean": "cell-boolean"}
@@ -224,7 +226,8 @@ def read_submission(
     if kind and kind[0] != key.kind:
         about = {"text": f"{name} ({kind[0]})", "wanted": f"{key.id} ({key.kind})"}
         raise as_error([Fault("sheet-of-another", kind[1], about)], language)
-    reading = _Reading(key, language)
+    fingerprint = _beside(pages, "fingerprint")
+    reading = _Reading(key, language, settled=fingerprint is None)
     answered = sheets if key.parts else sheets[:1]
     if by_data:
         shown = [fault for answers in answered for fault in _data_shown(key, *answers)]
@@ -235,7 +238,15 @@ def read_submission(
     for answers in answered:
         reading.sheet(*answers)
     return Submission(
-        key.id, str(path), reading.values, reading.problems, tuple(reading.notes), frozenset(reading.rows)
+        key.id,
+        str(path),
+        reading.values,
+        reading.problems,
+        tuple(reading.notes),
+        frozenset(reading.rows),
+        unread=reading.unread,
+        own_files=fingerprint is not None,
+        fingerprint=fingerprint[0] if fingerprint else "",
     )
 
 
@@ -314,6 +325,9 @@ class _Reading:
     language: Language | None
     values: dict[Place, Answer] = field(default_factory=dict)
     problems: dict[Place, Problem] = field(default_factory=dict)
+    settled: bool = True
+    """Whether a question mark is no answer, as on any sheet but a reading that somebody is to complete."""
+    unread: dict[Place, Problem] = field(default_factory=dict)
     notes: list[Problem] = field(default_factory=list)
     rows: set[str] = field(default_factory=set)
     labels: dict[str, Mapping[str, int]] = field(default_factory=dict)
@@ -370,7 +384,7 @@ class _Reading:
         asked = {row.id: row for row in self.key.asked}
         known = {row.id for row in self.key.rows}
         for id, cells in rows:
-            answers = [(columns[n], cell) for n, cell in enumerate(cells) if n in columns and not _is_empty(cell)]
+            answers = [(columns[n], cell) for n, cell in enumerate(cells) if n in columns and not self.is_empty(cell)]
             if id in asked:
                 self.rows.add(id)
                 places = ((self.positions(id).get(label), cell) for label, cell in answers)
@@ -379,9 +393,16 @@ class _Reading:
                 mark = cells[at].mark if id else answers[0][1].mark
                 self.note(Fault("cell-unknown-row" if id else "cell-no-row", mark, {"text": id}))
 
+    def is_empty(self, cell: SheetCell) -> bool:
+        """Whether a cell holds no answer, not even one that is to be settled."""
+        return _is_empty(cell) and (self.settled or cell.text.strip() != UNSETTLED)
+
     def value(self, place: Place, cell: SheetCell, mark: DecimalMark, agreed: bool) -> None:
         """Read one cell: a number, or a problem at its place."""
         row = self.key.row(place[0])
+        if cell.text.strip() == UNSETTLED:
+            self.unread[place] = as_problem(Fault("cell-unsettled", cell.mark), self.language)
+            return None
         if cell.kind in _UNREADABLE:
             return self.problem(place, Fault(_UNREADABLE[cell.kind], cell.mark, {"text": cell.text}))
         if cell.value is None:

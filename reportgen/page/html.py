@@ -365,6 +365,8 @@ class Blocks:
                 return f'<a href="#{anchor(key)}">{escape(text)}</a>'
             case tree.LineBreak():
                 return "<br>"
+            case tree.Blank():
+                return tree.DOTS
 
     # --- formulas, lists and tables -----------------------------------------------------------------
 

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import threading
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from reportgen.base.steps import ASKED, MARK
 
 LAST_LINES = 12
 """Of what a process complains so many lines are told."""
@@ -35,17 +40,32 @@ class Maker:
             if self._process is not None or self._ended:
                 return False
             self._process = subprocess.Popen(
-                command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True
+                command,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                stdin=subprocess.DEVNULL,
+                text=True,
+                env={**os.environ, ASKED: "yes"},
             )
         self.tell({"product": product, "state": "running"})
         threading.Thread(target=self._wait, args=(product, self._process), daemon=True).start()
         return True
 
     def _wait(self, product: str, process: subprocess.Popen[str]) -> None:
-        printed, complaint = process.communicate()
+        complaint = deque[str](maxlen=LAST_LINES)
+        assert process.stdout is not None
+        assert process.stderr is not None
+        with ThreadPoolExecutor(1) as reader:
+            printed = reader.submit(process.stdout.read)
+            for line in map(str.rstrip, process.stderr):
+                if line.startswith(MARK):
+                    self.tell({"product": product, "state": "running", "step": line.removeprefix(MARK)})
+                else:
+                    complaint.append(line)
+        process.wait()
         with self._lock:
             self._process = None
-        paths = [Path(line) for line in printed.splitlines() if Path(line).is_file()]
+        paths = [Path(line) for line in printed.result().splitlines() if Path(line).is_file()]
         self.files |= {path.name: path.absolute() for path in paths}
         state = "ended" if process.returncode < 0 or process.returncode > 128 else "failed"
         self.tell(
@@ -53,7 +73,7 @@ class Maker:
                 "product": product,
                 "state": "done" if process.returncode == 0 else state,
                 "files": [[path.name, str(path)] for path in paths],
-                "complaint": "\n".join(complaint.splitlines()[-LAST_LINES:]) if process.returncode else "",
+                "complaint": "\n".join(complaint) if process.returncode else "",
             }
         )
 

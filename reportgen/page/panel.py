@@ -27,6 +27,7 @@ from reportgen.drawing.animation import (
     MovingVector,
     Pane,
     Still,
+    TimedRun,
     Track,
     scale_bars,
 )
@@ -137,6 +138,7 @@ class PanelWriter:
                 ("v", formula(Symbol("v")), KINDS["velocity"].unit),
                 ("a", formula(Symbol("a")), KINDS["acceleration"].unit),
             ],
+            runs=[run.key for run in animation.runs],
             numbers=[(formula(value.symbol), value.unit) for value in animation.values],
             charts=list(map(self.chart, animation.charts)),
             accuracy=self.accuracy(),
@@ -172,9 +174,10 @@ class PanelWriter:
                 if pane.finer
             },
             "charts": list(map(self.axes, animation.charts)),
+            **({"runs": list(map(_timed, animation.runs))} if animation.runs else {}),
             "values": [[number(value.values), value.decimals] for value in animation.values],
             "heads": [f"{words['way']} (mm)" if animation.span else f"{words['angle']} (°)", *HEADS],
-            "words": {key: words[key] for key in ("play", "pause", "keep", "release", "copied")},
+            "words": {key: words[key] for key in ("play", "pause", "keep", "release", "copied", "run_told")},
             "lengths": self.tracks.lengths,
             "tracks": self.tracks.packed(),
         }
@@ -311,8 +314,15 @@ class PanelWriter:
             "box": list(_rounded(_turned_over(drawn.low, drawn.high, drawn.scene.height))),
             "x": list(drawn.x),
             "y": list(drawn.y),
+            **({"run": True} if chart.of_run else {}),
             "curves": [self.tracks.number(curve.values) for curve in chart.curves],
         }
+
+
+def _timed(run: TimedRun) -> Mapping[str, Any]:
+    """A run as the script plays it: what it is called, and its samples."""
+    samples = {"time": run.time, "angle": run.angle, "speed": run.speed, "drive": run.drive}
+    return {"key": run.key, **{name: [float(f"{one:.6g}") for one in values] for name, values in samples.items()}}
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:

@@ -14,11 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.units import MM, significant_decimals
-from reportgen.drawing import Circle, Content, Pen, style
+from reportgen.base.units import MM
+from reportgen.drawing import Circle, Pen, style
 from reportgen.drawing.animation import (
     LAYERS,
-    PANEL,
     Animation,
     BarScale,
     Chart,
@@ -40,17 +39,17 @@ from reportgen.drawing.animation import (
     path_items,
     plan_items,
 )
-from reportgen.drawing.charts import Plotted
 from reportgen.drawing.plan import Construction
-from reportgen.formula import Chain, Symbol, ids, vocabulary
-from reportgen.formula.plain import formula
+from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motion_at
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
+from reportgen.page import panes
 from reportgen.page.friction_layer import friction_items
+from reportgen.page.running import timed_runs, working_point
 from reportgen.plans import enter_plans
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What, centre_symbol
@@ -72,7 +71,6 @@ ARROW = 34.0
 """The longest arrow of a force or a rate on the machine at most (mm)."""
 FAR = 2.5
 """A centre farther off than so many diagonals of the drawing is not drawn."""
-DIGITS, MOST_DECIMALS = 5, 5
 FORCES = ("loads", "inertia", "weights", "reactions", "friction")
 """The layers of forces, which have one scale."""
 LEVER, LONGER = 0.45, 0.2
@@ -190,6 +188,7 @@ class Samples:
             values=tuple(self.values()),
             errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
             layers=tuple(layer for layer in LAYERS if layer in layers),
+            runs=timed_runs(self.report),
         )
 
     def turn(self, values: np.ndarray) -> Track:
@@ -341,7 +340,7 @@ class Samples:
         """The plan of velocities or accelerations."""
         plan = motion_construction(self.report, what)
         plan_fitted = self._fitted(what, self._rates_on(plan, what), kind, self.knots.size)
-        return _plan(what, title, plan_items(plan, plan_fitted.tracks), plan_fitted)
+        return panes.plan(what, title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _fitted(self, plan: str, corners: dict[str, np.ndarray], kind: str, turn: int) -> Fitted:
         """The corners of a plan in its panel, at its scale."""
@@ -359,7 +358,7 @@ class Samples:
         plan_fitted = self._fitted(
             polygon.name, {id: self.corners[id] * per for id in plan.corners}, "force", self.angles.size
         )
-        return _plan(f"R{polygon.name}", title, plan_items(plan, plan_fitted.tracks), plan_fitted)
+        return panes.plan(f"R{polygon.name}", title, plan_items(plan, plan_fitted.tracks), plan_fitted)
 
     def _lever(self, title: str) -> Pane:
         """Zhukovsky's lever: the velocity plan turned by 90° against ω1, the line of every load through its image.
@@ -397,7 +396,7 @@ class Samples:
             items.append(MovingVector(*ends, style.REACTION if balance else style.ACTIVE, name=name))
             shown = vocabulary.vector(self.report.balance_symbol()) if balance else self._force_symbol(name)
             items.append(MovingName(shown, ends[1], ends[:1], 0.6))
-        return _plan("lever", title, items, lever)
+        return panes.plan("lever", title, items, lever)
 
     # --- curves and numbers
 
@@ -405,18 +404,19 @@ class Samples:
         report = self.report
         for curves, title in curves_of_motion(report):
             tracks = tuple(Curve(symbol, self.turn(values)) for symbol, values in curves)
-            yield _chart(report, over_a_turn(report, curves, title, half=True), tracks, title)
+            yield panes.chart(report, over_a_turn(report, curves, title, half=True), tracks, title)
         if not report.has_forces:
             return
         torque = torque_chart(report, half=True)
         shown = report.balance_symbol()
-        yield Chart(_told(report, shown), torque, (Curve(shown, Track(self.analysis.torque)),))
+        yield Chart(panes.told(report, shown), torque, (Curve(shown, Track(self.analysis.torque)),))
         if gases := self.analysis.gas:
             unit = KINDS["pressure"].scale
             pressures = [(Symbol("p", str(gas.piston.link)), gas.pressure / unit) for gas in gases.values()]
             title = axis(Symbol("p"), "pressure")
             tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
-            yield _chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
+            yield panes.chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
+        yield from working_point(report)
 
     def values(self) -> Iterator[MomentValue]:
         """Positions, speeds and accelerations of points by their sizes, rotations, forces and what balances them."""
@@ -424,22 +424,24 @@ class Samples:
         moving = [name for name in motion.points if name not in self.machine.linkage.ground]
         for base, kind in (("v", "velocity"), ("a", "acceleration")):
             for name in moving:
-                yield _value(Symbol(base, name), kind, np.abs(getattr(motion.points[name], base)))
+                yield panes.value(Symbol(base, name), kind, np.abs(getattr(motion.points[name], base)))
         for base, attribute, kind in (("ω", "omega", "angular velocity"), ("ε", "epsilon", "angular acceleration")):
             for link in self.machine.linkage.links:
                 rates = getattr(motion.links[link], attribute)
                 if np.nanmax(np.abs(rates)) > 0:
-                    yield _value(Symbol(base, str(link)), kind, rates)
+                    yield panes.value(Symbol(base, str(link)), kind, rates)
         if not analysis.loads:
             return
         for gas in analysis.gas.values():
-            yield _value(Symbol("p", str(gas.piston.link)), "pressure", gas.pressure)
+            yield panes.value(Symbol("p", str(gas.piston.link)), "pressure", gas.pressure)
         for load in analysis.applied:
             if np.nanmax(np.abs(load.force)) > 0:
-                yield _value(_scalar(self._force_symbol(load.name)), "force", np.abs(load.force))
+                yield panes.value(panes.scalar(self._force_symbol(load.name)), "force", np.abs(load.force))
         for name in self._reactions:
-            yield _value(_scalar(self._force_symbol(name)), "force", np.abs(analysis.forces.reactions[name].force))
-        yield _value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
+            yield panes.value(
+                panes.scalar(self._force_symbol(name)), "force", np.abs(analysis.forces.reactions[name].force)
+            )
+        yield panes.value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
 
     # --- what interpolation costs
 
@@ -472,27 +474,3 @@ class Samples:
                 share = max(share, float(np.nanmax(off)) / greatest)
         crank = self.machine.drawn * MM or self.machine.span * scale or 1.0
         return Errors(bound * scale, crank, share)
-
-
-def _plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> Pane:
-    return Pane(key, title, tuple(items), -PANEL / 2, PANEL / 2, plan_fitted.scales, finer=plan_fitted.finer)
-
-
-def _chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:
-    return Chart(", ".join(_told(report, curve.label) for curve in curves), plotted, curves)
-
-
-def _told(report: Report, shown: Content) -> str:
-    return shown if isinstance(shown, str) else formula(shown, report.assignment.language)
-
-
-def _value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:
-    how = KINDS[kind]
-    shown = values / how.scale
-    greatest = float(np.nanmax(np.abs(shown), initial=0.0))
-    decimals = min(max(significant_decimals(greatest, DIGITS), 0), MOST_DECIMALS)
-    return MomentValue(symbol, how.unit, Track(shown), decimals)
-
-
-def _scalar(symbol: Symbol) -> Symbol:
-    return Symbol(symbol.base, symbol.sub, symbol.sup)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.formula import PI, Expression, Number, Ref, Symbol, atan, call, circle_line, ids, sqrt, total
+from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
@@ -16,24 +16,23 @@ from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
 from reportgen.machine.analysis import Analysis, GasState, no_formulas
-from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.machine.true_motion import TrueMotion, true_motion
+from reportgen.plans.cycle import enter_flywheel
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
 from reportgen.plans.joint_friction import enter_friction, enter_friction_of_cycle
 from reportgen.plans.loads import Polygon
-from reportgen.plans.rests import with_rest
-from reportgen.plans.scales import DIAGRAM, fitting_axis, no_scales, own_scales
+from reportgen.plans.running import enter_running
+from reportgen.plans.scales import no_scales, own_scales
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""
-TERMS = 4
-"""More terms than these are no longer one line of a page."""
 
 
 @dataclass(frozen=True, slots=True)
 class PlannedLedger:
-    """What stands of an analysis: its ledger, the force plans that are laid out in it, and its flywheel if it has one.
+    """What stands of an analysis: its ledger, the force plans that are laid out in it, its flywheel and true motion.
 
     There is a plan for each group, the driver's is the last; none without loads.
     """
@@ -41,6 +40,7 @@ class PlannedLedger:
     ledger: Ledger
     polygons: tuple[Polygon, ...] = ()
     flywheel: flywheel.RegulatedCycle | None = None
+    true_motion: TrueMotion | None = None
 
 
 def write_ledger(
@@ -53,6 +53,7 @@ def write_ledger(
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
     regulated: flywheel.RegulatedCycle | None = None
+    moved: TrueMotion | None = None
     if analysis.loads:
         if analysis.with_friction is not None:
             enter_friction(q, analysis, analysis.with_friction, worked)
@@ -62,9 +63,12 @@ def write_ledger(
                 enter_friction_of_cycle(q, machine, machine.friction)
             if machine.unevenness is not None:
                 regulated = flywheel.flywheel(machine, machine.unevenness)
-                _flywheel(q, analysis, regulated)
+                enter_flywheel(q, analysis, regulated)
+            if machine.true_motion is not None:
+                moved = true_motion(machine, machine.true_motion, regulated)
+                enter_running(q, analysis, moved)
     ledger = Ledger(q.families, machine.positions, units=units or {}, same=ONE_QUANTITY, lines=q.lines)
-    return PlannedLedger(ledger, polygons, regulated)
+    return PlannedLedger(ledger, polygons, regulated, moved)
 
 
 def enter_plans(
@@ -229,111 +233,3 @@ def _cycle(q: Sheet, analysis: Analysis) -> None:
 def _without_dust(value: float, size: float) -> float:
     """A mean that is nothing beside what it is the mean of is 0."""
     return 0.0 if abs(value) < ZERO * size else value
-
-
-# --- the flywheel -----------------------------------------------------------------------------------
-
-
-def _flywheel(q: Sheet, analysis: Analysis, regulated: flywheel.RegulatedCycle) -> None:
-    """Enter the flywheel of a machine; δ is `unevenness`.
-
-    What is integrated over the cycle is what the trapezoid rule makes of the positions, and the rest of the integral.
-    Ids: `J.r` reduced inertia (only where a moving link has mass), `M.r` reduced torque, `A.excess` excess work,
-    `omega.of` the regulated speed at each position; `M.c` the constant torque, `omega.max`, `omega.min`, `A.upper`,
-    `A.lower`, and `J.d` the flywheel; what the energy–mass diagram is drawn with, and Mertsalov's `J.I` beside it.
-    """
-    machine = analysis.machine
-    at = np.searchsorted(regulated.angle, machine.cycle_angles - 1e-9)
-    inertia = _reduced(q, machine.linkage)
-    if inertia is not None:
-        J_r: Expression = q.define("J.r", inertia, Symbol("J", "tt"))
-    else:
-        J_r = Number(0.0)
-    largest, δ, ω1 = float(np.abs(regulated.torque).max()), q["unevenness"], q["omega.1"]
-    on_lever = [
-        q[ids.lever_moment(load.name)]
-        for load in (*analysis.weights, *analysis.applied)
-        if ids.lever_moment(load.name) in q
-    ]
-    ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
-    steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
-    torque = machine.turn * total(on_lever) if on_lever else Number(0.0)
-    M_r = with_rest(
-        q, "M.r", values=regulated.torque[at], by_rule=torque, symbol=Symbol("M", "tt"), kind="torque", scale=largest
-    )
-    with_rest(
-        q, "M.c", values=regulated.constant, by_rule=-call("level", M_r, steps), symbol="", kind="torque", scale=largest
-    )
-    most = float(np.abs(regulated.work).max())
-    A = with_rest(
-        q,
-        "A.excess",
-        values=regulated.work[at],
-        by_rule=call("excess", M_r, steps),
-        symbol="A",
-        kind="work",
-        scale=most,
-    )
-    most_energy, least_energy = (
-        A - q.define(ids.bound_of_speed(name), ω1 * share) ** 2 * J_r / 2
-        for name, share in (("max", 1 + δ / 2), ("min", 1 - δ / 2))
-    )
-    a = with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
-    b = with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
-    J_d = q.define("J.d", (a - b) / (δ * ω1**2))
-    if inertia is not None:
-        _energy_mass(q, regulated)
-    if inertia is not None and regulated.moment > 0:
-        _constant_group(q, regulated, machine.speed)
-    if regulated.moment > 0:
-        energy = q["omega.max"] ** 2 * J_d / 2 - a + A
-        with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
-
-
-def _energy_mass(q: Sheet, regulated: flywheel.RegulatedCycle) -> None:
-    """The scales of the energy–mass diagram and the inclinations of its tangents, tan ψ = μ_J ω²/(2 μ_A)."""
-    heights = np.append(regulated.work, (regulated.upper, regulated.lower, 0.0))
-    μ_J = q.give("mu.J", fitting_axis(float(regulated.inertia.max()), DIAGRAM[0]))
-    μ_A = q.give("mu.A", fitting_axis(float(np.ptp(heights)), DIAGRAM[1]))
-    for name in ("max", "min"):
-        q.define(ids.tangent(name), atan(μ_J * q[ids.bound_of_speed(name)] ** 2 / (2 * μ_A)))
-
-
-def _constant_group(q: Sheet, regulated: flywheel.RegulatedCycle, speed: float) -> None:
-    """Mertsalov's method: the energy of the group with constant inertia, that of the links taken at the mean speed.
-
-    T_I = A − J_r ω₁²/2 but for a constant, J_I = ΔT_I/(δ ω₁²).
-    """
-    energy = regulated.work - speed**2 / 2 * regulated.inertia
-    most, range_ = float(np.abs(energy).max()), float(np.ptp(energy))
-    T = q.define("T.I", q["A.excess"] - q["J.r"] * q["omega.1"] ** 2 / 2, scale=most)
-    ΔT = with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
-    J_I = q.define("J.I", ΔT / (q["unevenness"] * q["omega.1"] ** 2))
-    q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", residue=True)
-
-
-def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
-    """J_r = Σ m v_S²/ω₁² + J ω²/ω₁² over the links that move so; None where no link with mass moves.
-
-    Where that is too long for a line, each link's part of it is entered as `J.r.` and its number.
-    """
-    ω1 = q["omega.1"]
-    parts: dict[int, list[Expression]] = {}
-    for body in linkage.inertias:
-        link, centre, rotation = body.link, ids.velocity(body.centre), ids.angular_velocity(body.link)
-        own: list[Expression] = []
-        if body.mass > 0 and centre in q:
-            own.append(q[ids.mass(link)] * q[centre] ** 2)
-        if body.moment > 0 and rotation in q:
-            own.append(q[ids.inertia(link)] * q[rotation] ** 2)
-        if own:
-            parts[link] = own
-    terms = [term for own in parts.values() for term in own]
-    if not terms:
-        return None
-    if len(terms) <= TERMS or len(parts) == 1:
-        return total(terms) / ω1**2
-    each = [
-        q.define(ids.reduced_inertia(link), total(own) / ω1**2, Symbol("J", f"tt{link}")) for link, own in parts.items()
-    ]
-    return total(each)

@@ -65,7 +65,19 @@ class LineBreak:
     pass
 
 
-Inline = Text | Emph | Strong | InlineMath | Value | Reference | LineBreak
+@dataclass(frozen=True, slots=True)
+class Blank:
+    """A place to fill in, by the `name` of what belongs there and how it is `called` where a name holds less."""
+
+    name: str
+    called: str
+    title: str = ""
+
+
+DOTS = "……"
+"""What a blank shows."""
+
+Inline = Text | Emph | Strong | InlineMath | Value | Reference | LineBreak | Blank
 Inlines = tuple[Inline, ...]
 
 # --- blocks ---------------------------------------------------------------------------------------
@@ -245,7 +257,9 @@ class Words:
     contents: str
     page: str
     continued: str
-    """Stands behind the number of a table or figure that goes on from the page before."""
+    """Stands behind the number of a table or plate that goes on from the page before."""
+    part: str
+    """Which of several a part of a figure is, its later ones, on whatever page: part 2."""
     save: str
     """What the buttons below a figure do on a page."""
 
@@ -345,4 +359,6 @@ def plain(inlines: Inlines, language: Language) -> str:
                 result.append(quantity(number, language))
             case LineBreak():
                 result.append(" ")
+            case Blank():
+                result.append(DOTS)
     return "".join(result)

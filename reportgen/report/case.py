@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
     from reportgen.machine.flywheel import RegulatedCycle
+    from reportgen.machine.true_motion import TrueMotion
     from reportgen.plans import PlannedLedger
     from reportgen.plans.loads import Polygon
     from reportgen.report.shafts import Shaft
@@ -413,7 +414,8 @@ class MachineAnalysis(LoadedAssignment):
     @cached_property
     def entries(self) -> ResultEntries:
         """What holds at each of its positions."""
-        return entries_of(self.analysis)
+        asked = self.analysis.machine.true_motion
+        return entries_of(self.analysis, None if asked is None else self.true_motion)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -424,3 +426,8 @@ class MachineAnalysis(LoadedAssignment):
     def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
+
+    @property
+    def true_motion(self) -> TrueMotion | None:
+        """The motion under a drive, if the assignment asks for it."""
+        return self.written.true_motion

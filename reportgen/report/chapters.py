@@ -77,9 +77,8 @@ def has_chosen_scale(report: Report) -> bool:
 
 def tabled_forces(report: Report) -> tuple[Applied, ...]:
     """The working forces that are given by a table."""
-    springs = (name for row in report.own["springs"] for name in row.loads)
-    further = {*(row.id for row in report.own["declared"]), *springs}
-    return () if "P.given" in report.ledger else tuple(one for one in report.machine.applied if one.name not in further)
+    forces = (force for force in report.machine.applied if force.name not in report.further)
+    return () if "P.given" in report.ledger else tuple(forces)
 
 
 def diagram_words(report: Report) -> str:

@@ -11,12 +11,13 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.forces import ArmOf, Couple, Force
+from reportgen.drawing.forces import LEAST_ARM, ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
 from reportgen.drawing.forces import lever as lever_figure
+from reportgen.drawing.geometry import unit
 from reportgen.drawing.labels import label
 from reportgen.drawing.plan import plan
-from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
+from reportgen.drawing.style import CONSTRUCTION, PAPER, THIN, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force, percussion_points
@@ -25,7 +26,7 @@ from reportgen.report.figures import HALF, FigureScenes, beside_one_another, dra
 from reportgen.report.groups import BodyView, GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
-from reportgen.report.wide_sliders import at_ends
+from reportgen.report.wide_sliders import at_ends, ends_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,10 +47,23 @@ class _Bodies:
         """Where a point stands on paper (mm)."""
         return self.report.place(name, self.k) * self.scale
 
-    def scene(self, forces: Sequence[Force], **more: Any) -> Scene:
+    def scene(self, forces: Sequence[Force], extra: Canvas | None = None, **more: Any) -> Scene:
         report, look = self.report, looks(self.report, self.scale, self.share)
         machine, motion = report.machine.linkage, report.analysis.motion
-        return bodies_figure(machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, **more)
+        shown = self.faces() + (extra or Canvas())
+        return bodies_figure(
+            machine, motion, self.k - 1, self.scale, self.links, forces, looks=look, extra=shown, **more
+        )
+
+    def faces(self) -> Canvas:
+        """The faces of the links that are sliders as wide as is given, each with what holds it at its pin."""
+        items: list[Item] = []
+        for link in (link for link in self.links if link in self.report.machine.faces):
+            first, last = (place * self.scale for place in ends_of(self.report, link, self.k))
+            pin = complex(self.report.analysis.motion.origins[link].p[self.k - 1]) * self.scale
+            foot = complex(constructions.foot(pin, first, unit(last - first)))
+            items += [Line(first, last, VISIBLE), *([Line(pin, foot, THIN)] if abs(foot - pin) > LEAST_ARM else [])]
+        return Canvas(tuple(items))
 
     def loads(self) -> list[Force]:
         """Loads on the links; a force with a couple acts at the one point where it alone does both."""

@@ -405,3 +405,11 @@ VALUES: Mapping[str, Callable[[Report], object]] = {
     "friction_turning": turning_lines,
 }
 """What templates name of it without parentheses."""
+
+FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
+    "friction": ("fig.friction", scheme),
+    "friction-joints": ("fig.friction.joints", joints),
+    "friction-plan": ("fig.friction.R", force_plan_of_group),
+    "friction-driver": ("fig.friction.R.1", force_plan_of_driver),
+}
+"""Its figures, as `outline.FIGURES` has them."""

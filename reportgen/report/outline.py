@@ -8,7 +8,7 @@ their figure and table in tables of their own.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from itertools import chain
 from typing import Any
@@ -26,7 +26,6 @@ from reportgen.report import (
     Plate,
     Reference,
     Section,
-    Table,
     Text,
     chapters,
     comments,
@@ -36,7 +35,8 @@ from reportgen.report import (
     force_figures,
     phrases,
     plans,
-    result_tables,
+    running,
+    running_curves,
     tables,
     wide_sliders,
 )
@@ -48,6 +48,7 @@ from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
 from reportgen.report.groups import GroupView
 from reportgen.report.layout import contents
+from reportgen.report.named_tables import table
 from reportgen.report.numbering import finished
 from reportgen.report.report import Report
 from reportgen.report.used_symbols import used_symbols
@@ -94,6 +95,7 @@ PROPERTIES = (
     "has_flywheel",
     "has_force",
     "has_forces",
+    "has_own_load",
     "has_formulas",
     "has_gas",
     "has_turning_links",
@@ -167,6 +169,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "has_chosen_scale": chapters.has_chosen_scale,
     "plan_in_text": figures.plan_in_text,
     "shares_pins": chapters.shares_pins,
+    **running.VALUES,
 }
 """What functions make of a report."""
 
@@ -207,15 +210,13 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "polar": ("fig.polar", curves.polar),
     "torque": ("fig.M", curves.torque),
     "springs": ("fig.springs", curves.springs),
-    "friction": ("fig.friction", friction.scheme),
-    "friction-joints": ("fig.friction.joints", friction.joints),
-    "friction-plan": ("fig.friction.R", friction.force_plan_of_group),
-    "friction-driver": ("fig.friction.R.1", friction.force_plan_of_driver),
+    **friction.FIGURES,
     # the flywheel
     "flywheel-torque": ("fig.Mr", curves.flywheel_torque),
     "flywheel-work": ("fig.Jr", curves.flywheel_work),
     "flywheel-speed": ("fig.speed", curves.flywheel_speed),
     "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
+    **running_curves.FIGURES,
 }
 """What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
 
@@ -272,102 +273,6 @@ def plates_last(blocks: Iterable[Block], said: Callable[[Plate], Paragraph]) -> 
             plates.clear()
         yield block
     yield from plates
-
-
-# --- tables -----------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class QuantityTable:
-    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report."""
-
-    ids: Callable[[Report], Sequence[str]]
-    at: str = "positions"
-
-    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-        return tables.tables(report, key, caption, self.ids(report), getattr(report, self.at))
-
-
-@dataclass(frozen=True, slots=True)
-class RowTable:
-    """A table of the rows that a function gives, in columns of these widths (mm)."""
-
-    rows: Callable[..., Iterable[Sequence[object]]]
-    widths: tuple[float, ...]
-
-    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str], *shown: Any) -> Table:
-        return tables.list_table(report, key, caption, head, self.rows(report, *shown), self.widths)
-
-
-TABLES: Mapping[str, Callable[..., Any]] = {
-    # results at the front, symbols
-    "extremes": overview.extremes,
-    "main.figures": RowTable(overview.main_figures, (74.0, 22.0, 36.0, 28.0)),
-    "symbols": RowTable(overview.symbols, (40.0, 92.0, 28.0)),
-    # given data
-    "given": tables.given_data,
-    "indicator": tables.indicator,
-    "force": tables.working_force,
-    "gas.law": tables.gas_law,
-    "law": tables.load_law,
-    # the machine
-    "joints": RowTable(tables.joints, (20.0, 30.0, 40.0, 50.0)),
-    "lengths": tables.lengths,
-    "positions": result_tables.coordinates,
-    "dead": RowTable(result_tables.dead_centres, (20.0, 46.0, 44.0, 46.0)),
-    "labels": RowTable(result_tables.labels, (24.0, 50.0, 50.0)),
-    # a declared linkage
-    "frame": RowTable(tables.frame, (30.0, 50.0, 50.0)),
-    "groups": RowTable(tables.groups, (20.0, 20.0, 30.0, 85.0)),
-    "guides": RowTable(tables.guides, (20.0, 40.0, 32.0, 32.0, 30.0)),
-    "points": RowTable(tables.further_points, (18.0, 18.0, 28.0, 32.0, 32.0, 32.0)),
-    # motion
-    "omega": RowTable(result_tables.angular_velocities, (34.0, 40.0, 60.0)),
-    "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
-    "summary": RowTable(result_tables.summary, (46.0, 46.0, 46.0)),
-    "v.segments": QuantityTable(result_tables.velocity_segments),
-    "v": QuantityTable(result_tables.velocities),
-    "a.segments": QuantityTable(result_tables.acceleration_segments),
-    "a": QuantityTable(result_tables.accelerations),
-    # forces
-    "strokes": result_tables.strokes,
-    "gas": QuantityTable(result_tables.gas, "load_positions"),
-    "inertia": QuantityTable(result_tables.inertia, "all_positions"),
-    "R": QuantityTable(result_tables.reactions, "all_positions"),
-    "faces": RowTable(wide_sliders.rows, (20.0, 28.0, 28.0, 46.0, 28.0, 28.0)),
-    "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),
-    "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
-    "M": QuantityTable(result_tables.balance, "all_positions"),
-    "flywheel": result_tables.flywheel,
-    "friction": QuantityTable(friction.results, "all_positions"),
-    "friction.rounds": friction.rounds,
-    "friction.dead": RowTable(friction.dead_rows, (24.0, 48.0, 44.0, 44.0)),
-    "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
-}
-"""Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
-
-
-def table(report: Report, name: str, *arguments: Any, words: str = "") -> Any:
-    """A table with its words, or with others of `words.yaml`; one of a position k has k in its key and its caption.
-
-    A name that is not in `TABLES` is a table of the loads whose ids are given, or of other quantities at positions.
-    """
-    texts = report.words["tables"][words or name]
-    position = next((k for k in arguments if isinstance(k, Position)), None)
-    caption = texts["caption"] if position is None else texts["caption"].format(k=position)
-    key = ".".join(["tab", name, *(str(one) for one in arguments if isinstance(one, (Position, str)))])
-    return TABLES.get(name, _of_ids)(report, key, caption, texts.get("head", ()), *arguments)
-
-
-def _of_ids(
-    report: Report,
-    key: str,
-    caption: str,
-    head: Sequence[str],
-    ids: Sequence[str],
-    positions: Iterable[int] | None = None,
-) -> tuple[Table | Paragraph, ...]:
-    return tables.tables(report, key, caption, ids, positions or report.load_positions)
 
 
 # --- names with parentheses -------------------------------------------------------------------------
@@ -451,6 +356,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "slider_rates": comments.slider_rates,
     "top_reactions": comments.top_reactions,
     "work_range": comments.work_range,
+    **running.FUNCTIONS,
 }
 """Functions of a report and of what a template puts between the parentheses."""
 

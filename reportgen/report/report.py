@@ -273,7 +273,8 @@ class Report:
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
-        return {**declared, "unevenness": words["unevenness"]}
+        of_drive = {id: name for id, name in self.words["given_of_crank"].items() if id.startswith("run.")}
+        return {**declared, "unevenness": words["unevenness"], **of_drive}
 
     @property
     def mobility(self) -> Mobility:
@@ -345,9 +346,20 @@ class Report:
         return "synthesis" in self.machine.outline
 
     @property
+    def further(self) -> frozenset[str]:
+        """The loads that the file gives beside those of its kind: declared ones, springs."""
+        declared, springs = self.own.get("declared", ()), self.own.get("springs", ())
+        return frozenset((*(row.id for row in declared), *(name for row in springs for name in row.loads)))
+
+    @property
+    def has_own_load(self) -> bool:
+        """Whether a force or a torque of the kind acts, beside which others are further ones."""
+        return any(load.name not in self.further for load in self.loads)
+
+    @property
     def has_force(self) -> bool:
-        """Whether a working force acts, be it constant or not."""
-        return bool(self.machine.applied)
+        """Whether a working force of the kind acts, be it constant or not."""
+        return any(force.name not in self.further for force in self.machine.applied)
 
     @property
     def has_forces(self) -> bool:

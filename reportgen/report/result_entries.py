@@ -8,9 +8,10 @@ from typing import Any
 
 from reportgen.formula import ids
 from reportgen.machine import Crank
-from reportgen.machine.analysis import Analysis
+from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.forces import Load
 from reportgen.machine.joint_friction import FrictionForces
+from reportgen.machine.true_motion import TrueMotion, at_positions, at_true_speeds
 
 Entries = Mapping[str, Any]
 """Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""
@@ -24,10 +25,83 @@ class ResultEntries:
     besides: Entries = field(default_factory=dict)
 
 
-def entries_of(analysis: Analysis) -> ResultEntries:
-    """The entries of a machine."""
+def entries_of(analysis: Analysis, motion: TrueMotion | None = None) -> ResultEntries:
+    """The entries of a machine, with its true motion if that is asked for."""
     signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
-    return ResultEntries([_position(analysis, k) for k in range(len(analysis.cycle_angle))], {"dyad_signs": signs})
+    positions = [_position(analysis, k) for k in range(len(analysis.cycle_angle))]
+    if motion is None:
+        return ResultEntries(positions, {"dyad_signs": signs})
+    moved = true_motion_entries(analysis, motion)
+    return ResultEntries(
+        [None if entry is None else {**entry, "true_motion": of} for entry, of in zip(positions, moved, strict=True)],
+        {"dyad_signs": signs, "true_motion": true_motion_summary(analysis.machine, motion)},
+    )
+
+
+STATES = {"": "alone", "wheel": "with_flywheel"}
+
+
+def true_motion_entries(analysis: Analysis, motion: TrueMotion) -> list[Entries]:
+    """What holds at each position of the steady motion, by itself and with the flywheel; its reactions if asked for."""
+    machine = analysis.machine
+    at = {state: at_positions(machine, steady) for state, steady in motion.states.items()}
+    true = at_true_speeds(analysis, motion.states[motion.shown]) if motion.asked.forces else None
+    alone = motion.alone.run
+    return [
+        {
+            "reduced_inertia": alone.inertia[at[""][k]] - motion.asked.inertia,
+            "inertia_slope": alone.slope[at[""][k]],
+            "reduced_torque": alone.torque[at[""][k]],
+            **{
+                STATES[state]: {
+                    "drive": steady.run.drive[at[state][k]],
+                    "energy": steady.run.energy[at[state][k]],
+                    "omega": steady.run.speed[at[state][k]],
+                    "epsilon": steady.run.acceleration[at[state][k]],
+                    "time": steady.run.time[at[state][k]],
+                }
+                for state, steady in motion.states.items()
+            },
+            **({} if true is None else {"reactions": _reactions(true, k)}),
+        }
+        for k in range(machine.positions)
+    ]
+
+
+def _reactions(analysis: Analysis, k: int) -> Entries:
+    return {name: reaction.force[k] for name, reaction in analysis.forces.reactions.items()}
+
+
+def true_motion_summary(machine: Machine, motion: TrueMotion) -> Entries:
+    """What the cycle comes to, start and stop, the choice of a motor."""
+    entries: dict[str, Any] = {
+        STATES[state]: {
+            "fastest": {"omega": steady.fastest.speed, "cycle_angle": steady.fastest.angle},
+            "slowest": {"omega": steady.slowest.speed, "cycle_angle": steady.slowest.angle},
+            "mean": steady.mean,
+            "unevenness": steady.unevenness,
+            "period": steady.period,
+            "work": steady.work,
+            "power": steady.power,
+        }
+        for state, steady in motion.states.items()
+    }
+    if motion.started is not None:
+        run, cycles = motion.started.run, len(motion.started.ends)
+        entries["start"] = {"time": run.time[-1], "angle": run.angle[-1] - run.angle[0], "cycles": cycles}
+    if motion.stopped is not None:
+        run = motion.stopped
+        entries["stop"] = {"time": run.time[-1], "angle": run.angle[-1] - run.angle[0]}
+    if motors := motion.motors(machine):
+        demand = motion.demand(machine)
+        entries["motor"] = {
+            "chosen": next((each.motor.name for each in motors if each.fits), None),
+            "mean": demand.mean,
+            "effective": demand.effective,
+            "greatest": demand.most,
+            "resistance": demand.resistance,
+        }
+    return entries
 
 
 def _position(analysis: Analysis, k: int) -> Entries | None:

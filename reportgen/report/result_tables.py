@@ -13,7 +13,18 @@ from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
 from reportgen.plans.sides import Side, image
-from reportgen.report import FIRST_COLUMN, TEXT_WIDTH, Column, InlineMath, Inlines, Paragraph, Table, Text, Value
+from reportgen.report import (
+    FIRST_COLUMN,
+    TEXT_WIDTH,
+    Column,
+    InlineMath,
+    Inlines,
+    Paragraph,
+    Table,
+    Text,
+    Value,
+    running,
+)
 from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
 from reportgen.report.report import Report
@@ -286,7 +297,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
         largest["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
         if analysis.machine.cyclic:
             largest["energy"] = (analysis.summary.energy_error, "")
-    return largest
+    return largest | running.residuals(report)
 
 
 def _closure(report: Report) -> float:

@@ -76,17 +76,24 @@ def rows(report: Report, digits: str) -> Iterator[Sequence[object]]:
         yield str(k), *shown, words["tilts" if tilting else "within"], *at_ends
 
 
+def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
+    """Where the face of a slider begins and ends (m)."""
+    faces, motion = report.machine.faces[link], report.analysis.motion
+    along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
+    first, last = (x - 1j * faces.below for x in (faces.first, faces.last))
+    pin = complex(motion.origins[link].p[k - 1])
+    return pin + first * along, pin + last * along
+
+
 def at_ends(report: Report, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:
     """The reactions at both ends of a slider that tilts: vector, place (m), direction, id."""
     if link not in report.machine.faces or not tilts(report, digits, k):
         return []
-    faces, motion = report.machine.faces[link], report.analysis.motion
-    along = complex(motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
-    pin = complex(motion.origins[link].p[k - 1])
+    along = complex(report.analysis.motion.slides[carriers(report.machine.linkage)[link], link].direction[k - 1])
     found = []
-    for number, x in enumerate((faces.first, faces.last), 1):
+    for number, place in enumerate(ends_of(report, link, k), 1):
         id = ids.face_reaction(digits, number)
         size = float(np.real(report.ledger[id].at(k)))
         shown = vocabulary.vector(report.ledger.symbol(id))
-        found.append((shown, pin + (x - 1j * faces.below) * along, size * 1j * along, id))
+        found.append((shown, place, size * 1j * along, id))
     return found

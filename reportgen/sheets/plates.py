@@ -23,7 +23,7 @@ from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves, running_curves
 from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
@@ -317,6 +317,13 @@ def _flywheel_speed(sources: Sources) -> Iterator[Drawn]:
         yield Drawn("flywheel-speed", "curves", curves.flywheel_speed(sources.small).scenes)
 
 
+def _true_motion(sources: Sources) -> Iterator[Drawn]:
+    if sources.report.case.true_motion is not None:
+        yield Drawn("run", "curves", tuple(running_curves.sheet(sources.small)))
+        if sources.report.case.true_motion.drive.governs:
+            yield Drawn("run-characteristic", "curves", running_curves.characteristic(sources.small).scenes)
+
+
 def _velocity_table(sources: Sources) -> Iterator[Drawn]:
     yield from _table(sources, "velocities", (velocity_segments, velocities))
 
@@ -443,6 +450,7 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
             _flywheel,
             _flywheel_speed,
         ),
+        _true_motion,
         *(_reaction_table, _load_table),
     ),
 }

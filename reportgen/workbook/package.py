@@ -1,4 +1,4 @@
-"""The zip package of an XLSX file, judged before openpyxl sees any of it.
+"""The zip package of an XLSX or a Word file, judged before anything else sees any of it.
 
 Refused are packages that are encrypted, that hold macros or links to other files, that unpack to more than
 they should, and parts of XML with a document type, which alone can declare entities.  `measure` refuses parts
@@ -51,6 +51,15 @@ _LINKS = re.compile(r"(^|/)externallinks/|(^|/)connections\.xml$", re.IGNORECASE
 _FORBIDDEN_TYPES = re.compile(r"macroenabled|vbaproject|intlmacrosheet", re.IGNORECASE)
 _TRAITS = re.compile(r"\.(xml|rels|vml)$", re.IGNORECASE)
 
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """What a package may hold: bytes of all its parts together, and the kinds of relations that may lead outside."""
+
+    unpacked: int = MOST_UNPACKED
+    links: frozenset[str] = frozenset({"hyperlink"})
+
+
 Attributes = dict[str, str]
 Start = Callable[[str, Attributes], None]
 
@@ -67,9 +76,10 @@ class Relation:
 class Package:
     """An opened package whose directory has been found harmless; parts are read on demand, within limits."""
 
-    def __init__(self, data: bytes, file: str) -> None:
+    def __init__(self, data: bytes, file: str, bounds: Bounds | None = None) -> None:
         """Raises `RefusedError`."""
         self.mark = Mark(file)
+        self.bounds = bounds or Bounds()
         if data.startswith(_OLD):
             raise self.refused("sheet-encrypted" if _ENCRYPTED in data else "sheet-old")
         try:
@@ -92,11 +102,15 @@ class Package:
         """Of all parts."""
         return list(self._parts)
 
+    def size(self, name: str) -> int:
+        """Bytes of a part, unpacked."""
+        return self._parts[name].file_size
+
     def refused(self, code: str, **arguments: str) -> RefusedError:
         return RefusedError(code, self.mark, **arguments)
 
     def bomb(self) -> RefusedError:
-        return self.refused("sheet-bomb", largest=str(MOST_UNPACKED // 1_000_000))
+        return self.refused("sheet-bomb", largest=str(self.bounds.unpacked // 1_000_000))
 
     def _judge(self, size: int) -> None:
         """What the directory of the zip shows."""
@@ -109,7 +123,7 @@ class Package:
             end > starts[min(bisect_right(starts, info.header_offset), len(infos))]
             for end, info in zip(ends, infos, strict=True)
         )
-        if len(infos) > MOST_PARTS or unpacked > MOST_UNPACKED or shared:
+        if len(infos) > MOST_PARTS or unpacked > self.bounds.unpacked or shared:
             raise self.bomb()
         for info in infos:
             if info.file_size > SMALL and info.file_size > MOST_RATIO * max(info.compress_size, 1):
@@ -128,14 +142,14 @@ class Package:
             raise self.refused("sheet-links")
 
     def _judge_contents(self) -> None:
-        """What the list of types and the relations show; a hyperlink is the one link that leads outside."""
+        """What the list of types and the relations show; as a rule a hyperlink is the one link that leads outside."""
         for _, attributes in self.elements(CONTENT_TYPES):
             if _FORBIDDEN_TYPES.search(attributes.get("ContentType", "")):
                 raise self.refused("sheet-macros")
         for name in self._parts:
             if name.lower().endswith(".rels"):
                 for relation in self.relations(name).values():
-                    if relation.external and relation.kind != "hyperlink":
+                    if relation.external and relation.kind not in self.bounds.links:
                         raise self.refused("sheet-links")
 
     def relations(self, name: str) -> dict[str, Relation]:

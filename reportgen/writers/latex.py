@@ -236,6 +236,8 @@ class _Writer:
                 return rf"\link{{{place}}}{{{escape(text)}}}" if place else escape(text)
             case tree.LineBreak():
                 return r"\newline "
+            case tree.Blank():
+                return r"\dots\dots{}"
 
     def paragraph(self, source: str, align: str) -> str:
         if not align:
@@ -327,9 +329,11 @@ class _Writer:
         label = f"{word} {block.number}".strip() + ("." if block.caption else "")
         return _command("captiontext", place, escape(label), self.inlines(block.caption))
 
-    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
-        """The caption of what goes on from the page before."""
-        return _command("captiontext", "", escape(f"{word} {block.number} ({self.document.words.continued})"), "")
+    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate, part: int = 0) -> str:
+        """The caption of what goes on from the page before, or of a later part."""
+        words = self.document.words
+        where = words.part.format(part=part) if part else words.continued
+        return _command("captiontext", "", escape(f"{word} {block.number} ({where})"), "")
 
     def figure(self, figure: tree.Figure) -> str:
         """Its rows with the caption below, on as many pages as they need."""
@@ -340,7 +344,7 @@ class _Writer:
         word = self.document.words.figure
         first, *others = layout.in_parts(figure)
         place = "herescenes" if figure.here else "scenes"
-        further = (self.rows(rows, self.again(word, figure), place) for rows in others)
+        further = (self.rows(rows, self.again(word, figure, part), place) for part, rows in enumerate(others, 2))
         return "\n".join((self.rows(first, self.caption(word, figure), place), *further))
 
     def rows(self, rows: Sequence[Sequence[Scene]], caption: str, place: str = "scenes") -> str:

@@ -155,10 +155,11 @@ class _Blocks:
                 if turned:
                     return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
                 first, *others = layout.in_parts(block)
-                again = f"{self.again(self.words.figure, block)},[]"
                 place = "#standing" if block.here else "#W"
                 figures = [f"{place}({literal(key)},{label},\n{self.rows(first)})"]
-                figures += (f'{place}("",{again},\n{self.rows(rows)})' for rows in others)
+                for part, rows in enumerate(others, 2):
+                    again = literal(f"{self.words.figure} {block.number} ({self.words.part.format(part=part)})")
+                    figures.append(f'{place}("",{again},[],\n{self.rows(rows)})')
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
                 again = f"{self.again(self.words.figure, block)},[]"
@@ -206,6 +207,8 @@ class _Blocks:
                 return f"#link(label({literal(key)}),{literal(text)})"
             case tree.LineBreak():
                 return "#linebreak()"
+            case tree.Blank():
+                return f"#{literal(tree.DOTS)}"
 
     def formula(self, expression: Expression, slashed: bool = False) -> str:
         """A formula in a line, which may break before a second "=" and between the terms of a sum only."""
@@ -340,7 +343,7 @@ class _Blocks:
         """The two arguments of a caption: its label, and what it says."""
         return f"{literal(f'{word} {block.number}'.strip())},{self.content(block.caption)}"
 
-    def again(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
+    def again(self, word: str, block: tree.Table | tree.Plate) -> str:
         """The label of what goes on from the page before."""
         return literal(f"{word} {block.number} ({self.words.continued})")
 

@@ -29,6 +29,7 @@ from reportgen.writers.word_elements import (
     RULED,
     Own,
     PageSetup,
+    control,
     drawing,
     field,
     paragraph,
@@ -213,7 +214,9 @@ class _Blocks:
                 return self.figure(block)
             case tree.Plate(scene, continues=continues):
                 self._figure = self._figure if continues else block.key
-                caption = self.again(block) if continues else self.caption(self.words.figure, block)
+                caption = (
+                    self.again(block, self.words.continued) if continues else self.caption(self.words.figure, block)
+                )
                 return self.row([scene], block) + paragraph("Caption", caption)
             case tree.Cover():
                 return self.cover(block)
@@ -328,6 +331,8 @@ class _Blocks:
                 return field(f"REF {place.bookmark}{place.shown} {LINKED}", text, look) if place else run(text, look)
             case tree.LineBreak():
                 return BREAK
+            case tree.Blank():
+                return self.bookmarked(inline.called, control(inline.name, inline.title, tree.DOTS))
 
     def counted(self, name: str, number: str, key: str, look: str = "", around: str = "%s") -> str:
         """The number of a caption or an equation as fields, marked for references to `key`."""
@@ -350,11 +355,11 @@ class _Blocks:
         stop = run(". " if block.caption else "", BOLD)
         return run(f"{word} ", BOLD) + number + stop + self.inlines(block.caption)
 
-    def again(self, block: tree.Figure | tree.Plate) -> str:
-        """The caption of what goes on from the page before."""
+    def again(self, block: tree.Figure | tree.Plate, where: str) -> str:
+        """The caption of what goes on from the page before, or of a later part."""
         place = self.places.get(self._figure)
         number = field(f"REF {place.bookmark} {LINKED}", block.number, BOLD) if place else run(block.number, BOLD)
-        return run(f"{self.words.figure} ", BOLD) + number + run(f" ({self.words.continued})", BOLD)
+        return run(f"{self.words.figure} ", BOLD) + number + run(f" ({where})", BOLD)
 
     # --- tables -----------------------------------------------------------------------------------
 
@@ -392,8 +397,9 @@ class _Blocks:
         """Its rows with the caption below; where it has several parts, the later ones go on."""
         self._figure = figure.key
         written = []
-        for index, part in enumerate(layout.in_parts(figure)):
-            caption = self.again(figure) if index else self.caption(self.words.figure, figure)
+        for index, part in enumerate(layout.in_parts(figure), 1):
+            where = self.words.part.format(part=index)
+            caption = self.again(figure, where) if index > 1 else self.caption(self.words.figure, figure)
             written += [self.row(row, figure) for row in part]
             written.append(paragraph("Caption", caption))
         return "".join(written)

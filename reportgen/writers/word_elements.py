@@ -174,3 +174,10 @@ def rule(side: str, width: int) -> str:
     """A rule at a side of a table or a cell; without `width` there is none."""
     kind = "single" if width else "nil"
     return f'<w:{side} w:val="{kind}" w:sz="{width}" w:space="0" w:color="auto"/>'
+
+
+def control(tag: str, title: str, shown: str) -> str:
+    """A content control of plain text in a line, empty: what it shows goes with the first letter that is typed."""
+    about = f'<w:alias w:val="{escape(title)}"/><w:tag w:val="{escape(tag)}"/><w:showingPlcHdr/><w:text/>'
+    content = run(shown, '<w:color w:val="808080"/>')
+    return f"<w:sdt><w:sdtPr>{about}</w:sdtPr><w:sdtContent>{content}</w:sdtContent></w:sdt>"

@@ -6,7 +6,6 @@ import contextlib
 import copy
 import datetime
 import math
-import re
 import subprocess
 import sys
 import tempfile
@@ -19,9 +18,8 @@ import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from reportgen import api, catalogue
+from reportgen import catalogue
 from reportgen.assignment import Assignment
-from reportgen.base.kinds import kinds
 from reportgen.base.units import PLAIN, QuantityFault, read_quantity, read_ratio, scale_by_pint
 from reportgen.catalogue import check, engine_twin, load, sample
 
@@ -172,26 +170,6 @@ def test_new_file_is_in_order(tmp_path: Path, language: str) -> None:
     file.write_text(sample("engine-twin", "en" if language == "en" else "vi"), encoding="utf-8")
     assert check(file) == []
     assert load(file).language == language
-
-
-CRANKS = sorted(name for name in kinds() if "# plane: horizontal" in sample(name, "en"))
-REMARKED = re.compile(r"^  # (?=(at|loads|springs|faces|friction|epsilon1): )", re.MULTILINE)
-EVENLY = re.compile(r"^  (count|direction|worked_positions): .*\n", re.MULTILINE)
-
-
-@pytest.mark.parametrize("kind", CRANKS)
-def test_what_a_new_file_only_remarks_is_in_order_too(tmp_path: Path, kind: str) -> None:
-    """At a single instant, with an accelerated crank, further loads, springs, wide sliders and friction."""
-    file = tmp_path / "new.yaml"
-    text = sample(kind, "en")
-    assert {"at", "springs"} <= {found[1] for found in REMARKED.finditer(text)}
-    file.write_text(EVENLY.sub("", REMARKED.sub("  ", text)), encoding="utf-8")
-    assert check(file) == []
-    made = api.analyse(load(file)).machine
-    assert made.instants
-    assert made.facts["springs"]
-    assert len(made.faces) == ("# faces" in text)
-    assert made.friction is not None
 
 
 def _as_an_editor_sees(text: str) -> object:

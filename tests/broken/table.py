@@ -219,6 +219,65 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("unevenness in words", {"e: 40 mm": "…\n  flywheel: {delta: small}"}, "6:21 not-a-number"),
         ("unevenness of 40", {"e: 40 mm": "…\n  flywheel: {delta: 40}"}, "6:21 out-of-range"),
         ("flywheel of nothing", {"e: 40 mm": "…\n  flywheel: {}"}, "6:3 missing-key"),
+        (
+            "motion without inertia",
+            {"  G2: 40 N\n": "  m3: 2 kg\n  motion: {drive: {constant: find}}\n"},
+            "8:3 motion-no-inertia",
+        ),
+        ("half a drive", {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 90 N m}}"}, "7:19 missing-key", "k"),
+        ("no drive", {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {}}"}, "7:19 missing-key"),
+        (
+            "two drives",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 90 N m, k: 1 N m s, constant: find}}"},
+            "7:44 both-given",
+        ),
+        (
+            "a drive of no name",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {constant: found}, steady: false}"},
+            "7:30 not-a-number, 7:46 choice",
+        ),
+        (
+            "a drive that turns back",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {table: {n: [0 rpm, 9 rpm, 5 rpm], M: [1 N m, 1 N m]}}}"},
+            "7:46 not-increasing, 7:57 row-length",
+        ),
+        (
+            "a machine that runs away",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {constant: 500 N m}}"},
+            "7:12 motion-runs-away",
+            "500 N·m",
+        ),
+        (
+            "a machine that runs down",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 0.001 N m, k: 1 N m s}}"},
+            "7:12 motion-runs-down",
+        ),
+        (
+            "a machine that stalls",
+            {
+                "inward: [0, 1, 2]": "inward: [0, 2000, 0]",
+                "outward: [0, 0, 0]": "…\n  J1: 0.1 kg m2\n"
+                "  motion: {drive: {kloss: {Mk: 60 N m, sk: 0.2, n0: 90 rpm}}}",
+            },
+            "15:12 motion-stalls",
+            "is missing there",
+        ),
+        (
+            "a machine that does not start",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {M0: 2 N m, k: 0.01 N m s}, start: {from: 0 deg}}"},
+            "7:47 motion-does-not-start",
+            "it would start from",
+        ),
+        (
+            "a machine that does not stop",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  motion: {drive: {constant: find}, stop: {brake: 0.0001 N m}}"},
+            "7:37 motion-does-not-stop",
+        ),
+        (
+            "motion and an acceleration",
+            {"e: 40 mm": "…\n  J1: 2 kg m2\n  epsilon1: 2 rad/s2\n  motion: {drive: {constant: find}}"},
+            "8:3 motion-without-turn",
+        ),
     ],
     "four-bar": [
         ("no speed", {"  omega1: 20 rad/s\n": ""}, "3:1 missing-key"),
@@ -445,6 +504,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "with link 1 at 120 mm",
         ),
         ("flywheel", {"parameters:\n": "parameters:\n  flywheel: {delta: 1/50}\n"}, "5:3 flywheel-of-slide"),
+        ("motion", {"parameters:\n": "parameters:\n  motion: {drive: {constant: find}}\n"}, "5:3 motion-of-slide"),
     ],
     "dyad": [
         # The pin comes as near to D as the slot's offset: |AD| − |AB| = 100 − 40 = 60, the crank along AD.

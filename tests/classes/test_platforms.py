@@ -108,7 +108,7 @@ def test_moodles_download_is_marked_and_given_back_under_its_names(
     packed: bool, assignments: Path, tmp_path: Path
 ) -> None:
     members = moodle({AN: "4711", ANH: "4712", BAO: "4713"})
-    members["Vũ Hà_4714_assignsubmission_file/bai.docx"] = b"text"
+    members["Vũ Hà_4714_assignsubmission_file/bai.txt"] = b"text"
     download = archive(tmp_path / "download.zip", members)
     if not packed:
         zipfile.ZipFile(download).extractall(tmp_path / "unpacked")
@@ -117,7 +117,7 @@ def test_moodles_download_is_marked_and_given_back_under_its_names(
     assert {id: owner.number for id, owner in result.owners.items()} == {AN: "4711", ANH: "4712", BAO: "4713"}
     # Whoever handed in no sheet is told, by the place of what there is.
     assert [problem.code for problem in result.problems] == ["download-no-sheet"]
-    assert result.problems[0].mark.file.endswith("Vũ Hà_4714_assignsubmission_file/bai.docx")
+    assert result.problems[0].mark.file.endswith("Vũ Hà_4714_assignsubmission_file/bai.txt")
     files = dict(outcome.files_of(result, Policy(), "typst", None))
     with zipfile.ZipFile(io.BytesIO(files[Path("feedback.zip")])) as back:
         names = back.namelist()

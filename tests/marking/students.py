@@ -40,6 +40,12 @@ OF_FURTHER_KEYS = {
 }
 """The mistakes with what few files give: an acceleration of the driving link, springs, friction."""
 
+OF_TRUE_MOTION = {
+    *("half-forgotten", "slope-left-out", "speed-not-squared", "half-of-slope", "load-sign"),
+    *("motor-constant", "two-pi-forgotten", "bounds-of-table"),
+}
+"""Those of the motion under a drive."""
+
 NAMES = {
     "stroke-for-radius",
     "ratio-inverted",

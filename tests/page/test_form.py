@@ -8,9 +8,7 @@ import inspect
 import json
 import os
 import re
-import sys
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from functools import partial
@@ -34,7 +32,6 @@ from reportgen.page import editing, html
 from reportgen.page.choosing import Chooser
 from reportgen.page.editing import EditSession, RefusedChangeError
 from reportgen.page.fields import FieldGroup, FieldLine, Form
-from reportgen.page.making import Maker
 from reportgen.page.serving import Server
 
 SHAPER = catalogue.sample("shaper", "en")
@@ -344,47 +341,6 @@ def test_no_page_leads_to_a_part_outside_the_folder(tmp_path: Path) -> None:
         own.symlink_to(tmp_path / "cam.yaml")
         assert whole.below(page) is None
         assert "part/" not in whole.form()
-
-
-# --- what is made -------------------------------------------------------------------------------------
-
-
-def maker(folder: Path, script: str) -> tuple[Maker, list[Any]]:
-    heard: list[Any] = []
-    command = (sys.executable, "-c", script, str(folder / "report.pdf"))
-    return Maker({"pdf": command}, heard.append), heard
-
-
-def made(maker: Maker, heard: list[Any]) -> Any:
-    assert maker.make("pdf")
-    assert not maker.make("pdf"), "one at a time"
-    end = time.monotonic() + 20
-    while len(heard) < 2 and time.monotonic() < end:
-        time.sleep(0.01)
-    assert heard[0] == {"product": "pdf", "state": "running"}
-    return heard[1]
-
-
-def test_what_is_made_is_told_with_its_files(tmp_path: Path) -> None:
-    script = "import sys; open(sys.argv[1], 'w').write('%PDF-'); print(sys.argv[1]); sys.stdout.flush()"
-    writer, heard = maker(tmp_path, script + "; import time; time.sleep(0.2)")
-    assert made(writer, heard)["files"] == [["report.pdf", str(tmp_path / "report.pdf")]]
-    assert writer.files == {"report.pdf": tmp_path / "report.pdf"}
-
-
-def test_what_cannot_be_made_is_told(tmp_path: Path) -> None:
-    said = made(*maker(tmp_path, "import sys; print('given.yaml:1:1: error', file=sys.stderr); sys.exit(1)"))
-    assert (said["state"], said["complaint"], said["files"]) == ("failed", "given.yaml:1:1: error", [])
-
-
-def test_what_is_being_made_can_be_cancelled(tmp_path: Path) -> None:
-    slow, heard = maker(tmp_path, "import time; time.sleep(60)")
-    threading.Timer(0.2, slow.end).start()
-    assert made(slow, heard)["state"] == "ended"
-    slow.close()
-    assert not slow.make("pdf")
-    with pytest.raises(KeyError):
-        slow.make("other")
 
 
 # --- what is chosen -----------------------------------------------------------------------------------

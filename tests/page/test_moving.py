@@ -5,11 +5,15 @@ from __future__ import annotations
 import random
 import time
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import reportgen
+from reportgen import api
 from reportgen.drawing.plan import Construction, Plan
+from reportgen.page import page as page_of
 from reportgen.report.plans import POLE, force_construction, motion_construction
 from tests.lanes import proof
 from tests.page.browser import Browser
@@ -48,6 +52,33 @@ def vectors(pane: dict[str, list[list[float]]]) -> dict[str, list[tuple[complex,
         name: [(complex(x1, -y1), complex(x2, -y2)) for x1, y1, x2, y2 in ends]
         for name, ends in pane["vectors"].items()
     }
+
+
+INSTANTS = """
+kind: four-bar
+report: {language: en, extent: short}
+positions: {at: [50 deg, 110 deg, 200 deg]}
+parameters:
+  {AB: 120 mm, BC: 350 mm, CD: 300 mm, AD: 400 mm, omega1: 12 rad/s, epsilon1: 60 rad/s2, m2: 5 kg,
+   springs: [{link: 3, at: C, to: [300 mm, 420 mm], c: 4 N/mm, free: 90 mm}]}
+"""
+STEP = """
+document.getElementById("angle").dispatchEvent(new KeyboardEvent("keydown", { key: arguments[0], bubbles: true }));
+return document.getElementById("told").textContent;
+"""
+
+
+def test_single_instants_are_stepped_from_one_to_the_next(tmp_path: Path, browser: Browser) -> None:
+    """There is nothing between them: a key steps on, and any other angle is the nearest of them."""
+    case, file = reportgen.open(INSTANTS).case, tmp_path / "report.html"
+    file.write_text(page_of(case, api.document(case.assignment)), encoding="utf-8")
+    browser.show(file)
+    browser.run("if (moving.playing()) document.getElementById('play').click(); moving.seek(0)")
+    told = [browser.run(STEP, key) for key in ("ArrowRight", "ArrowRight", "ArrowLeft")]
+    assert told == ["II: 110°", "III: 200°", "II: 110°"]
+    browser.run("moving.seek(10)")
+    assert browser.run("return document.getElementById('told').textContent") == "I: 50°"
+    assert browser.messages() == []
 
 
 def test_it_opens_in_silence_asks_for_nothing_and_plays(page: Made, browser: Browser) -> None:

@@ -17,7 +17,7 @@ from tests.report.test_report_agreement import EXEMPT, compared, prose
 
 pytest.importorskip("pymupdf")
 
-PART = re.compile(r"(?:Figure|Hình)[\d.]+\((?:continued|tiếptheo)\)")
+PART = re.compile(r"(?:Figure|Hình)[\d.]+\((?:continued|tiếptheo|part\d|phần\d)\)")
 PRINTED = matrix(
     [pytest.param((path, language), id=f"{path.stem}-{language}") for path, language in built.PRINTED],
     telling=built.BY_BOTH,

@@ -38,6 +38,9 @@ def _on(linkage: Linkage, link: int, name: str) -> complex:
     owner, local = locals_of(linkage)[name]
     if owner == link:
         return local
+    if link == 1:
+        # The crank's own axis, a point of the ground.
+        return 0j
     dyad = next(dyad for dyad in linkage.dyads if link in dyad.links)
     return complex(dyad.lengths[1]) if name == dyad.middle else 0j
 

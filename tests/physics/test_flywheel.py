@@ -17,9 +17,10 @@ from reportgen.cases import open_case
 from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
-from reportgen.machine.flywheel import RegulatedCycle, flywheel, reduced_inertia, regulate
+from reportgen.machine.flywheel import RegulatedCycle, flywheel, regulate
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
+from reportgen.machine.reduction import reduced_inertia
 from reportgen.plans import write_ledger
 from reportgen.report.curves import wittenbauer
 from reportgen.report.report import Report

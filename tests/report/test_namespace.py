@@ -31,6 +31,8 @@ OTHERS = {
     "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
     "gears/train-motor.yaml": {"planetary-train.md"},
     "friction/belt.yaml": {"friction.md"},
+    "rotor/rotor-two-planes.yaml": {"rotor.md"},
+    "engine-balance/v-six.yaml": {"engine-balance.md"},
 }
 """The files of words of each kind of work that is no machine, by one of its assignments."""
 Sections = Mapping[tuple[Path, str], nodes.Template]

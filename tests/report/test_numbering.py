@@ -30,7 +30,7 @@ from reportgen.report.numbering import number, unreferenced
 
 X = Symbol("x")
 SCENE = Scene(10, 10)
-WORDS = Words("Figure", "Table", "Contents", "page", "continued", "Save figure")
+WORDS = Words("Figure", "Table", "Contents", "page", "continued", "part {part}", "Save figure")
 
 
 def document(*blocks: Block) -> Document:

@@ -72,7 +72,7 @@ def of(written: Written) -> WordFile:
     return word_file(written.case.assignment.source, written.language)
 
 
-CONTINUED = re.compile(r"^\S+ [\d.]+ \((tiếp theo|continued)\)$")
+CONTINUED = re.compile(r"^\S+ [\d.]+ \((tiếp theo|continued|part \d|phần \d)\)$")
 
 
 def said(file: WordFile) -> str:

@@ -342,7 +342,13 @@ def sample() -> Document:
         header=("Bài tập lớn", "Đặng Thị Ẩn – A_B"),
         footer=("", "Trang"),
         words=Words(
-            figure="Hình", table="Bảng", contents="Mục lục", page="Trang", continued="tiếp theo", save="Lưu hình"
+            figure="Hình",
+            table="Bảng",
+            contents="Mục lục",
+            page="Trang",
+            continued="tiếp theo",
+            part="phần {part}",
+            save="Lưu hình",
         ),
         blocks=blocks(),
     )

@@ -32,7 +32,7 @@ def test_the_first_equality_of_a_line_is_not_broken() -> None:
     source = LatexFormulas("en").content(PLACE)
     assert source.count(r"=\nobreak") == 1
     assert source.count(r"\relbreak=") == 1
-    blocks = _Blocks("en", Words("Figure", "Table", "Contents", "Page", "continued", "Save figure"))
+    blocks = _Blocks("en", Words("Figure", "Table", "Contents", "Page", "continued", "part {part}", "Save figure"))
     first, second = blocks.formula(PLACE).split(" #box")
     assert "=" in first
     assert second.startswith("($= ")

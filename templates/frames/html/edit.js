@@ -352,7 +352,7 @@
   const tell = (making) => {
     const told = document.getElementById("making");
     if (!making) return;
-    told.textContent = `${words.products[making.product]}: ${words.states[making.state]} `;
+    told.textContent = `${words.products[making.product]}: ${words.states[making.state]} ${making.step ? words.steps[making.step] : ""} `;
     for (const [name, path] of making.files || []) {
       const link = document.createElement("a");
       link.href = `made/${encodeURIComponent(name)}`;

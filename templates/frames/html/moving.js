@@ -9,7 +9,8 @@ const panelOf = (root, panels) => {
   const RANK = 0.06, STAYS = 0.3, CLEAR = 0.25, DOT = 0.3;
   // What a panel has by an id begins with its own name, as the panel itself; that of the machine has none.
   const own = root.id.slice(0, -"moving".length), byId = (name) => root.querySelector(`#${own}${name}`);
-  const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16 };
+  // `run` is the motion that is played as the time goes, `clock` its time (s); null at constant speed.
+  const state = { angle: 0, playing: false, last: 0, rate: 1, told: 0, pace: 16, run: null, clock: 0 };
   let animation, steps, values, starts, drawing, now;
 
   // --- samples
@@ -23,6 +24,23 @@ const panelOf = (root, panels) => {
   const STEP = 1500;
   const nearest = (angle) => animation.positions.reduce((best, [, at], index) =>
     Math.abs(at - angle) < Math.abs(animation.positions[best][1] - angle) ? index : best, 0);
+
+  // What a run has where one of its samples, which grow, comes to a value.
+  const within = (run, by, at) => {
+    const grown = run[by];
+    let low = 0, high = grown.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (grown[middle] <= at) low = middle; else high = middle;
+    }
+    const share = Math.min(Math.max((at - grown[low]) / (grown[high] - grown[low] || 1), 0), 1);
+    const between = (name) => run[name][low] + share * (run[name][high] - run[name][low]);
+    return { angle: between("angle"), time: between("time"), speed: between("speed"), drive: between("drive") };
+  };
+  const running = () => state.run ? within(state.run, "time", state.clock) : within(animation.runs[0], "angle", state.angle);
+  const lasts = (run) => run.time[run.time.length - 1];
+  // So much slower than in truth a steady cycle takes as long as one at constant speed.
+  const slower = () => lasts(animation.runs[0]) / (TURN_SECONDS * animation.turns);
 
   // The sample before an angle (degrees), of the turn and of the cycle, and how far on to the next it is.
   const place = (angle) => {
@@ -203,8 +221,19 @@ const panelOf = (root, panels) => {
       const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
       const x = about.x[0] + (at.x - left) / (right - left) * width;
       pause();
+      if (about.run) return;
       seek(animation.span ? x / animation.span * 360 : x + (oneTurn ? 360 * Math.floor(state.angle / 360) : 0));
     });
+    if (about.run) {
+      return (readable) => {
+        const at = running();
+        const x = left + (at.speed - about.x[0]) / width * (right - left);
+        const y = bottom + (at.drive - about.y[0]) / (about.y[1] - about.y[0]) * (top - bottom);
+        cursor.setAttribute("d", `M${short(x)} ${bottom}V${top}`);
+        dots[0].setAttribute("transform", `translate(${short(x)} ${short(y)})`);
+        if (readable) say(outputs[0], written(at.drive, decimals));
+      };
+    }
     return (readable) => {
       const along = animation.span ? state.angle / 360 * animation.span : oneTurn ? state.angle % 360 : state.angle;
       const x = short(left + (along - about.x[0]) / width * (right - left));
@@ -255,7 +284,9 @@ const panelOf = (root, panels) => {
       state.told = time;
       tell();
     }
-    const told = steps ? steps[nearest(state.angle)][0] : animation.span ? `${written(state.angle / 360 * animation.span, 1)} mm` : `${written(state.angle, 1)}°`;
+    const at = state.run && running();
+    const timed = at ? ` · ${animation.words.run_told.replace("{t}", written(at.time, 3)).replace("{w}", written(at.speed, 2))}` : "";
+    const told = timed ? `${written(at.angle, 1)}°${timed}` : steps ? steps[nearest(state.angle)][0] : animation.span ? `${written(state.angle / 360 * animation.span, 1)} mm` : `${written(state.angle, 1)}°`;
     if (!state.playing || drawing.count % 3 === 0) drawing.slider.value = state.angle;
     if (readable) {
       say(drawing.told, told);
@@ -270,8 +301,21 @@ const panelOf = (root, panels) => {
     }
   };
 
+  const choose = (index) => {
+    state.run = index === "" ? null : animation.runs[index];
+    state.clock = 0;
+    if (byId("run")) byId("run").value = index;
+  };
+  const turned = (angle) => {
+    const whole = 360 * animation.turns;
+    return ((angle % whole) + whole) % whole;
+  };
+
+  // Who goes to a place leaves the motion in time, but for the steady one, which is at each place once.
   const seek = (angle) => {
     const whole = 360 * animation.turns;
+    if (state.run && state.run === animation.runs[0]) state.clock = within(state.run, "angle", turned(angle)).time;
+    else if (state.run) choose("");
     if (steps) angle = animation.positions[nearest(angle)][1];
     state.angle = animation.span ? Math.min(Math.max(angle, 0), whole) : ((angle % whole) + whole) % whole;
     draw();
@@ -290,6 +334,15 @@ const panelOf = (root, panels) => {
     const passed = Math.min(time - state.last, 100) / 1000;
     state.pace += (time - state.last - state.pace) / 8;
     state.last = time;
+    if (state.run) {
+      const end = lasts(state.run), next = state.clock + passed * state.rate * slower();
+      state.clock = state.run === animation.runs[0] ? next % end : Math.min(next, end);
+      state.angle = turned(running().angle);
+      if (visible(root)) draw();
+      if (state.clock >= end) { pause(); return; }
+      requestAnimationFrame(frame);
+      return;
+    }
     const whole = 360 * animation.turns, next = state.angle + passed * state.rate * 360 / TURN_SECONDS;
     state.angle = next >= whole ? next % whole : next;
     // A panel that is not on the screen goes on unseen.
@@ -303,6 +356,8 @@ const panelOf = (root, panels) => {
   const play = () => {
     if (state.playing) return;
     state.playing = true;
+    // A start or a stop that is over begins anew.
+    if (state.run && state.clock >= lasts(state.run)) state.clock = 0;
     state.last = performance.now();
     mark();
     requestAnimationFrame(frame);
@@ -437,6 +492,11 @@ const panelOf = (root, panels) => {
     drawing.slider.addEventListener("keydown", key);
     drawing.point.addEventListener("change", tell);
     byId("speed").addEventListener("change", (event) => { state.rate = Number(event.target.value); });
+    byId("run")?.addEventListener("change", (event) => {
+      choose(event.target.value);
+      if (state.run) state.angle = turned(running().angle);
+      draw();
+    });
     byId("copy").addEventListener("click", copy);
     byId("save").addEventListener("click", save);
     drawing.buttons.forEach((button, index) => button.addEventListener("click", () => {
@@ -451,6 +511,7 @@ const panelOf = (root, panels) => {
     hold(root.classList.contains("held"));
     watcher.disconnect();
     for (const element of [root, drawing.numbers, ...all("[data-stage], [data-chart]")]) watcher.observe(element);
+    choose("");
     mark();
   };
 

@@ -1,0 +1,155 @@
+"""An engine by its orders as a case: its report and its task with their tables, its key, its results, its sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from reportgen.balancing import engine_drawings, engine_motion, orders_ids
+from reportgen.balancing.engine_sheet import FACTORS, ORDERS
+from reportgen.balancing.places_page import PlacesPage, bare
+from reportgen.balancing.solved_engine import SolvedEngine
+from reportgen.drawing import Scene
+from reportgen.drawing.animation import Animation
+from reportgen.drawing.plates import DrawingPlate
+from reportgen.drawing.scales import IN_REPORT
+from reportgen.formula import Symbol
+from reportgen.report import Inlines, Table, Text
+from reportgen.report.result_entries import ResultEntries
+from reportgen.report.shafts import Shaft
+from reportgen.sheets.plates import drawn
+
+
+@dataclass(frozen=True)
+class EnginePage(PlacesPage[SolvedEngine]):
+    """An engine as templates name it."""
+
+    NAME, TASK, SUMMARY = "orders", "orders-task", "orders-summary"
+    SECTIONS = (
+        *("orders-given", "orders-scheme", "orders-piston", "orders-stars", "orders-forces", "orders-couples"),
+        *("orders-counterweight", "orders-conclusion"),
+    )
+    SHORT = frozenset({"orders-scheme"})
+
+    def has(self, section: str) -> bool:
+        return "couples" in self.case.stars if section == "orders-couples" else True
+
+    def names(self) -> dict[str, Any]:
+        case, written = self.case, self.case.printed
+        return {
+            "words": case.words,
+            "given": case.given,
+            "several": len(case.cylinders) > 1,
+            "inline": case.given.is_inline,
+            "has_couples": "couples" in case.stars,
+            "data": self.data,
+            "layout": self.layout,
+            "factors": self.factors,
+            "angles": self.angles,
+            "result": self.result,
+            "first_is_free": written[orders_ids.force(1)].at(1) == 0,
+            "star_is_closed": written[orders_ids.resultant("f", 1)].at(1) == 0,
+            "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "figure": self.figure,
+        }
+
+    # --- tables
+
+    @property
+    def layout(self) -> Table:
+        """How the cylinders stand."""
+        columns = [orders_ids.crank, orders_ids.bank]
+        columns += [orders_ids.station] if self.case.given.has_length else []
+        return self.by_place("layout", columns, self.case.cylinders)
+
+    @property
+    def factors(self) -> Table:
+        """The factors of the piston's acceleration, exact and by the first terms of their series."""
+        printed, heads = self.case.printed, self.words["factors"]
+        columns = orders_ids.factor, orders_ids.series, orders_ids.off
+        rows = [
+            ((Text(str(order)),), *(bare(printed.number(family(order))) for family in columns)) for order in FACTORS
+        ]
+        units = (printed.number(family(FACTORS[0])).unit for family in columns)
+        return self.headed("factors", heads[0], [*zip(map(Symbol, ("A", "A*", "δ")), units, strict=True)], rows)
+
+    @property
+    def angles(self) -> Table:
+        """The angles of the vectors in all stars."""
+        case = self.case
+        columns = [(letter, order) for letter in case.stars["forces"] for order in ORDERS]
+        heads = [(Symbol("γ", f"{letter}{order}"), "°") for letter, order in columns]
+        arms = [orders_ids.arm] if case.given.has_length else []
+        if arms:
+            number = case.printed.number(orders_ids.arm(case.cylinders[0]))
+            heads.append((Symbol("c"), number.unit))
+        rows = [
+            (
+                (Text(place),),
+                *(bare(case.printed.number(orders_ids.angle(*column, place))) for column in columns),
+                *(bare(case.printed.number(family(place))) for family in arms),
+            )
+            for place in case.cylinders
+        ]
+        return self.headed("angles", self.words["heads"]["place"], heads, rows)
+
+    @property
+    def result(self) -> Table:
+        """Resultants of the stars, forces and couples by orders."""
+        case, printed = self.case, self.case.printed
+        families: list[Any] = []
+        for what, letters in case.stars.items():
+            families += [orders_ids.resultant.only(star=letter) for letter in letters]
+            families.append(orders_ids.force if what == "forces" else orders_ids.couple)
+        heads = [(Symbol(printed.symbol(of(1)).base), printed.number(of(1)).unit) for of in families]
+        rows: list[tuple[Inlines, ...]] = [
+            ((Text(str(order)),), *(bare(printed.number(family(order))) for family in families)) for order in ORDERS
+        ]
+        return self.headed("result", self.words["factors"][0], heads, rows)
+
+    # --- figures
+
+    def scenes(self, name: str) -> Iterable[Scene]:
+        _, draw = engine_drawings.FIGURES[name]
+        return draw(self.case, IN_REPORT)
+
+
+# --- the case --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class EngineCase(SolvedEngine):
+    """An engine by its orders, as a `Case`."""
+
+    PAGE = EnginePage
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        return (Shaft(self.words["orders"]["shaft"], self.speed, 1, datum="n"),)
+
+    @cached_property
+    def entries(self) -> ResultEntries:
+        """Forces and couples by orders, the counterweight and what it leaves."""
+        ledger = self.ledger
+        orders: dict[str, Any] = {}
+        for order in ORDERS:
+            entry = {"force": ledger[orders_ids.force(order)].at(1)}
+            if "couples" in self.stars:
+                entry["couple"] = ledger[orders_ids.couple(order)].at(1)
+            orders[str(order)] = entry
+        counterweight = {"unbalance": ledger["orders.U"].at(1), "left": ledger["orders.left"].at(1)}
+        return ResultEntries([{"number": 1, "orders": orders, "counterweight": counterweight}])
+
+    def animations(self) -> tuple[Animation, ...]:
+        return (engine_motion.animation(self),)
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Its scheme, its stars and its results; there are no sets of them to choose from."""
+        table = drawn(EnginePage(self).result, self.assignment.language)
+        title = self.words["orders"]["captions"]["result"]
+        return {"orders": [*engine_drawings.plates(self), DrawingPlate(title, (), "tables", (table,), spare=True)]}

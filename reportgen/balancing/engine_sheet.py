@@ -1,0 +1,229 @@
+"""The sheet of an engine by orders: factors of the piston's acceleration, stars of cranks, forces, couples.
+
+The piston of a cylinder whose crank stands at θ and whose bank at ψ pulls on the frame, of order n, with
+
+    m r ω² Aₙ cos n(φ + θ − ψ) e^{iψ} = ½ m r ω² Aₙ (e^{i(nφ + γ)} + e^{−i(nφ + γ′)})
+
+γ = nθ − (n − 1)ψ, γ′ = nθ − (n + 1)ψ: two vectors that turn with the crank and against it.  Those of all cylinders
+add up to the stars f and g, and with their arms along the shaft to p and q.  Source: the identity of Euler.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from reportgen.balancing import orders_ids as names
+from reportgen.balancing.engine_file import Parameters
+from reportgen.base.units import MM, nice_up
+from reportgen.drawing.geometry import corners_of
+from reportgen.formula import PI, Expression, Number, Ref, cis, size, total
+from reportgen.formula.sheet import Sheet
+from reportgen.formula.vocabulary import Chapter
+
+ORDERS = (1, 2, 4)
+"""The orders that are told: higher ones are too small to be felt."""
+FACTORS = (2, 4, 6)
+"""The orders of the piston's acceleration; the first is 1, odd ones are not there."""
+FORCES, COUPLES = "fg", "pq"
+"""The stars, the one that turns with the crank first."""
+STAR = 46.0
+"""The width or height that the largest star of a kind has on a page at most (mm)."""
+EXACT = 1e-18
+"""Terms of the exact series go on until a power of λ² is so small."""
+FEWEST_TERMS = 24
+
+
+class EngineSheet:
+    """The sheet of an engine while it is written."""
+
+    def __init__(self, given: Parameters) -> None:
+        self.given, self.q = given, Sheet()
+        self.cylinders = tuple(str(number) for number in range(1, len(given.cylinders) + 1))
+        self.stars = {"forces": FORCES[:1] if given.is_inline else FORCES}
+        if given.has_length:
+            self.stars["couples"] = COUPLES[:1] if given.is_inline else COUPLES
+
+    def written(self) -> Sheet:
+        with self.q.within(Chapter.data):
+            self._enter_given()
+        with self.q.within(Chapter.geometry):
+            self._enter_factors()
+            self._enter_arms()
+        with self.q.within(Chapter.forces):
+            for stars in self.stars.values():
+                self._enter_stars(stars)
+            self._enter_forces()
+        with self.q.within(Chapter.torque):
+            self._enter_counterweight()
+        return self.q
+
+    def _enter_given(self) -> None:
+        q, given = self.q, self.given
+        q.give("orders.r", given.r.si)
+        q.give("orders.l", given.l.si)
+        q.give("orders.n", given.n.si * 30 / math.pi)
+        for id, datum in (("orders.m2", given.m2), ("orders.s", given.s), ("orders.m3", given.m3)):
+            if datum is not None:
+                q.give(id, datum.si)
+        for place, cylinder in zip(self.cylinders, given.cylinders, strict=True):
+            q.give(names.crank(place), cylinder.crank.si)
+            q.give(names.bank(place), cylinder.bank.si)
+            if given.has_length:
+                q.give(names.station(place), cylinder.at.si)
+
+    # --- one cylinder
+
+    def _enter_factors(self) -> None:
+        q = self.q
+        ω = q.define("orders.omega", 2 * PI * q["orders.n"] / 60)
+        λ = q.define("orders.lambda", q["orders.r"] / q["orders.l"])
+        m: Expression = q["orders.m3"]
+        if self.given.m2 is not None:
+            m2, s = q["orders.m2"], q["orders.s"]
+            m_A = q.define("orders.mA", m2 * (1 - s))
+            m_B = q.define("orders.mB", m2 * s)
+            q.set_out("masses", m_A, m_B)
+            m = m + m_B
+        m_rec = q.define("orders.m", m)
+        q.set_out("masses", m_rec)
+        q.set_out("crank", ω, λ)
+        for order in FACTORS:
+            inner = q.define(names.exact(order), acceleration_factor(order, λ, q.si(λ)), hidden=True)
+            A = q.define(names.factor(order), inner, optional=order not in ORDERS)
+            told = q.define(names.series(order), short_series(order, λ), optional=True)
+            error = q.define(names.off(order), (told - A) / A, optional=True, residue=True)
+            q.set_out("factors", A)
+            q.set_out("series", told, error)
+        q.set_out("amplitude", q.define("orders.K", m_rec * q["orders.r"] * ω**2))
+
+    def _enter_arms(self) -> None:
+        """From the middle between the first and the last cylinder."""
+        q, given = self.q, self.given
+        if not given.has_length:
+            return
+        along = sorted(self.cylinders, key=lambda place: q.si(names.station(place)))
+        first, last = (q[names.station(place)] for place in (along[0], along[-1]))
+        z0 = q.define("orders.z0", (first + last) / 2, optional=True)
+        q.set_out("middle", z0)
+        for place in self.cylinders:
+            q.define(names.arm(place), q[names.station(place)] - z0, optional=True)
+
+    # --- stars
+
+    def _enter_stars(self, stars: str) -> None:
+        """The stars of forces, or of couples: all at one scale."""
+        q = self.q
+        weights: dict[str, Expression] = dict.fromkeys(self.cylinders, Number(1.0))
+        if stars[0] in COUPLES:
+            weights = {place: q[names.arm(place)] for place in self.cylinders}
+        angles = {(star, order): self._enter_angles(star, order) for star in stars for order in ORDERS}
+        sizes = [self._extent(weights, of) for of in angles.values()]
+        per_mm = nice_up(max(sizes) / STAR)
+        for (star, order), directions in angles.items():
+            id = names.scale(star)
+            μ = q.find(id) or q.give(id, per_mm * MM, optional=True)
+            vectors = [times_direction(weights[place], directions[place]) for place in self.cylinders]
+            plan = q.construct(names.drawn(star, order), total(vectors) / μ)
+            every = sum(abs(self._weight(weights[place])) for place in self.cylinders)
+            s = q.define(names.measured(star, order), abs(plan), optional=True, scale=every / q.si(μ))
+            result = q.define(names.resultant(star, order), μ * s, scale=every)
+            q.set_out(f"star_{star}", result)
+
+    def _enter_angles(self, star: str, order: int) -> Mapping[str, Ref]:
+        """γ = nθ − (n − 1)ψ of a star that turns with the crank, nθ − (n + 1)ψ of one that turns against it."""
+        q, with_crank = self.q, star in (FORCES[0], COUPLES[0])
+        times = order - 1 if with_crank else order + 1
+        angles = {}
+        for place in self.cylinders:
+            angle: Expression = q[names.crank(place)] if order == 1 else order * q[names.crank(place)]
+            if times and not self.given.is_inline:
+                ψ = q[names.bank(place)]
+                angle = angle - (ψ if times == 1 else times * ψ)
+            angles[place] = q.define(names.angle(star, order, place), angle, optional=True)
+        return angles
+
+    def _weight(self, of: Expression) -> float:
+        return 1.0 if isinstance(of, Number) else self.q.si(of)  # type: ignore[arg-type]
+
+    def _extent(self, weights: Mapping[str, Expression], directions: Mapping[str, Ref]) -> float:
+        """The larger of width and height of a star, as its vectors are drawn one after another."""
+        steps = [self._weight(weights[place]) * np.exp(1j * self.q.si(directions[place])) for place in self.cylinders]
+        low, high = corners_of(np.cumsum([0.0, *steps]))
+        return max((high - low).real, (high - low).imag)
+
+    # --- forces and couples
+
+    def _enter_forces(self) -> None:
+        """F = K A f, or K A (f + g)/2 where the cylinders stand in several banks."""
+        q = self.q
+        for what, stars in self.stars.items():
+            family, line = (names.force, "forces") if what == "forces" else (names.couple, "couples")
+            for order in ORDERS:
+                parts = [q[names.resultant(star, order)] for star in stars]
+                mean = parts[0] if len(parts) == 1 else (parts[0] + parts[1]) / 2
+                K = q["orders.K"]
+                size = K * mean if order == 1 else K * q[names.factor(order)] * mean
+                A = 1.0 if order == 1 else abs(q.si(names.factor(order)))
+                of_all = q.si(K) * A * sum(q.families[part.id].scale for part in parts) / len(parts)
+                # A₄ is negative: the size is asked for.
+                q.set_out(line, q.define(family(order), abs_of(order, size), scale=of_all))
+
+    def _enter_counterweight(self) -> None:
+        """(m_A + ½ m_rec) r f₁ against the star f₁ takes all that turns with the crank at its speed."""
+        q = self.q
+        f = q[names.resultant("f", 1)]
+        r, m, ω = q["orders.r"], q["orders.m"], q["orders.omega"]
+        turning: Expression = m / 2
+        every = q.families[f.id].scale
+        if self.given.m2 is not None:
+            m_A = q["orders.mA"]
+            rotating = q.define("orders.rotating", m_A * r * ω**2 * f, scale=q.si(m_A) * q.si(r) * q.si(ω) ** 2 * every)
+            q.set_out("counterweight", rotating)
+            turning = m_A + turning
+        U = q.define("orders.U", turning * r * f, scale=q.si(m) * q.si(r) * every)
+        g = f if self.given.is_inline else q[names.resultant("g", 1)]
+        left = q.define("orders.left", q["orders.K"] * g / 2, scale=q.si("orders.K") * every)
+        q.set_out("counterweight", U, left)
+
+
+def times_direction(weight: Expression, direction: Expression) -> Expression:
+    return cis(direction) if isinstance(weight, Number) else weight * cis(direction)
+
+
+def abs_of(order: int, of: Expression) -> Expression:
+    """The size of a force of an order: the factor of the fourth is negative."""
+    return size(of) if order == ORDERS[-1] else of
+
+
+def acceleration_factor(order: int, λ: Ref, about: float) -> Expression:
+    """Aₙ of a = rω²(cos φ + Σ Aₙ cos nφ), n even, as a power series of λ that is exact to the last digit.
+
+    Aₙ = (2n²/λ) (−1)^{n/2} Σₖ C(½, k) (−1)ᵏ C(2k, k − n/2) (λ/2)^{2k}, from √(1 − λ² sin² φ).
+    """
+    half = order // 2
+    most = max(FEWEST_TERMS, math.ceil(math.log(EXACT) / math.log(about**2)))
+    binomial, terms = 1.0, []
+    for k in range(1, most + half):
+        binomial *= (0.5 - (k - 1)) / k
+        if k >= half:
+            # In steps that neither overflow nor lose figures: C(2k, k − n/2)/4ᵏ.
+            share = math.exp(
+                math.lgamma(2 * k + 1) - math.lgamma(k - half + 1) - math.lgamma(k + half + 1) - k * math.log(4)
+            )
+            factor = 2 * order**2 * (-1) ** half * binomial * (-1) ** k * share
+            terms.append(factor * λ ** (2 * k - 1))
+    return total(terms)
+
+
+def short_series(order: int, λ: Ref) -> Expression:
+    """The first terms of the series, as books have them: λ + λ³/4 + 15λ⁵/128, …"""
+    match order:
+        case 2:
+            return λ + λ**3 / 4 + 15 * λ**5 / 128
+        case 4:
+            return -(λ**3 / 4 + 3 * λ**5 / 16)
+        case _:
+            return 9 * λ**5 / 128

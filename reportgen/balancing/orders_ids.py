@@ -1,0 +1,79 @@
+"""The ids of an engine that is balanced by orders, which begin with `orders`, and what they say.
+
+A star is f or g of forces and p or q of couples: the first of a pair turns with the crank, the second against it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from reportgen.formula.ids import Name
+from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+
+crank = Name("orders.crank.{cylinder}")
+bank = Name("orders.bank.{cylinder}")
+station = Name("orders.z.{cylinder}")
+arm = Name("orders.arm.{cylinder}")
+exact = Name("orders.exact.{order}")
+factor = Name("orders.A.{order}")
+series = Name("orders.series.{order}")
+off = Name("orders.off.{order}")
+scale = Name("orders.mu.{star}")
+angle = Name("orders.angle.{star}.{order}.{cylinder}")
+drawn = Name("orders.plan.{star}.{order}")
+measured = Name("orders.seg.{star}.{order}")
+resultant = Name("orders.star.{star}.{order}")
+force = Name("orders.F.{order}")
+couple = Name("orders.M.{order}")
+
+KINDS: Mapping[str, QuantityKind] = {
+    "star on paper": QuantityKind("mm⁻¹", 1e3, digits=6),
+    "star of couples on paper": QuantityKind("m/mm", 1e3, digits=6),
+    "order factor": QuantityKind("", digits=6),
+    "unrounded factor": QuantityKind(""),
+}
+
+_G, _F = Chapter.geometry, Chapter.forces
+_STARS = "fgpq"
+
+ROWS: tuple[VocabularyRow, ...] = (
+    VocabularyRow(Name("orders.r"), "r", "length"),
+    VocabularyRow(Name("orders.l"), "l", "length"),
+    VocabularyRow(Name("orders.n"), "n", "speed of rotation"),
+    VocabularyRow(Name("orders.m2"), "m", "mass", below="2"),
+    VocabularyRow(Name("orders.m3"), "m", "mass", below="3"),
+    VocabularyRow(Name("orders.s"), "s", "ratio"),
+    VocabularyRow(crank, "θ", "angle", below="{cylinder}", name="orders crank"),
+    VocabularyRow(bank, "ψ", "angle", below="{cylinder}", name="orders bank"),
+    VocabularyRow(station, "z", "length", below="{cylinder}", name="orders station"),
+    VocabularyRow(Name("orders.z0"), "z", "length", _G, below="0"),
+    VocabularyRow(arm, "c", "length", _G, below="{cylinder}", name="orders arm"),
+    VocabularyRow(Name("orders.lambda"), "λ", "ratio", _G),
+    VocabularyRow(Name("orders.omega"), "ω", "angular velocity", _G),
+    VocabularyRow(Name("orders.mA"), "m", "mass", _G, below="A"),
+    VocabularyRow(Name("orders.mB"), "m", "mass", _G, below="B"),
+    VocabularyRow(Name("orders.m"), "m", "mass", _G, below="rec"),
+    VocabularyRow(Name("orders.K"), "K", "force", _G),
+    VocabularyRow(exact, "A", "unrounded factor", _G, below="{order}"),
+    VocabularyRow(factor, "A", "order factor", _G, below="{order}", name="orders factor"),
+    VocabularyRow(series, "A", "order factor", _G, below="{order}", above="*", name="orders series"),
+    VocabularyRow(off, "δ", "share", _G, below="{order}"),
+    *(VocabularyRow(scale.only(star=star), "μ", "star on paper", _F, below=star) for star in "fg"),
+    *(VocabularyRow(scale.only(star=star), "μ", "star of couples on paper", _F, below=star) for star in "pq"),
+    VocabularyRow(angle, "γ", "angle", _F, below="{cylinder}"),
+    VocabularyRow(drawn),
+    VocabularyRow(measured, "s", "segment", _F, "orders.mu.{star}", below="{star}{order}"),
+    *(
+        VocabularyRow(resultant.only(star=star), star, "ratio", _F, below="{order}", name=f"orders star {star}")
+        for star in "fg"
+    ),
+    *(
+        VocabularyRow(resultant.only(star=star), star, "length", _F, below="{order}", name=f"orders star {star}")
+        for star in "pq"
+    ),
+    VocabularyRow(force, "F", "force", _F, below="{order}", name="orders force"),
+    VocabularyRow(couple, "M", "torque", _F, below="{order}", name="orders couple"),
+    VocabularyRow(Name("orders.rotating"), "F", "force", Chapter.torque, below="rot"),
+    VocabularyRow(Name("orders.U"), "U", "unbalance in metres", Chapter.torque, below="c"),
+    VocabularyRow(Name("orders.left"), "F", "force", Chapter.torque, below="1", above="′"),
+)

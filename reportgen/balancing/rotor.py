@@ -1,0 +1,97 @@
+"""The kind `rotor`: which data cannot be, and what of a rotor is hardly meant."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.balancing import rotor_file
+from reportgen.balancing.rotor_file import LEFT, RIGHT
+from reportgen.base.errors import Finding
+
+if TYPE_CHECKING:
+    from reportgen.assignment import Assignment
+    from reportgen.balancing.rotor_case import RotorCase
+
+Parameters = rotor_file.Parameters
+TURNS = 1
+PART = "rotor"
+"""What its ids begin with, in a coursework too."""
+HAS_POSITIONS = False
+TOP = ("parameters",)
+NEEDS: Mapping[str, tuple[str, ...]] = {"bearings": ("n",), "grade": ("mass", "n", "bearings")}
+"""What a key asks for besides."""
+BALANCED = 1e-9
+"""A share of all unbalance that is nothing."""
+
+
+def case(assignment: Assignment) -> RotorCase:
+    """The case of an assignment."""
+    from reportgen.balancing.rotor_case import RotorCase
+
+    return RotorCase(assignment)
+
+
+def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float | None]]:
+    """The rows that `solve` prints of the results: corrections (kg·mm, °, kg, mm) and forces on bearings (N)."""
+    corrections: dict[str, float | None] = {}
+    radii: dict[str, float | None] = {}
+    for plane, entry in position["corrections"].items():
+        corrections[f"U_{plane}"] = entry["unbalance"] * 1e3
+        corrections[f"α_{plane}"] = None if entry["angle"] is None else entry["angle"] * 180 / math.pi
+        if "mass" in entry:
+            corrections[f"m_{plane}"], radii[f"r_{plane}"] = entry["mass"], entry["radius"] * 1e3
+    rows = {"corrections": corrections, "radii": radii}
+    if "bearings" in position:
+        rows["bearings"] = {
+            f"N{'′' if when == 'after' else ''}_{place}": math.hypot(*force)
+            for place, forces in position["bearings"].items()
+            for when, force in forces.items()
+        }
+    return rows
+
+
+# --- what cannot be -------------------------------------------------------------------------------
+
+
+def check(given: Parameters) -> Iterator[Finding]:
+    """Planes and bearings from left to right, what a key asks for besides, and that something is to be balanced."""
+    planes, bearings = given.planes, given.bearings
+    if planes.B is not None and planes.B.si <= planes.A.si:
+        yield Finding("rotor-places", (*TOP, "planes", "B"), {"left": planes.A.text, "right": planes.B.text})
+    if bearings is not None and bearings[1].si <= bearings[0].si:
+        places = {"left": bearings[0].text, "right": bearings[1].text}
+        yield Finding("rotor-places", (*TOP, "bearings", 1), places)
+    for key, others in NEEDS.items():
+        for other in others if getattr(given, key) is not None else ():
+            if getattr(given, other) is None:
+                yield Finding("needs-besides", (*TOP, key), {"key": key, "other": other}, at="key")
+    if given.mass is not None and given.grade is None:
+        yield Finding("needs-besides", (*TOP, "mass"), {"key": "mass", "other": "grade"}, at="key")
+    own = [plane for plane in (LEFT, RIGHT) if given.correction and getattr(given.correction, plane)]
+    if own and own != [*given.planes_by_name]:
+        yield Finding("rotor-corrections", (*TOP, "correction"), {"planes": ", ".join(given.planes_by_name)}, at="key")
+    if is_balanced(given):
+        yield Finding("rotor-balanced", (*TOP, "masses"), at="key")
+    elif planes.B is not None and not any(mass.z.si - planes.A.si for mass in given.masses):
+        yield Finding("rotor-one-plane", (*TOP, "planes", "B"), at="key")
+
+
+def is_balanced(given: Parameters) -> bool:
+    """Whether the masses leave nothing to be corrected: neither a force nor, with two planes, a couple."""
+    unbalances = [(one.m.si * cmath.rect(one.r.si, one.angle.si), one.z.si - given.planes.A.si) for one in given.masses]
+    force, couple = sum(U for U, _ in unbalances), sum(U * z for U, z in unbalances)
+    small = abs(force) <= BALANCED * sum(abs(U) for U, _ in unbalances)
+    if given.planes.B is None:
+        return small
+    return small and abs(couple) <= BALANCED * sum(abs(U * z) for U, z in unbalances)
+
+
+CHECKS = (
+    of_parameters(check),
+    one_of("parameters.correction", "r", "m", LEFT),
+    *(one_of(f"parameters.correction.{plane}", "r", "m") for plane in (LEFT, RIGHT)),
+)

@@ -1,0 +1,214 @@
+"""A rotor as a case: its report and its task with their tables, its key, its results, its sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from reportgen.balancing import rotor_drawings, rotor_ids, rotor_motion
+from reportgen.balancing.places_page import PlacesPage, bare
+from reportgen.balancing.rotor_file import BEARINGS
+from reportgen.balancing.rotor_sheet import AFTER, BEFORE
+from reportgen.balancing.solved_rotor import SolvedRotor
+from reportgen.drawing import Scene
+from reportgen.drawing.animation import Animation
+from reportgen.drawing.plates import DrawingPlate
+from reportgen.drawing.scales import IN_REPORT
+from reportgen.formula import Chain, Expression, Number, Symbol, total
+from reportgen.report import Column, Equation, InlineMath, Inlines, Table, Text, Value
+from reportgen.report.result_entries import ResultEntries
+from reportgen.report.shafts import Shaft
+from reportgen.sheets.plates import drawn
+
+OF_BEARING = rotor_ids.at_bearing, rotor_ids.bearing_force
+"""What each bearing bears."""
+WORKED = 6
+"""Products of so many masses are written out; of more masses the table has all of them, and a line is of the first."""
+
+
+@dataclass(frozen=True)
+class RotorPage(PlacesPage[SolvedRotor]):
+    """A rotor as templates name it."""
+
+    NAME, TASK, SUMMARY = "rotor", "rotor-task", "rotor-summary"
+    SECTIONS = (
+        *("rotor-given", "rotor-scheme", "rotor-products", "rotor-moments-plan", "rotor-plan", "rotor-components"),
+        *("rotor-compared", "rotor-bearings", "rotor-grade", "rotor-conclusion"),
+    )
+    SHORT = frozenset({"rotor-compared"})
+
+    def has(self, section: str) -> bool:
+        given = self.case.given
+        asked = {
+            "rotor-moments-plan": self.case.two_planes,
+            "rotor-bearings": given.bearings is not None,
+            "rotor-grade": given.grade is not None,
+        }
+        return asked.get(section, True)
+
+    def names(self) -> dict[str, Any]:
+        case, written = self.case, self.case.printed
+        has_data = any(True for _ in self.given_rows())
+        lines = {name: written.known(quantities) for name, quantities in written.lines.items()}
+        for name in ("unbalances", "moments"):
+            if len(case.masses) > WORKED:
+                lines[name] = lines.get(name, [])[:1]
+        return {
+            "words": case.words,
+            "given": case.given,
+            "several": len(case.masses) > 1,
+            "every_line": len(case.masses) <= WORKED,
+            "two_planes": case.two_planes,
+            "has_couple": case.given.has_couple,
+            "mass_is_sought": "m" in case.given.sought,
+            "radius_is_sought": "r" in case.given.sought,
+            "against": any(case.ledger[rotor_ids.moment(place)].values[0] < 0 for place in case.moments),
+            "leaves_couple": not case.two_planes and case.given.has_couple,
+            "grade_met": all(case.permitted or ()),
+            "has_data": has_data,
+            "data": self.data if has_data else "",
+            "masses_table": self.masses_table,
+            "products": self.products,
+            "components": self.components,
+            "compared": self.compared,
+            "loads_table": self.loads_table if case.given.bearings else "",
+            "closing_moments": self.closing("V", case.moments) if case.two_planes else "",
+            "closing_unbalances": self.closing("U", case.masses),
+            "sheet": lines,
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "figure": self.figure,
+        }
+
+    def closing(self, of: str, masses: Sequence[str]) -> Equation:
+        """The vectors of a plan, whose sum is nothing: those of the masses and of the corrections."""
+        vectors = [Symbol(of, place, over="vector") for place in masses]
+        if len(vectors) > WORKED:
+            vectors = [*vectors[:2], Symbol("…"), vectors[-1]]
+        corrections: list[Expression] = [Symbol(of, plane, over="vector") for plane in reversed(self.case.planes)]
+        if of == "V":
+            corrections = [self.case.printed.symbol("rotor.L") * Symbol("U", "B", over="vector")]
+        return Equation((Chain((total([*vectors, *corrections]), Number(0.0))),))
+
+    # --- tables
+
+    @property
+    def masses_table(self) -> Table:
+        """The masses as they are given."""
+        columns = [rotor_ids.mass, rotor_ids.radius, rotor_ids.angle]
+        columns += [rotor_ids.station] if self.case.given.has_couple else []
+        return self.by_place("masses", columns, self.case.masses)
+
+    @property
+    def products(self) -> Table:
+        """m r and m r z of each mass, and as they are laid off in the plans."""
+        case = self.case
+        columns = [rotor_ids.unbalance, rotor_ids.moment, rotor_ids.angle]
+        plans = [(of, rotor_ids.laid_off.only(of=of)) for of in ("V", "U") if rotor_ids.scale(of) in case.printed]
+        columns = [name for name in columns if name(case.masses[0]) in case.printed]
+        return self.by_place("products", [*columns, *(name for _, name in plans)], case.masses)
+
+    @property
+    def components(self) -> Table:
+        """The components of all products, and their sums."""
+        printed, kinds = self.case.printed, ("U", "V") if self.case.moments else ("U",)
+        columns = [(of, axis) for of in kinds for axis in "xy"]
+        sums = [rotor_ids.resultant(*column) for column in columns]
+        rows = [
+            ((Text(place),), *(bare(printed.number(rotor_ids.component(*column, place))) for column in columns))
+            for place in self.case.masses
+        ]
+        rows.append(((Text("Σ"),), *(bare(printed.number(id)) for id in sums)))
+        heads = [(printed.symbol(id), printed.number(id).unit) for id in sums]
+        return self.headed("components", self.words["heads"]["place"], heads, rows)
+
+    @property
+    def compared(self) -> Table:
+        """The corrections as they are read off and as they come of the components."""
+        printed, words = self.case.printed, self.words["compared"]
+        rows: list[tuple[Inlines, ...]] = []
+        for plane in self.case.planes:
+            for read, computed in (
+                (rotor_ids.unbalance(plane), rotor_ids.by_components("U", plane)),
+                (rotor_ids.direction(plane), rotor_ids.by_components("alpha", plane)),
+            ):
+                pair = printed.number(read), printed.number(computed)
+                off = Number(pair[0].shown - pair[1].shown, max(pair[0].decimals or 0, 1), pair[0].unit)
+                rows.append(((InlineMath(printed.symbol(read)),), *((Value(one),) for one in (*pair, off))))
+        heads = [(Text(one),) for one in words]
+        return self.table("compared", (Column(25.0), *(Column(42.0) for _ in range(3))), (heads,), rows)
+
+    @property
+    def loads_table(self) -> Table:
+        """What each bearing bears before and after."""
+        printed, words = self.case.printed, self.words["loads"]
+        columns = [(family, when) for when in (BEFORE, AFTER) for family in OF_BEARING]
+        ids = {place: [family(when, place) for family, when in columns] for place in BEARINGS}
+        rows = [((Text(place),), *(bare(printed.number(id)) for id in ids[place])) for place in BEARINGS]
+        heads = [(replace(printed.symbol(id), sub=""), printed.number(id).unit) for id in ids[BEARINGS[0]]]
+        return self.headed("loads", words["bearing"], heads, rows)
+
+    # --- figures
+
+    def scenes(self, name: str) -> Iterable[Scene]:
+        _, draw = rotor_drawings.FIGURES[name]
+        return (draw(self.case, IN_REPORT),)
+
+
+# --- the case --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class RotorCase(SolvedRotor):
+    """A rotor, as a `Case`."""
+
+    PAGE = RotorPage
+    SAME = (
+        *((name(BEFORE, at), name(AFTER, at)) for name in (*OF_BEARING, rotor_ids.in_metres) for at in BEARINGS),
+        *(tuple(rotor_ids.share(when, axis, place) for when in (BEFORE, AFTER)) for axis in "xy" for place in BEARINGS),
+    )
+
+    @property
+    def shafts(self) -> Sequence[Shaft]:
+        if self.given.n is None:
+            return ()
+        return (Shaft(self.words["rotor"]["shaft"], self.speed, 1, datum="n"),)
+
+    @cached_property
+    def entries(self) -> ResultEntries:
+        """The corrections in their planes, and what the bearings bear before and after."""
+        position: dict[str, Any] = {"number": 1, "corrections": {}}
+        for plane in self.planes:
+            size = self.ledger[rotor_ids.unbalance(plane)].at(1)
+            angle = self.ledger[rotor_ids.direction(plane)].at(1) if size else None
+            entry = {"unbalance": size, "angle": angle}
+            if self.given.correction is not None:
+                entry |= {
+                    name: self.ledger[family(plane)].at(1)
+                    for name, family in (("mass", rotor_ids.mass), ("radius", rotor_ids.radius))
+                }
+            position["corrections"][plane] = entry
+        if self.given.bearings is not None:
+            position["bearings"] = {
+                place: {when: np.complex128(self.force_on(when, place)) for when in (BEFORE, AFTER)}
+                for place in BEARINGS
+            }
+        return ResultEntries([position])
+
+    def animations(self) -> tuple[Animation, ...]:
+        return (rotor_motion.animation(self),)
+
+    def plates(self, sets: Collection[str] = (), every: bool = False) -> Mapping[str, Sequence[DrawingPlate]]:
+        """Its scheme, its plans and its tables; there are no sets of them to choose from."""
+        return {"rotor": [*rotor_drawings.plates(self), *self._tables()]}
+
+    def _tables(self) -> Iterator[DrawingPlate]:
+        page, captions = RotorPage(self), self.words["rotor"]["captions"]
+        tables = {"products": page.products} | ({"loads": page.loads_table} if self.given.bearings else {})
+        for name, table in tables.items():
+            yield DrawingPlate(captions[name], (), "tables", (drawn(table, self.assignment.language),), spare=True)

@@ -1,0 +1,88 @@
+"""The file of a rotor: its masses, its correction planes and what is known of the correction, its bearings."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from reportgen.assignment.common import Part
+from reportgen.assignment.fields import Angle, Coordinate, Length, RotationalSpeed, quantity
+from reportgen.base.shown import shown
+from reportgen.base.units import Given
+
+MOST_MASSES = 24
+AT_ORIGIN = Given(0.0, 0.0, "mm", "0 mm")
+LEFT, RIGHT = "A", "B"
+"""The correction planes; a single one is the first."""
+BEARINGS = ("C", "D")
+
+PositiveMass = Annotated[Given, quantity("kg", least=1e-6, most=1e6)]
+VibrationGrade = Annotated[Given, quantity("mm/s", least=0.01, most=1e5)]
+
+
+class Planes(Part):
+    """Where the correction planes stand on the axis; with `B` left out there is one."""
+
+    A: Coordinate
+    B: Coordinate | None = None
+
+
+class RotorMass(Part):
+    """An unbalanced mass, its radius and angle, and where it stands on the axis."""
+
+    m: PositiveMass
+    r: Length
+    angle: Angle
+    z: Coordinate = AT_ORIGIN
+
+
+class KnownMass(Part):
+    """The radius of a correction mass, or its mass."""
+
+    r: Length | None = None
+    m: PositiveMass | None = None
+
+
+class KnownCorrection(KnownMass):
+    """What is known of the correction masses: the same in every plane, or something in each."""
+
+    A: KnownMass | None = None
+    B: KnownMass | None = None
+
+
+@shown("correction", "bearings", "grade", "n")
+class Parameters(Part):
+    """A rotor that is to be balanced."""
+
+    masses: Annotated[tuple[RotorMass, ...], Field(min_length=1, max_length=MOST_MASSES)]
+    planes: Planes
+    correction: KnownCorrection | None = None
+    bearings: Annotated[tuple[Coordinate, ...], Field(min_length=2, max_length=2)] | None = None
+    n: RotationalSpeed | None = None
+    grade: VibrationGrade | None = None
+    mass: PositiveMass | None = None
+
+    @property
+    def planes_by_name(self) -> dict[str, Given]:
+        """The places of the correction planes, from left to right."""
+        far = {} if self.planes.B is None else {RIGHT: self.planes.B}
+        return {LEFT: self.planes.A, **far}
+
+    @property
+    def known_masses(self) -> dict[str, KnownMass]:
+        """What is known of the correction mass in each plane; nothing where none is asked for."""
+        if self.correction is None:
+            return {}
+        own = {LEFT: self.correction.A, RIGHT: self.correction.B}
+        return {plane: own[plane] or self.correction for plane in self.planes_by_name}
+
+    @property
+    def sought(self) -> frozenset[str]:
+        """What of the correction masses is sought: their mass `m`, their radius `r`, or one here and one there."""
+        return frozenset("r" if known.r is None else "m" for known in self.known_masses.values())
+
+    @property
+    def has_couple(self) -> bool:
+        """Whether a mass stands outside of plane A, or a correction does."""
+        return self.planes.B is not None or any(one.z.si != self.planes.A.si for one in self.masses)

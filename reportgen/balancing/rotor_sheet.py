@@ -1,0 +1,244 @@
+"""The sheet of a rotor: products, both plans, the same by components, loads of the bearings, the quality grade."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from reportgen.balancing import rotor_ids as names
+from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT, Parameters
+from reportgen.base.units import MM, nice_up
+from reportgen.drawing.geometry import corners_of
+from reportgen.formula import PI, Expression, Number, Ref, Symbol, atan, cis, cos, heading, sin, sqrt, total
+from reportgen.formula.sheet import DUST, Sheet
+from reportgen.formula.vocabulary import Chapter
+
+ROOM = 105 + 85j
+"""What a plan may take on a page (mm)."""
+AXES: Mapping[str, Callable[[Expression], Expression]] = {"x": cos, "y": sin}
+STRAIGHT, WHOLE_TURN = Number(180.0, unit="°"), Number(360.0, unit="°")
+BEFORE, AFTER = "before", "after"
+
+
+class RotorSheet:
+    """The sheet of a rotor while it is written."""
+
+    def __init__(self, given: Parameters) -> None:
+        self.given, self.q = given, Sheet()
+        self.masses = tuple(str(number) for number in range(1, len(given.masses) + 1))
+        self.α: dict[str, Ref] = {}
+        self.U: dict[str, Ref] = {}
+        self.V: dict[str, Ref] = {}
+        self.z: dict[str, Ref] = {}
+
+    def written(self) -> Sheet:
+        with self.q.within(Chapter.data):
+            self._enter_given()
+        with self.q.within(Chapter.geometry):
+            self._enter_products()
+        with self.q.within(Chapter.loads):
+            self._enter_plans()
+        with self.q.within(Chapter.formulas):
+            self._enter_components()
+        with self.q.within(Chapter.forces):
+            self._enter_bearings()
+        with self.q.within(Chapter.cycle):
+            self._enter_grade()
+        return self.q
+
+    def _enter_given(self) -> None:
+        q, given = self.q, self.given
+        for place, mass in zip(self.masses, given.masses, strict=True):
+            q.give(names.mass(place), mass.m.si)
+            q.give(names.radius(place), mass.r.si)
+            self.α[place] = q.give(names.angle(place), mass.angle.si)
+            if given.has_couple:
+                self.z[place] = q.give(names.station(place), mass.z.si)
+        stations = given.planes_by_name if given.has_couple or given.bearings else {}
+        for place, station in (*stations.items(), *zip(BEARINGS, given.bearings or (), strict=False)):
+            self.z[place] = q.give(names.station(place), station.si)
+        for plane, known in given.known_masses.items():
+            for family, datum in ((names.radius, known.r), (names.mass, known.m)):
+                if datum is not None:
+                    q.give(family(plane), datum.si)
+        if given.n is not None:
+            q.give("rotor.n", given.n.si * 30 / math.pi)
+        for id, datum in (("rotor.grade", given.grade), ("rotor.M", given.mass)):
+            if datum is not None:
+                q.give(id, datum.si)
+
+    # --- U = m r and V = m r z
+
+    def _enter_products(self) -> None:
+        q = self.q
+        for place in self.masses:
+            U = self.U[place] = q.define(names.unbalance(place), q[names.mass(place)] * q[names.radius(place)])
+            q.set_out("unbalances", U)
+        for place in self.masses if self.given.has_couple else ():
+            V = self.V[place] = q.define(names.moment(place), self.U[place] * (self.z[place] - self.z[LEFT]))
+            q.set_out("moments", V)
+        if self.given.planes.B is not None:
+            q.set_out("length", q.define("rotor.L", self.z[RIGHT] - self.z[LEFT], optional=True))
+
+    # --- plans
+
+    def _enter_plans(self) -> None:
+        """V_B closes the plan of V about plane A, where U_A has no moment; U_A closes the plan of U."""
+        q, U = self.q, dict(self.U)
+        directions = dict(self.α)
+        if RIGHT in self.given.planes_by_name:
+            μ = self._lay_off("V", self.V, directions)
+            line = self._close("V", RIGHT, self.V, directions, μ)
+            of_all = sum(abs(q.si(V)) for V in self.V.values())
+            U_B = q.define(names.unbalance(RIGHT), μ * line / q["rotor.L"], scale=of_all / q.si("rotor.L"))
+            directions[RIGHT] = self._directed(RIGHT, "V", U_B)
+            U[RIGHT] = U_B
+            q.set_out("right", U_B)
+        μ = self._lay_off("U", U, directions)
+        line = self._close("U", LEFT, U, directions, μ)
+        U_A = q.define(names.unbalance(LEFT), μ * line, scale=sum(q.si(one) for one in U.values()))
+        self._directed(LEFT, "U", U_A)
+        q.set_out("left", U_A)
+        self._enter_masses()
+
+    def _lay_off(self, of: str, sizes: Mapping[str, Ref], directions: Mapping[str, Ref]) -> Ref:
+        """The scale of a plan, and its known sides on paper."""
+        q = self.q
+        shown = q.families[next(iter(sizes.values())).id].how.scale
+        steps = [q.si(sizes[place]) * np.exp(1j * q.si(directions[place])) / shown for place in sizes]
+        low, high = corners_of(np.cumsum([0.0, *steps]))
+        room = max((high - low).real / ROOM.real, (high - low).imag / ROOM.imag)
+        per_mm = nice_up(room) * shown * MM
+        μ = q.give(names.scale(of), per_mm, optional=True)
+        for place, size in sizes.items():
+            q.define(
+                names.laid_off(of, place), size / μ, Symbol("s", f"{of}{place}"), optional=True, scale=abs(ROOM) / MM
+            )
+        return μ
+
+    def _close(self, of: str, plane: str, sizes: Mapping[str, Ref], directions: Mapping[str, Ref], μ: Ref) -> Ref:
+        """The measured side that closes a plan: the sum of all others, reversed."""
+        q = self.q
+        closing = q.construct(names.drawn(of, plane), -(resultant(sizes, directions) / μ))
+        all_sides = sum(abs(q.si(size)) for size in sizes.values()) / q.si(μ)
+        side = Symbol("s", f"{of}{plane}")
+        return q.define(names.laid_off(of, plane), abs(closing), side, optional=True, scale=all_sides)
+
+    def _directed(self, plane: str, of: str, size: Ref) -> Ref:
+        return self.q.define(names.direction(plane), heading(Ref(names.drawn(of, plane))), of=size.id)
+
+    def _enter_masses(self) -> None:
+        q = self.q
+        for plane in self.given.known_masses:
+            U = q[names.unbalance(plane)]
+            if names.radius(plane) in q:
+                q.set_out("corrections", q.define(names.mass(plane), U / q[names.radius(plane)]))
+            else:
+                q.set_out("corrections", q.define(names.radius(plane), U / q[names.mass(plane)]))
+
+    # --- components
+
+    def _enter_components(self) -> None:
+        q, shown = self.q, {"U": self.U, "V": self.V}
+        for of, sizes in shown.items():
+            for axis, function in AXES.items() if sizes else ():
+                parts = [
+                    q.define(names.component(of, axis, place), size * function(self.α[place]), optional=True)
+                    for place, size in sizes.items()
+                ]
+                q.set_out(f"resultant_{of}", q.define(names.resultant(of, axis), total(parts), optional=True))
+        U = {axis: q[names.resultant("U", axis)] for axis in AXES}
+        far: dict[str, Ref] = {}
+        if RIGHT in self.given.planes_by_name:
+            L = q["rotor.L"]
+            far = {axis: self._part(RIGHT, axis, -q[names.resultant("V", axis)] / L) for axis in AXES}
+            self._enter_polar(RIGHT, far)
+        near = {axis: self._part(LEFT, axis, -(U[axis] + far[axis]) if far else -U[axis]) for axis in AXES}
+        self._enter_polar(LEFT, near)
+
+    def _part(self, plane: str, axis: str, formula: Expression) -> Ref:
+        part = self.q.define(names.component("U", axis, plane), formula, optional=True)
+        self.q.set_out("by_components", part)
+        return part
+
+    def _enter_polar(self, plane: str, parts: Mapping[str, Ref]) -> None:
+        """The size of a correction and its angle within one turn."""
+        q, x, y = self.q, parts["x"], parts["y"]
+        size = q.define(names.by_components("U", plane), sqrt(x**2 + y**2))
+        α = q.define(names.by_components("alpha", plane), angle_of(q, x, y), of=size.id)
+        q.set_out("by_components", size, α)
+
+    # --- bearings
+
+    def _enter_bearings(self) -> None:
+        q = self.q
+        if self.given.bearings is None:
+            return
+        ω = q.define("rotor.omega", 2 * PI * q["rotor.n"] / 60)
+        near, far = BEARINGS
+        b = q.define("rotor.b", self.z[far] - self.z[near], optional=True)
+        q.set_out("speed", ω, b)
+        for when in (BEFORE, AFTER):
+            for place, opposite, sense in ((near, far, -1), (far, near, 1)):
+                parts = {axis: self._at_bearing(when, axis, place, opposite, sense) for axis in AXES}
+                self._enter_force(when, place, parts)
+
+    def _at_bearing(self, when: str, axis: str, place: str, opposite: str, sense: int) -> Ref:
+        """The part that a bearing has of all unbalance, by moments about the opposite bearing."""
+        q, z, b = self.q, self.z, self.q["rotor.b"]
+        arm = z[opposite] - z[LEFT] if sense < 0 else z[LEFT] - z[opposite]
+        if when == BEFORE:
+            moment = q[names.resultant("U", axis)] * arm
+            if self.V:
+                V = q[names.resultant("V", axis)]
+                moment = moment - V if sense < 0 else moment + V
+            formula = moment / b
+        else:
+            formula = q[names.share(BEFORE, axis, place)]
+            for plane in self.given.planes_by_name:
+                U, α = q[names.unbalance(plane)], q[names.direction(plane)]
+                arm = z[opposite] - z[plane] if sense < 0 else z[plane] - z[opposite]
+                formula = formula + U * AXES[axis](α) * arm / b
+        return q.define(names.share(when, axis, place), formula, optional=True, residue=self._left_by_rounding(when))
+
+    def _left_by_rounding(self, when: str) -> bool:
+        """Whether there is nothing but what corrections as they are written leave."""
+        return when == AFTER and (RIGHT in self.given.planes_by_name or not self.V)
+
+    def _enter_force(self, when: str, place: str, parts: Mapping[str, Ref]) -> None:
+        q, residue = self.q, self._left_by_rounding(when)
+        U = q.define(names.at_bearing(when, place), sqrt(parts["x"] ** 2 + parts["y"] ** 2), residue=residue)
+        in_metres = q.define(names.in_metres(when, place), U, q.families[U.id].symbol, optional=True, residue=residue)
+        N = q.define(names.bearing_force(when, place), in_metres * q["rotor.omega"] ** 2, residue=residue)
+        q.set_out(f"{when}_{place}", *parts.values(), U, in_metres, N)
+
+    # --- the quality grade
+
+    def _enter_grade(self) -> None:
+        q, given = self.q, self.given
+        if given.grade is None:
+            return
+        e = q.define(names.permitted("e"), q["rotor.grade"] / q["rotor.omega"])
+        U = q.define(names.permitted("U"), q["rotor.M"] * e)
+        half = q.define(names.permitted("plane"), U / 2, optional=True)
+        q.set_out("grade", e, U, half)
+        share = half if RIGHT in given.planes_by_name else U
+        for plane in given.known_masses:
+            q.set_out("tolerances", q.define(names.tolerance(plane), share / q[names.radius(plane)]))
+
+
+def resultant(sizes: Mapping[str, Expression], directions: Mapping[str, Expression]) -> Expression:
+    """Σ U e^{iα}."""
+    return total([size * cis(directions[place]) for place, size in sizes.items()])
+
+
+def angle_of(q: Sheet, x: Ref, y: Ref) -> Expression:
+    """The direction of a vector from its components, from 0° to 360°."""
+    across, along = q.si(y), q.si(x)
+    if abs(along) <= DUST * abs(across) or along == 0:
+        return Number(90.0 if across >= 0 else 270.0, unit="°")
+    if along < 0:
+        return STRAIGHT + atan(y / x)
+    return atan(y / x) if across >= 0 else WHOLE_TURN + atan(y / x)

@@ -1,0 +1,17 @@
+"""The steps of a piece of work, told to whoever has started the process and asks for them."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+ASKED = "REPORTGEN_STEPS"
+"""The variable of the environment that asks for steps."""
+MARK = "\x1e"
+"""A line of the error stream that begins so names a step."""
+
+
+def step(name: str) -> None:
+    """Tell that a step begins: `solve`, `compose`, `typeset`, `page`, `word`."""
+    if os.environ.get(ASKED):
+        print(f"{MARK}{name}", file=sys.stderr, flush=True)

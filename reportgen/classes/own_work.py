@@ -1,0 +1,175 @@
+"""Whose a report or a drawing is that came without a sheet, and what was read of it.
+
+It says no assignment by itself.  Whose it is shows by its name or its folder's, by the platform that it comes from, or
+by the number of one student of the class, and no other, that stands in it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.units import Language
+from reportgen.base.words import as_problem
+from reportgen.classes.collecting import Collected, Refused, chosen_of
+from reportgen.classes.platforms import Handed, changed
+from reportgen.classes.reading_sheets import names_in, read_own
+from reportgen.classes.roster import comparable
+from reportgen.handin import FileReading, submission
+from reportgen.handin.files import content, kinds
+from reportgen.handin.reading_book import NAME
+from reportgen.marking.marks import Submission
+from reportgen.marking.policy import Twice
+from reportgen.report.key import Key
+
+
+@dataclass(frozen=True, slots=True)
+class OwnWork:
+    """A student's own files, each with what was read of it."""
+
+    files: tuple[tuple[Handed, FileReading], ...]
+
+    def submission(self, language: Language | None) -> Submission:
+        """What is marked where no sheet stands beside them."""
+        return submission([reading for _, reading in self.files], language)
+
+    def contents(self, language: Language | None) -> Iterator[tuple[Path, bytes, FileReading]]:
+        """The files with their bytes, to write into a copy."""
+        for file, reading in self.files:
+            yield file.path, content(file.path, file.data, language), reading
+
+
+@dataclass
+class OwnWorks:
+    """The own files of a class by assignment; the files that are not read, and all that is told."""
+
+    works: dict[str, OwnWork] = field(default_factory=dict)
+    refused: list[Refused] = field(default_factory=list)
+    problems: list[Problem] = field(default_factory=list)
+
+    def refuse(self, file: Handed, problems: Sequence[Problem]) -> None:
+        self.refused.append(Refused(file, tuple(problems)))
+        self.problems += problems
+
+
+def own_works(
+    handed: Sequence[Handed],
+    keys: Mapping[str, Key],
+    student_of: Callable[[Handed], Key | None],
+    asked: Callable[[Key], Key],
+    twice: Twice,
+    language: Language | None,
+) -> OwnWorks:
+    """The own files of a class laid to its students and read; `keys` are those of the assignments by comparable stem.
+
+    `student_of` says whose a file is by its name or its platform, `asked` what of a key is looked for, by the symbols
+    of the student's own papers.
+    """
+    gathered = OwnWorks()
+    of_assignment: dict[str, list[Handed]] = {}
+    unknown: list[Handed] = []
+    for file in handed:
+        key = student_of(file)
+        if key is not None:
+            of_assignment.setdefault(key.id, []).append(file)
+        else:
+            unknown.append(file)
+    for file, key in _by_text(unknown, keys, gathered, language):
+        of_assignment.setdefault(key.id, []).append(file)
+    chosen = list(_chosen(of_assignment, keys, gathered, twice, language))
+    known = {key.id: key for key in keys.values()}
+    read: dict[str, list[tuple[Handed, FileReading]]] = {}
+    assignments = iter([assignment for assignment, _ in chosen])
+    for file, reading in read_own(((file, asked(known[assignment])) for assignment, file in chosen), language):
+        assignment = next(assignments)
+        if isinstance(reading, list):
+            gathered.refuse(file, reading)
+        else:
+            read.setdefault(assignment, []).append((file, reading))
+    gathered.works |= {assignment: OwnWork(tuple(files)) for assignment, files in read.items()}
+    return gathered
+
+
+def _by_text(
+    unknown: Sequence[Handed], keys: Mapping[str, Key], gathered: OwnWorks, language: Language | None
+) -> Iterator[tuple[Handed, Key]]:
+    """Files whose text has the number of one student, or the name of one assignment."""
+    if not unknown:
+        return
+    owners: dict[str, Key] = {}
+    for key in keys.values():
+        owners |= dict.fromkeys((name.casefold() for name in (key.id, key.student.get("id", "")) if name), key)
+    for file, standing in names_in(unknown, frozenset(owners), language):
+        if isinstance(standing, list):
+            gathered.refuse(file, standing)
+            continue
+        named = {owners[name].id: owners[name] for name in standing}
+        if file.owner is not None:
+            named = {id: key for id, key in named.items() if file.owner.may_be(key.student.get("name", ""))}
+        if len(named) == 1:
+            yield file, next(iter(named.values()))
+        else:
+            gathered.refuse(file, [as_problem(Fault("own-whose", Mark(str(file.path))), language)])
+
+
+def _chosen(
+    of_assignment: Mapping[str, list[Handed]],
+    keys: Mapping[str, Key],
+    gathered: OwnWorks,
+    twice: Twice,
+    language: Language | None,
+) -> Iterator[tuple[str, Handed]]:
+    """Of several reports of a student the one that counts; all drawings are of one work."""
+    for assignment, several in of_assignment.items():
+        name = keys[comparable(assignment)].student.get("name", "")
+        for ending, kind in kinds().items():
+            files = [file for file in several if file.path.suffix.lower() == ending]
+            if files and not kind.several:
+                first, left = chosen_of(files, assignment, name, keys, twice)
+                gathered.problems += [as_problem(fault, language) for fault in left]
+                files = [first]
+            yield from ((assignment, file) for file in files)
+
+
+def without_own(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]:
+    """What may be sheets; the rest is put with the `own` files."""
+    for file in handed:
+        if file.is_own:
+            own.append(file)
+        else:
+            yield file
+
+
+def with_own(collected: Collected, own: OwnWorks, language: Language | None) -> Collected:
+    """What is marked: the sheets, and the own files of those who handed none in.
+
+    A reading that nobody has changed counts only where the files that it was read of are not there.
+    """
+    sheets = dict(collected.sheets)
+    told: list[Problem] = []
+    for assignment, work in own.works.items():
+        first = work.files[0][0]
+        if assignment not in sheets:
+            sheets[assignment] = work.submission(language), first
+        elif not sheets[assignment][0].fingerprint:
+            about = {"text": assignment, "sheet": sheets[assignment][1].path.name}
+            told.append(as_problem(Fault("own-beside-sheet", Mark(str(first.path)), about), language, "note"))
+    sheets |= {assignment: sheet for assignment, sheet in collected.readings.items() if assignment not in sheets}
+    refused = (*collected.refused, *own.refused)
+    return replace(collected, sheets=sheets, refused=refused, problems=(*collected.problems, *own.problems, *told))
+
+
+def completed(out: Path | None, given: Sequence[Path]) -> Iterator[Handed]:
+    """The readings that an earlier run has left where the results go, unless they are among the files given."""
+    among = {path.resolve() for path in given}
+    for path in sorted(out.glob(f"*/{NAME}")) if out is not None else ():
+        resolved = path.resolve()
+        if resolved not in among and not among & {*resolved.parents}:
+            yield Handed(path, when=changed(path))
+
+
+def renewable(readings: Mapping[str, tuple[Submission, Handed]], target: Path) -> bool:
+    """Whether a reading may be written to a place: nothing stands there, or one that nobody has changed."""
+    return not target.exists() or any(file.path.resolve() == target.resolve() for _, file in readings.values())

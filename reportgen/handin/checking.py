@@ -1,0 +1,81 @@
+"""A student's own files against their assignment, before they are handed in: read into a sheet, or compared."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.files import cause, contents
+from reportgen.base.units import Language
+from reportgen.base.words import as_error, word
+from reportgen.handin import submission
+from reportgen.handin.files import NOT_READ, OWN, content, read_file
+from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
+from reportgen.marking.key import Ask, key_of
+from reportgen.marking.marking import compare as compare_sheet
+from reportgen.marking.marking import compared
+from reportgen.marking.marks import Submission
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.sheet import read_submission
+from reportgen.report.case import Case
+from reportgen.report.key import Key
+
+
+def read(case: Case, papers: Case, files: Sequence[Path], ask: Ask) -> tuple[Key, Submission]:
+    """What reports and drawings say of what is asked for, and its key; raises `AssignmentError` for what is refused.
+
+    `papers` are the case in the language of the student's own papers, whose symbols are looked for.
+    """
+    spoken = case.assignment.language
+    refuse(files, spoken)
+    asked = ask.of(key_of(papers))
+    readings = [read_file(path, content(path, None, spoken), asked, spoken) for path in files]
+    return ask.of(key_of(case)), submission(readings, spoken)
+
+
+def refuse(files: Sequence[Path], language: Language) -> None:
+    """Raises `AssignmentError` for files of kinds that are not read."""
+    strangers = [path for path in files if path.suffix.lower() not in OWN]
+    if strangers:
+        raise as_error([Fault("own-not-read", Mark(str(path))) for path in strangers], language)
+
+
+def compare(case: Case, papers: Case, files: Sequence[Path], hint: bool = False) -> tuple[tuple[str, ...], bool]:
+    """Lines that say where a sheet, or else a report and drawings, leave their assignment, and whether they agree.
+
+    What was not read does not disagree, and is told.  Raises `AssignmentError` for what cannot be read.
+    """
+    sheets = [path for path in files if path.suffix.lower() not in OWN | NOT_READ]
+    if sheets:
+        # Beside a sheet, the sheet counts; of several the last, as where they are handed in.
+        return compare_sheet(case, sheets[-1], hint)
+    scheme = marking_scheme(case, Policy(guard=False))
+    key, own = read(case, papers, files, Ask())
+    rows = frozenset(row.id for row in key.asked)
+    return compared(scheme, replace(own, rows=rows), hint)
+
+
+def reading(key: Key, own: Submission, target: Path) -> bytes:
+    """The sheet of what was read, for `target`; raises `AssignmentError` where somebody has completed it there."""
+    spoken = key.language
+    if target.exists():
+        try:
+            standing = read_submission(target, key, spoken)
+            data = contents(target)
+        except OSError as error:
+            raise as_error([Fault("unreadable", Mark(str(target)), {"reason": cause(error)})], spoken) from error
+        if data and not is_unchanged(standing):
+            raise as_error([Fault("reading-completed", Mark(str(target)))], spoken)
+    return reading_book(key, own)
+
+
+def summary(own: Submission, language: Language | None) -> str:
+    """How much of a student's own files was read and how many values are open; nothing of a sheet."""
+    if not own.own_files:
+        return ""
+    said = word("graded_read", language, read=f"{100 * own.share_read:.0f}")
+    count = len(own.unread)
+    return said + (word("graded_to_settle", language, count=count, file=NAME) if count else "")

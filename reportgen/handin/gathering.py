@@ -1,0 +1,140 @@
+"""What is gathered of a file place by place: values, and faults where something stands that is not beyond doubt."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.units import QuantityFault
+from reportgen.handin import FileReading, agree, figures
+from reportgen.handin.numbers import Marks, read_value
+from reportgen.handin.statements import ANTICLOCKWISE, CLOCKWISE
+from reportgen.handin.symbols import Symbols, bare
+from reportgen.handin.word_text import TextLine, WordMark
+from reportgen.marking.marks import Answer, Place
+from reportgen.report.key import Key, KeyRow
+
+SHOWN = 60
+"""Characters of a text that are quoted."""
+
+
+@dataclass(slots=True)
+class Gathering:
+    """The values and the doubts of one file for a key."""
+
+    key: Key
+    file: str
+    marks: Marks
+    symbols: Symbols
+    values: dict[Place, Answer] = field(default_factory=dict)
+    doubts: dict[Place, Fault] = field(default_factory=dict)
+    """The first of each place; it counts only where no value stands."""
+    clashes: dict[Place, Fault] = field(default_factory=dict)
+    """Places with two values, which have none."""
+    positions: dict[str, Mapping[str, int]] = field(default_factory=dict)
+    fixed: frozenset[Place] = frozenset()
+    """Places that blanks of a frame have filled."""
+    notes: list[Fault] = field(default_factory=list)
+
+    def rows_of(self, symbol: str) -> tuple[KeyRow, ...]:
+        return self.symbols.rows_of(symbol)
+
+    def position(self, row: KeyRow, label: str | None) -> int | None:
+        """The position of a row by its label; 0 for what is the same at all of them."""
+        if row.single:
+            return 0
+        owner = self.key.owner(row.id)
+        if owner not in self.positions:
+            labels = self.key.part(row.id).labels
+            self.positions[owner] = {bare(label).casefold(): k for k, label in enumerate(labels, start=1)}
+        return None if label is None else self.positions[owner].get(bare(label).casefold())
+
+    def is_label(self, text: str) -> bool:
+        """Whether any part has a position of that name."""
+        keys = [part.key for part in self.key.parts] or [self.key]
+        return any(bare(text).casefold() == bare(label).casefold() for key in keys for label in key.labels)
+
+    def doubt(self, row: KeyRow, position: int | None, code: str, mark: WordMark, text: str, **more: str) -> None:
+        """Something stands for a row, at a position or at any of them, and is not read."""
+        for one in row.positions:
+            if position is None or one == position:
+                shown = _tidy(text)
+                self.doubts.setdefault((row.id, one), Fault(code, mark, {"text": shown, **more}))
+
+    def give(self, row: KeyRow, position: int, value: float, mark: WordMark, text: str) -> None:
+        """A value of a place; a place that has another one already is not read."""
+        place, answer = (row.id, position), Answer(value, _tidy(text), mark)
+        if position not in row.positions or place in self.clashes or place in self.fixed:
+            return
+        first = self.values.get(place)
+        if first is None:
+            self.values[place] = answer
+        elif agree(first, answer):
+            if figures(answer.text) > figures(first.text):
+                self.values[place] = answer
+        elif not is_signed(row) and agree(replace(first, value=abs(first.value)), replace(answer, value=abs(value))):
+            # The size of a vector, and its coordinate on an axis that points the other way.
+            self.values[place] = max(first, answer, key=lambda one: one.value)
+        else:
+            del self.values[place]
+            self.clashes[place] = Fault("unread-two-values", mark, {"text": answer.text, "first": first.text})
+
+    def number(
+        self, row: KeyRow, position: int, number: str, unit: str, mark: WordMark, words: str, barred: bool = False
+    ) -> None:
+        """Read a number for a place, with the sense that is said in words beside it."""
+        text = f"{number.strip()} {unit}".strip()
+        try:
+            value = read_value(number, unit, row, self.marks)
+        except QuantityFault as fault:
+            code = "unread-product" if fault.code == "product" else "unread-unit" if unit else "unread-number"
+            self.doubt(row, position, code, mark, text, unit=row.unit)
+            return
+        signed = self._signed(row, position, value, words, barred)
+        if signed is None:
+            self.doubt(row, position, "unread-sense", mark, text)
+        else:
+            self.give(row, position, signed, mark, text)
+
+    def _signed(self, row: KeyRow, position: int, value: float, words: str, barred: bool) -> float | None:
+        """A value with its sign: a rotation has the sense said beside it, and without any counts by its size.
+
+        None where two senses are said, or a size is given of what has a sign.
+        """
+        turns = bool(CLOCKWISE.search(words)), bool(ANTICLOCKWISE.search(words))
+        if row.size:
+            if value < 0:
+                return None if turns == (False, True) else value
+            if any(turns):
+                return None if all(turns) else -value if turns[0] else value
+            known = row.values[row.at(position)] if position in row.positions else np.nan
+            return -value if known < 0 else value
+        return None if barred and is_signed(row) else value
+
+    def note(self, code: str, mark: Mark, **arguments: str) -> None:
+        self.notes.append(Fault(code, mark, arguments))
+
+    def reading(self) -> FileReading:
+        """All of it, values before doubts."""
+        unread = {place: fault for place, fault in self.doubts.items() if place not in self.values}
+        return FileReading(self.key.id, self.file, self.values, {**unread, **self.clashes}, tuple(self.notes))
+
+    def mark(self, line: TextLine, index: int) -> WordMark:
+        """Where a letter of a line stands."""
+        node = line.nodes[min(max(index, 0), len(line.nodes) - 1)]
+        return WordMark(self.file, line.number, index + 1, element=node.number)
+
+
+def is_signed(row: KeyRow) -> bool:
+    """Whether the sign of a quantity says anything: it has both, and the papers say which is which."""
+    return not row.open_sense and bool(np.nanmin(row.values, initial=0.0) < 0)
+
+
+def _tidy(text: str) -> str:
+    """A text as it may be quoted: in a line, without braces, cut."""
+    plain = re.sub(r"\s+", " ", text.replace("{", "").replace("}", "")).strip()
+    return plain if len(plain) <= SHOWN else f"{plain[: SHOWN - 1]}…"

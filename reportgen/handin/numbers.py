@@ -1,0 +1,88 @@
+"""Numbers of a running text: their decimal mark, their unit, and what leaves a doubt."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from reportgen.base.units import Language, QuantityFault
+from reportgen.formula.vocabulary import KINDS
+from reportgen.marking.numbers import DecimalMark, read_number
+from reportgen.report.key import KeyRow
+
+_DECIMALS = re.compile(r"(?<![\d.,])\d+([.,])(\d+)(?![\d]|[.,]\d)")
+BOTH = 0.1
+"""From this share of its numbers on, a text is one that has both decimal marks."""
+_PRODUCT = re.compile(r"\d\.\d+,\d|\d,\d+\.\d(?!0\s*\^)|\d\.\d+\.\d|\d,\d+,\d")
+"""5.122,95: thousands, or 5 times 122,95?"""
+_THOUSANDS = re.compile(r"[-+–]?\s*\d{1,3}[.,]\d{3}(?!\d)")
+
+_POWER = r"(?:\s*[·.x×*]\s*10\s*(?:\^\s*\{?\(?\s*[-–⁻+]?\s*\d{1,3}\s*\)?\}?|[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))"
+NUMBER = (
+    rf"(?:[+\-–]\s*)?(?:\d+(?:[ \u00a0\u2009\u202f]\d{{3}})*(?:[.,]\d+)*(?:[eE][-+]?\d{{1,3}})?)(?!\d)(?:{_POWER})?"
+)
+_NO_LETTER = "(?![A-Za-zÀ-ỹα-ω])"
+_WORDS_OF_UNITS = "N|kN|mm|cm|dm|m|s|kg|rad|J|W|kW|MPa|kPa|Pa|độ|v|vg|vòng|rpm|deg|bar"
+UNIT = (
+    rf"(?:°|%|º|(?:1/s|(?:{_WORDS_OF_UNITS}){_NO_LETTER}))"
+    rf"(?:\s*[/·.*]\s*(?:{_WORDS_OF_UNITS}|ph|phút|min|rev){_NO_LETTER}|\s(?:m|mm|s){_NO_LETTER}|\s*\^\s*\{{?\(?[-–]?\d\)?\}}?|[²³⁴⁻¹]+|\d(?!\d)"
+    rf"|\s*/\s*\(\s*(?:{_WORDS_OF_UNITS})[^()=]{{0,8}}\))*"
+)
+_UNIT_BEHIND = re.compile(rf"\s?{UNIT}")
+_BRACES = re.compile(r"[{}]")
+_JOINED_UNIT = re.compile(r"\s*([/·*])\s*")
+
+
+@dataclass(frozen=True, slots=True)
+class Marks:
+    """The decimal mark of a text, and whether it has both."""
+
+    decimal: DecimalMark
+    mixed: bool
+
+
+def marks_of(texts: Iterable[str], language: Language) -> Marks:
+    """The decimal mark by what leaves no doubt in a text: one that stands alone and not before three figures.
+
+    Numbers of sections, figures and equations say nothing; those behind “=”, before a unit or alone in a cell do.
+    """
+    counts: Counter[str] = Counter()
+    for text in texts:
+        for match in _DECIMALS.finditer(text):
+            before, behind = text[: match.start()].rstrip(" -–"), text[match.end() :]
+            counted = before.endswith(("=", "≈")) or _UNIT_BEHIND.match(behind) or not (before or behind.strip())
+            if counted and len(match[2]) != 3:
+                counts[match[1]] += 1
+    points, commas = counts["."], counts[","]
+    if not points and not commas:
+        return Marks("," if language == "vi" else ".", mixed=True)
+    return Marks("," if commas >= points else ".", min(points, commas) > BOTH * (points + commas))
+
+
+def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
+    """A number of a text in the row's unit; raises `QuantityFault`, for what leaves a doubt `product`."""
+    text = number.strip()
+    if _PRODUCT.search(text) or (_THOUSANDS.fullmatch(text) and _is_doubtful(text, marks)):
+        raise QuantityFault("product", text=text)
+    if not marks.mixed and (match := _DECIMALS.search(text)) and match[1] != marks.decimal:
+        raise QuantityFault("product", text=text)
+    if not KINDS[row.kind].unit and unit == "%":
+        return read_number(_BRACES.sub("", text), "", marks.decimal, agreed=True)[0] / 100
+    written = f"{_BRACES.sub('', text)} {plain_unit(unit)}".strip()
+    return read_number(written, KINDS[row.kind].unit, marks.decimal, agreed=True)[0]
+
+
+def _is_doubtful(text: str, marks: Marks) -> bool:
+    """Whether three figures behind a mark may be thousands; not in 0,125, nor where the mark is that of decimals."""
+    whole = re.match(r"[-+–]?\s*(\d+)([.,])", text)
+    assert whole is not None
+    return not whole[1].startswith("0") and (marks.mixed or whole[2] != marks.decimal)
+
+
+def plain_unit(unit: str) -> str:
+    """A unit as it is typed: m/s^{2} is m/s²."""
+    text = _BRACES.sub("", unit).strip().replace("º", "°").replace("độ", "°")
+    text = re.sub(r"\^\s*\(?\s*([-–]?\d)\)?", r"^\1", text).replace("–", "-")
+    return _JOINED_UNIT.sub(r"\1", text.replace("^2", "²").replace("^3", "³"))

@@ -1,0 +1,92 @@
+"""What was read of a student's files as an answer sheet, to be completed by hand where something was not.
+
+A cell holds what was read; “?” where something stands in the file that was not.  What the sheet held at first is
+written into it as a fingerprint, so that one that nobody has changed is told from one that somebody has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from hashlib import sha256
+
+from reportgen.marking.key import symbol_text, words_of
+from reportgen.marking.marks import Submission
+from reportgen.marking.sheet import (
+    UNSETTLED,
+    answer_book,
+    asked_positions,
+    given_entry,
+    grid,
+    info_page,
+    named_pages,
+    open_cells,
+    page,
+    rows_shown,
+)
+from reportgen.report.key import Key, KeyRow
+from reportgen.workbook import Book, BookSheet, Entry, write_xlsx
+
+NAME = "reading.xlsx"
+_SHORT = 16
+"""Characters of a fingerprint."""
+_WIDTHS = (12.0, 12.0, 12.0, 18.0, 90.0)
+
+
+def fingerprint(submission: Submission) -> str:
+    """What all cells of a reading hold, in short."""
+    cells = [f"{id} {k} {answer.value:.10g}" for (id, k), answer in submission.values.items()]
+    cells += [f"{id} {k} {UNSETTLED}" for id, k in submission.unread]
+    cells += [f"{id} {k} !" for id, k in submission.problems]
+    return sha256("\n".join(sorted(cells)).encode()).hexdigest()[:_SHORT]
+
+
+def is_unchanged(submission: Submission) -> bool:
+    """Whether a sheet is a reading as it was written: it says nothing that its file does not say."""
+    return submission.fingerprint == fingerprint(submission)
+
+
+def reading_book(key: Key, submission: Submission) -> bytes:
+    """The answer sheet filled with what was read; what was not is on a page of its own, with place and reason."""
+    words = words_of(key)["answer_sheet"]
+    empty = answer_book(key)
+    pages = [_page(part, name, submission) for name, part in named_pages(key, words["answers"])]
+    info = info_page(key)
+    marked = (Entry(words["fingerprint"], "bold"), Entry(fingerprint(submission)))
+    unread = (_unread_page(key, submission),) if submission.unread else ()
+    return write_xlsx(Book((*pages, *unread, replace(info, rows=(*info.rows, marked))), empty.title))
+
+
+def _page(key: Key, name: str, submission: Submission) -> BookSheet:
+    words, cells = words_of(key)["answer_sheet"], open_cells(key)
+
+    def filling(row: KeyRow, position: int) -> Entry | None:
+        place = (row.id, position)
+        if position not in cells.get(row.id, ()):
+            return given_entry(row, position)
+        if (answer := submission.values.get(place)) is not None:
+            return Entry(answer.value, "input", comment=f"{answer.mark}\n{answer.text}", unlocked=True)
+        if (problem := submission.unread.get(place)) is not None:
+            return Entry(UNSETTLED, "doubt", comment=f"{problem.mark}\n{problem.message}", unlocked=True)
+        return Entry(None, "input", unlocked=True)
+
+    rows = grid(key, words["title"], words["reading_note"], filling, rows_shown(key), asked_positions(key))
+    return page(name, rows)
+
+
+def _unread_page(key: Key, submission: Submission) -> BookSheet:
+    """What was not read: quantity, position, where it stands, and why."""
+    words = words_of(key)["answer_sheet"]
+    heads = (words["id"], words["symbol"], words["position"].format(label="").strip(), words["where"], words["text"])
+    rows = [tuple(Entry(head, "head") for head in heads), *_unread_rows(key, submission)]
+    return BookSheet(words["not_read"], rows, _WIDTHS, (1, 0), protected=True)
+
+
+def _unread_rows(key: Key, submission: Submission) -> Iterator[tuple[Entry, ...]]:
+    order = {row.id: number for number, row in enumerate(key.rows)}
+    for place in sorted(submission.unread, key=lambda place: (order[place[0]], place[1])):
+        id, position = place
+        problem = submission.unread[place]
+        where = str(problem.mark).rpartition("/")[2]
+        label = key.label(position, id)
+        yield tuple(map(Entry, (id, symbol_text(key.row(id), key), label, where, problem.message)))

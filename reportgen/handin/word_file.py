@@ -1,0 +1,113 @@
+"""A Word file as a stranger sends it: judged as a package, then its text alone is looked at.
+
+Refused are bombs, macros, entities, passwords, and what takes its content from elsewhere.  Objects are never opened and
+links never followed; pictures are not looked at.  A template that the file names, which honest files have, is dropped
+from the copy that is given back.
+"""
+
+from __future__ import annotations
+
+import posixpath
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.handin.word_nodes import XmlNode, parse
+from reportgen.handin.word_text import Block, TextReader, heading_levels
+from reportgen.workbook.package import Bounds, Package, RefusedError
+
+LARGEST = 50_000_000
+"""Bytes of the file."""
+BOUNDS = Bounds(unpacked=200_000_000, links=frozenset({"hyperlink", "image", "attachedTemplate"}))
+"""Pictures of a report are large, and are not unpacked to be read."""
+LARGEST_TEXT = 60_000_000
+"""Bytes of a part of text."""
+TEMPLATE = "attachedTemplate"
+_CODES = {
+    "sheet-no-zip": "word-damaged",
+    "sheet-damaged": "word-damaged",
+    "sheet-encrypted": "word-encrypted",
+    "sheet-old": "word-old",
+    "sheet-bomb": "word-bomb",
+    "sheet-macros": "word-macros",
+    "sheet-links": "word-links",
+    "sheet-entities": "word-entities",
+    "sheet-beyond-elements": "word-elements",
+}
+
+
+@dataclass(frozen=True)
+class WordFile:
+    """A file that has been judged: its package, where its text stands, and the text as a tree."""
+
+    path: Path
+    package: Package
+    document: str
+    content: bytes
+    tree: XmlNode
+
+    @cached_property
+    def blocks(self) -> tuple[Block, ...]:
+        """The paragraphs and tables of the body."""
+        body = self.tree.child("w:body")
+        styles = self.related("styles")
+        levels: dict[str, int] = {}
+        if styles in self.package:
+            levels = heading_levels(parse(self.package, styles, self.package.content(styles)))
+        return tuple(TextReader(levels).blocks(body.children if body else ()))
+
+    @property
+    def relations(self) -> str:
+        """The part that lists what the text refers to."""
+        folder, name = posixpath.split(self.document)
+        return f"{folder}/_rels/{name}.rels"
+
+    def related(self, kind: str) -> str:
+        """The name of the part of a kind that the text refers to; "" if there is none."""
+        relations = self.package.relations(self.relations).values()
+        targets = (one.target for one in relations if one.kind == kind and not one.external)
+        return next((resolved(self.document, target) for target in targets), "")
+
+    @property
+    def template(self) -> bool:
+        """Whether it names a template that stands elsewhere."""
+        names = [name for name in self.package.names if name.lower().endswith(".rels")]
+        return any(one.kind == TEMPLATE for name in names for one in self.package.relations(name).values())
+
+    @property
+    def notes(self) -> tuple[Fault, ...]:
+        """What is told of the file as a whole."""
+        return (Fault("word-template", Mark(str(self.path))),) if self.template else ()
+
+
+def resolved(part: str, target: str) -> str:
+    """The name of the part that another one refers to."""
+    joined = target if target.startswith("/") else posixpath.join(posixpath.dirname(part), target)
+    return posixpath.normpath(joined).lstrip("/")
+
+
+def open_word(path: Path, data: bytes) -> WordFile:
+    """A Word file that may be read; raises `RefusedError` with a fault of Word files."""
+    try:
+        return _opened(path, data)
+    except RefusedError as refused:
+        fault = refused.fault
+        raise RefusedError(_CODES.get(fault.code, fault.code), fault.mark, **fault.arguments) from None
+
+
+def _opened(path: Path, data: bytes) -> WordFile:
+    if len(data) > LARGEST:
+        raise RefusedError("word-large", Mark(str(path)), largest=str(LARGEST // 1_000_000))
+    package = Package(data, str(path), BOUNDS)
+    tops = [one.target for one in package.relations("_rels/.rels").values() if one.kind == "officeDocument"]
+    document = resolved("", tops[0]) if tops else ""
+    if document not in package:
+        raise package.refused("word-damaged", text=document)
+    if package.size(document) > LARGEST_TEXT:
+        raise package.bomb()
+    content = package.content(document)
+    tree = parse(package, document, content)
+    if tree.tag != "w:document":
+        raise package.refused("word-damaged", text=document)
+    return WordFile(path, package, document, content, tree)

@@ -1,0 +1,238 @@
+"""A Word report read: its headings say which position is in hand, its lines and tables what comes out there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from reportgen.handin import FileReading
+from reportgen.handin import statements as said
+from reportgen.handin.gathering import Gathering
+from reportgen.handin.numbers import marks_of
+from reportgen.handin.statements import Statement
+from reportgen.handin.symbols import Symbols
+from reportgen.handin.word_frame import read_blanks
+from reportgen.handin.word_nodes import XmlNode
+from reportgen.handin.word_tables import read_table
+from reportgen.handin.word_text import OBJECT, Block, TextGrid, TextLine, WordMark
+from reportgen.report.key import Key, KeyRow
+
+FREE = 10
+"""The level of a position that no heading gives: any heading ends it."""
+SHORT = 80
+"""Characters of a line in bold that stands in place of a heading."""
+
+
+@dataclass(slots=True)
+class _Hand:
+    """Which position is in hand: its label, the level of the heading that says so, whether it is in doubt."""
+
+    label: str | None = None
+    level: int = FREE
+
+
+def read_report(blocks: Sequence[Block], key: Key, file: str, tree: XmlNode | None = None) -> FileReading:
+    """What a report says of the quantities that a key asks for; in its `tree` the blanks of a frame are looked for."""
+    marks = marks_of((line.text for line in lines_of(blocks)), key.language)
+    gathering = Gathering(key, file, marks, Symbols(key, key.rows))
+    if tree is not None:
+        read_blanks(tree, lines_of(blocks), gathering)
+    reader = _Reader(gathering)
+    for block in blocks:
+        reader.block(block)
+    reader.objects()
+    return gathering.reading()
+
+
+def lines_of(blocks: Sequence[Block]) -> list[TextLine]:
+    """All lines, those of tables too."""
+    lines: list[TextLine] = []
+    for block in blocks:
+        if isinstance(block, TextLine):
+            lines.append(block)
+        else:
+            for cell in dict.fromkeys(cell for row in block.rows for cell in row):
+                lines += lines_of(cell.blocks)
+    return lines
+
+
+class _Reader:
+    """Goes through a report from top to bottom."""
+
+    def __init__(self, gathering: Gathering) -> None:
+        self.gathering = gathering
+        self.hand = _Hand()
+        self.open: tuple[KeyRow, str | None] | None = None
+        """The row whose statement may go on in the next line, and the label of its position."""
+        self.hidden: dict[str | None, int] = {}
+        """How many equations stand under each position that nothing opens."""
+        self.first_object: WordMark | None = None
+
+    def block(self, block: Block) -> None:
+        if isinstance(block, TextGrid):
+            read_table(block, self.gathering, self.statement_line, self.hand.label)
+            return
+        text = block.text
+        if block.level:
+            self.heading(block)
+        elif not said.RELATION.search(text):
+            self.sentence(block)
+        else:
+            self.statement_line(block, self.hand.label)
+            self.opened_by(text)
+
+    # --- the position in hand ---------------------------------------------------------------------
+
+    def heading(self, line: TextLine) -> None:
+        labels = said.labels_in(line.text)
+        self.open = None
+        if said.names_several(line.text):
+            self.hand = _Hand(None, min(line.level, self.hand.level))
+        elif labels:
+            self.hand = _Hand(labels[0], line.level)
+        elif line.level <= self.hand.level:
+            self.hand = _Hand()
+
+    def sentence(self, line: TextLine) -> None:
+        """A line without “=”: it may name the position that the next ones are of, or begin something else."""
+        text = line.text
+        self.count_objects(line, self.hand.label)
+        self.otherwise(line, self.hand.label)
+        if not text.strip():
+            return
+        if OBJECT not in text:
+            self.open = None
+        labels = said.labels_in(text)
+        compared = said.is_compared(text)
+        if said.names_several(text):
+            # Which is in hand stays, if a heading said so and this only compares.
+            if not compared or self.hand.level == FREE:
+                self.hand = _Hand(None, self.hand.level)
+        elif labels and compared:
+            return
+        elif labels:
+            self.hand = _Hand(labels[0], FREE)
+        elif said.names_another(text) or (line.bold and len(text) < SHORT and not said.names_chapter(text)):
+            self.hand = _Hand()
+
+    def opened_by(self, text: str) -> None:
+        """A line with statements may begin with the position that the next ones are of as well."""
+        front = said.RELATION.split(text)[0]
+        labels = said.labels_in(front)
+        if len(labels) == 1 and not said.names_several(front) and labels[0] != self.hand.label:
+            # Under the heading of another position it is not said whether it goes on.
+            self.hand = _Hand(labels[0] if self.hand.label is None or self.hand.level == FREE else None, FREE)
+
+    # --- statements -------------------------------------------------------------------------------
+
+    def statement_line(self, line: TextLine, label: str | None) -> None:
+        """All statements of a line; those without a position of their own are of the one with the `label`."""
+        gathering, text = self.gathering, line.text
+        self.count_objects(line, label)
+        self.otherwise(line, label)
+        made = said.statements(text, gathering.symbols)
+        if said.goes_on(text):
+            end = made[0].at - len(made[0].symbol) if made else len(text)
+            if self.open is not None:
+                row, own = self.open
+                self.open = None
+                first = Statement("", "", "", text[: max(end, 0)], 0)
+                self.statement(line, first, row, own, last=not made)
+        else:
+            self.open = None
+        named = set(said.labels_in(text))
+        carried: str | None = None
+        for number, statement in enumerate(made):
+            last = number == len(made) - 1
+            self.open = None
+            if number and said.is_broken(statement.front):
+                carried = None
+            own, unsure = self.own_position(statement, label, carried, named)
+            carried = own if said.labels_in(statement.lead) else carried
+            for_rows = [row for row in gathering.rows_of(statement.symbol) if row.positions]
+            mark = gathering.mark(line, statement.at)
+            shown = f"{statement.symbol} {statement.clauses[0].strip()}"
+            if len(for_rows) > 1:
+                for row in for_rows:
+                    if said.has_number(statement):
+                        gathering.doubt(row, gathering.position(row, own), "unread-several", mark, shown)
+                continue
+            for row in for_rows:
+                if said.is_supposed(statement):
+                    if said.has_number(statement):
+                        gathering.doubt(row, gathering.position(row, own), "unread-supposed", mark, shown)
+                elif statement.doubt:
+                    gathering.doubt(row, gathering.position(row, own), "unread-number", mark, shown)
+                elif unsure and not row.single:
+                    if said.has_number(statement):
+                        gathering.doubt(row, None, "unread-positions", mark, shown)
+                else:
+                    self.statement(line, statement, row, own, last)
+
+    def otherwise(self, line: TextLine, label: str | None) -> None:
+        """What is said in other ways than by “=” is not read, but it stands there."""
+        for symbol, text, at in said.said_otherwise(line.text):
+            for row in self.gathering.rows_of(symbol):
+                position = self.gathering.position(row, label)
+                self.gathering.doubt(row, position, "unread-number", self.gathering.mark(line, at), text)
+
+    def own_position(
+        self, statement: Statement, label: str | None, carried: str | None, named: set[str]
+    ) -> tuple[str | None, bool]:
+        """The label of the position of a statement, and whether two are named for it."""
+        before, behind = said.labels_in(statement.lead), said.labels_in(statement.clauses[0])
+        around = (statement.lead, statement.clauses[0])
+        if any(said.names_several(text) or said.names_another(text) for text in around):
+            return None, True
+        own = statement.label or (before[0] if before else None)
+        if behind:
+            # What only an earlier sentence says goes behind what this one says itself.
+            firm = own or carried or (label if label != self.hand.label or self.hand.level < FREE else None)
+            if firm not in (None, behind[0]):
+                return None, True
+            return behind[0], False
+        if own or carried:
+            return own or carried, False
+        # A line that is of another position than the heading leaves it open of which what has none is.
+        return (label, False) if named <= {label} else (None, False)
+
+    def statement(self, line: TextLine, statement: Statement, row: KeyRow, label: str | None, last: bool) -> None:
+        """Read the value of a statement of a row; without one it may go on in the next line."""
+        gathering = self.gathering
+        position = gathering.position(row, label)
+        value = said.value_of(statement)
+        shown = f"{statement.symbol} {statement.clauses[0].strip()}"
+        mark = gathering.mark(line, value.at if value else statement.at)
+        at_end = last and len(statement.clauses) == 1
+        if value is None or value.withdrawn:
+            if value is not None or said.is_worked(statement):
+                gathering.doubt(row, position, "unread-number", mark, shown)
+            if value is None and at_end:
+                self.open = row, label
+            return
+        if position is None:
+            gathering.doubt(row, None, "unread-no-position", mark, shown)
+            return
+        gathering.number(row, position, value.number, value.unit, mark, words=statement.text, barred=statement.barred)
+        if at_end and not value.unit:
+            self.open = row, label
+
+    # --- equations that nothing opens --------------------------------------------------------------
+
+    def count_objects(self, line: TextLine, label: str | None) -> None:
+        count = line.text.count(OBJECT)
+        if count:
+            self.hidden[label] = self.hidden.get(label, 0) + count
+            self.first_object = self.first_object or self.gathering.mark(line, line.text.index(OBJECT))
+
+    def objects(self) -> None:
+        """What is blank where such equations stand may stand in one of them."""
+        if self.first_object is None:
+            return
+        gathering = self.gathering
+        gathering.note("word-objects", self.first_object, count=str(sum(self.hidden.values())))
+        for row in gathering.key.asked:
+            for position in row.positions:
+                labels = [label for label in self.hidden if label and gathering.position(row, label) == position]
+                if None in self.hidden or labels or row.single:
+                    gathering.doubt(row, position, "unread-object", self.first_object, "")

@@ -1,0 +1,52 @@
+"""A Word report that is handed in: read for a key, and given back with comments."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import replace
+from pathlib import Path
+
+from reportgen.handin import FileReading, agree
+from reportgen.handin.word_comments import MarginNote, with_comments
+from reportgen.handin.word_file import open_word
+from reportgen.handin.word_reader import lines_of, read_report
+from reportgen.handin.word_text import WordMark
+from reportgen.marking.comment import comment
+from reportgen.marking.feedback import cell_comment
+from reportgen.marking.key import words_of
+from reportgen.marking.marks import Marking
+from reportgen.marking.policy import Policy
+from reportgen.report.key import Key
+
+MARKED = "marked.docx"
+
+
+def read(path: Path, data: bytes, key: Key) -> FileReading:
+    """What a report says of the quantities that a key asks for; raises `RefusedError`."""
+    file = open_word(path, data)
+    reading = read_report(file.blocks, key, str(path), file.tree)
+    return replace(reading, notes=(*file.notes, *reading.notes))
+
+
+def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
+    """Which of some names stand in a report as words; raises `RefusedError`."""
+    text = "\n".join(line.text for line in lines_of(open_word(path, data).blocks)).casefold()
+    return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
+
+
+def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
+    """The report with a comment at each number that there is something to say of, and a summary at its head."""
+    words = words_of(marking.key)
+    remarks = [MarginNote("\n".join(comment(marking, policy)))]
+    for cell in marking.cells:
+        place = (cell.id, cell.position)
+        own, counted = reading.values.get(place), marking.submission.values.get(place)
+        fault = reading.unread.get(place)
+        mark = own.mark if own is not None else fault.mark if fault is not None else None
+        # Beside a sheet, that one counts: what the report has otherwise is not what was judged.
+        judged = own is None or (counted is not None and agree(own, counted))
+        text = cell_comment(cell, marking, words, policy.show_answers)
+        if text and judged and isinstance(mark, WordMark):
+            remarks.append(MarginNote(text, mark.element))
+    return MARKED, with_comments(open_word(path, data), remarks)

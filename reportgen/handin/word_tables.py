@@ -1,0 +1,245 @@
+"""Tables of a Word report: quantities by positions, either way round, or statements set out in cells."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from reportgen.base.units import QuantityFault
+from reportgen.handin import statements as said
+from reportgen.handin.gathering import Gathering
+from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value
+from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
+from reportgen.marking.numbers import is_blank
+from reportgen.report.key import KeyRow
+
+HEADS = 4
+"""Rows among which the one with the positions is looked for."""
+_POSITION = re.compile(
+    r"(?:vị\s*trí|position|pos\.|VT)?[\s(]*(?:thứ|số|no\.?)?[\s:(]*([0-9]{1,3}[a-z]?′*)[\s)]*", re.IGNORECASE
+)
+_QUANTITY = re.compile(
+    r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?(?:\(\d\)\}?)?)\s*"
+    r"(?:,\s*(?P<comma>[^\s,]+(?:\s[^\s,]+)?)|[(\[]\s*(?P<round>[^()]*(?:\([^()]*\))?[^()]*?)\s*[)\]])?"
+)
+_NUMBER_CELL = re.compile(
+    rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;]?\s*((?:\([^()\d]*\)|[^()\d=]*)\s*)"
+)
+_NUMBERED = re.compile(r"\s*\(\d+(?:[.,]\d+)*\)\s*")
+"""The number of an equation."""
+
+_HEAD_WORD = re.compile(r"VT|vtr[íi]|điểm|points?", re.IGNORECASE)
+"""What stands over positions besides their own word; a pair of gears has points."""
+
+Statements = Callable[[TextLine, str | None], None]
+TextCells = Sequence[Sequence[TextCell]]
+
+
+@dataclass(frozen=True, slots=True)
+class _Quantity:
+    """A cell that names a quantity: its rows, and the unit said there; None for one that is not understood."""
+
+    rows: tuple[KeyRow, ...]
+    unit: str | None
+
+
+def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: str | None) -> None:
+    """Read a table that stands where the position with the `label` is in hand."""
+    cells = list(dict.fromkeys(cell for row in grid.rows for cell in row))
+    nested = [block for cell in cells for block in cell.blocks if isinstance(block, TextGrid)]
+    texts = {id(cell): cell.line.text for cell in cells}
+    if any(said.RELATION.search(text) for text in texts.values()):
+        _read_statements(grid.rows, gathering, line, label)
+    elif grid.rows and len({len(row) for row in grid.rows}) == 1:
+        ways: list[TextCells] = [grid.rows, [list(column) for column in zip(*grid.rows, strict=True)]]
+        if not (
+            any(_read_positions(way, gathering) for way in ways)
+            or any(_read_single(way, gathering, label) for way in ways)
+        ):
+            _leave(ways, gathering)
+    else:
+        _leave([grid.rows], gathering)
+    for inner in nested:
+        read_table(inner, gathering, line, label)
+
+
+def _leave(ways: Sequence[TextCells], gathering: Gathering) -> None:
+    """The quantities of a table whose numbers cannot be laid to positions."""
+    for row in (row for way in ways for row in way):
+        numbers = [cell for cell in row if _NUMBER_CELL.fullmatch(cell.line.text)]
+        named = _named(row, gathering)
+        for one in named[0].rows if named and numbers else ():
+            mark = gathering.mark(numbers[0].line, 0)
+            gathering.doubt(one, None, "unread-table", mark, numbers[0].line.text)
+
+
+# --- statements in cells ----------------------------------------------------------------------------
+
+
+def _read_statements(rows: TextCells, gathering: Gathering, line: Statements, label: str | None) -> None:
+    """Statements set out in a grid: cells side by side are a line, unless a head names the position of each."""
+    heads = {column: text for column, cell in enumerate(rows[0]) if (text := _named_position(cell, gathering))}
+    sides = {number: text for number, row in enumerate(rows) if row and (text := _named_position(row[0], gathering))}
+    for number, row in enumerate(rows):
+        apart = list(dict.fromkeys(row))
+        if heads or sides:
+            for cell in apart:
+                columns = [column for column, one in enumerate(row) if one is cell]
+                own = {heads.get(column, sides.get(number)) for column in columns}
+                if said.RELATION.search(cell.line.text):
+                    line(cell.line, own.pop() if len(own) == 1 else None)
+            continue
+        joined = TextLine(apart[0].line.number if apart else 0)
+        for cell in apart:
+            text = cell.line.text
+            if not text.strip() or _NUMBERED.fullmatch(text):
+                continue
+            if joined.letters and not (said.goes_on(text) or said.is_operator(text) or said.is_operator(joined.text)):
+                joined.put(" ; ", cell.line.nodes[0])
+            elif not joined.letters and said.is_operator(text):
+                # No bullet, but a sum that began in another row.
+                joined.put("∑", cell.line.nodes[0])
+            joined.extend(cell.line)
+        if joined.text.strip():
+            line(joined, label)
+
+
+def _named_position(cell: TextCell, gathering: Gathering) -> str | None:
+    """The label of a cell that says by its word that it is a position."""
+    text = cell.line.text
+    return _label(text, gathering) if said.SAYS_POSITION.search(text) or "VT" in text else None
+
+
+def _label(text: str, gathering: Gathering) -> str | None:
+    match = _POSITION.fullmatch(text.strip())
+    return match[1].casefold() if match and gathering.is_label(match[1]) else None
+
+
+# --- values in cells --------------------------------------------------------------------------------
+
+
+def _read_positions(rows: TextCells, gathering: Gathering) -> bool:
+    """Read a table with positions across one of its first rows and quantities down its first columns."""
+    for number, row in enumerate(rows[:HEADS]):
+        labels = {column: text for column, cell in enumerate(row) if (text := _label(cell.line.text, gathering))}
+        if not labels or len(set(labels.values())) < len(labels):
+            continue
+        first = min(labels)
+        heads = [rows[above][column].line.text for above in range(number + 1) for column in (*labels, *range(first))]
+        if not any(said.SAYS_POSITION.search(text) or _HEAD_WORD.fullmatch(text.strip()) for text in heads):
+            continue
+        read = [_read_row(one, labels, gathering) for one in rows[number + 1 :]]
+        if any(read):
+            return True
+    return False
+
+
+def _read_row(cells: Sequence[TextCell], labels: Mapping[int, str], gathering: Gathering) -> bool:
+    """Read the values of a quantity by positions; whether the row has one that is known."""
+    beside = [cell for column, cell in enumerate(cells) if column not in labels]
+    named = _named(beside, gathering)
+    if named is None:
+        return False
+    quantity, at = named
+    unit = _unit_of(quantity, [cell for cell in beside if cell is not at])
+    for column, label in labels.items():
+        for row in quantity.rows:
+            position = gathering.position(row, label)
+            if position is not None:
+                _read_cell(cells[column], row, position, unit, len(quantity.rows) > 1, gathering)
+    return True
+
+
+def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bool:
+    """Read a table of quantities with one value each, at the position in hand or at all."""
+    read = False
+    for row in rows:
+        apart = list(dict.fromkeys(row))
+        named = _named(apart, gathering)
+        numbers = [
+            cell for cell in apart if _NUMBER_CELL.fullmatch(cell.line.text) and (not named or cell is not named[1])
+        ]
+        if named is None or len(numbers) != 1:
+            continue
+        quantity, at = named
+        unit = _unit_of(quantity, [cell for cell in apart if cell is not at and cell is not numbers[0]])
+        for one in quantity.rows:
+            position = gathering.position(one, label)
+            line = numbers[0].line
+            if position is None:
+                gathering.doubt(one, None, "unread-no-position", gathering.mark(line, 0), line.text)
+            else:
+                _read_cell(numbers[0], one, position, unit, len(quantity.rows) > 1, gathering)
+            read = True
+    return read
+
+
+def _read_cell(
+    cell: TextCell, row: KeyRow, position: int, unit: str | None, several: bool, gathering: Gathering
+) -> None:
+    """Read one cell for a place; `unit` is that of its row, None where it is not understood."""
+    line = cell.line
+    text = line.text
+    if is_blank(text) or not line.nodes:
+        return
+    match = _NUMBER_CELL.fullmatch(text)
+    mark = gathering.mark(line, match.start(1) if match else 0)
+    if OBJECT in text:
+        gathering.doubt(row, position, "unread-object", mark, "")
+    elif several:
+        gathering.doubt(row, position, "unread-several", mark, text)
+    elif match is None:
+        gathering.doubt(row, position, "unread-number", mark, text)
+    elif unit is None:
+        gathering.doubt(row, position, "unread-unit", mark, text, unit=row.unit)
+    else:
+        own = match[2] or match[3] or unit
+        gathering.number(row, position, match[1], own, mark, words=match[4] or "")
+
+
+def _named(cells: Sequence[TextCell], gathering: Gathering) -> tuple[_Quantity, TextCell] | None:
+    """The one quantity that some cells name, and the cell; None where they name none or several."""
+    named = [(quantity, cell) for cell in dict.fromkeys(cells) if (quantity := _quantity(cell, gathering))]
+    # The newton beside a force is not the power N.
+    named = [pair for pair in named if not _says_unit(pair[1])] or named
+    return named[0] if len({tuple(row.id for row in quantity.rows) for quantity, _ in named}) == 1 else None
+
+
+def _says_unit(cell: TextCell) -> bool:
+    return bool(re.fullmatch(UNIT, cell.line.text.strip().strip("()[]").strip()))
+
+
+def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
+    """What a cell names: v_B, Velocity v_B (m/s), v_B, m/s."""
+    text = cell.line.text.strip()
+    if rows := gathering.rows_of(text):
+        return _Quantity(_asked(rows), "")
+    match = _QUANTITY.fullmatch(text)
+    rows = gathering.rows_of(match["symbol"]) if match else ()
+    if match is None or not rows:
+        return None
+    unit = (match["comma"] or match["round"] or "").strip()
+    if not unit:
+        return _Quantity(_asked(rows), "")
+    return _Quantity(_asked(rows), unit if _is_unit(unit, rows[0], gathering) else None)
+
+
+def _asked(rows: Sequence[KeyRow]) -> tuple[KeyRow, ...]:
+    return tuple(row for row in rows if row.positions)
+
+
+def _unit_of(quantity: _Quantity, beside: Sequence[TextCell]) -> str | None:
+    """The unit of a row: said beside its symbol, or else in a cell of its own."""
+    if quantity.unit != "":
+        return quantity.unit
+    texts = (cell.line.text.strip().strip("()[]").strip() for cell in beside)
+    return next((text for text in texts if re.fullmatch(UNIT, text)), "")
+
+
+def _is_unit(text: str, row: KeyRow, gathering: Gathering) -> bool:
+    try:
+        read_value("1", plain_unit(text), row, gathering.marks)
+    except QuantityFault:
+        return False
+    return True

@@ -1,0 +1,385 @@
+"""The text of a Word report as lines of letters, each of which knows the element that it stands in.
+
+Indices and exponents stand in braces (`v_{B}`), built formulas as a line of theirs.  What a reader does not see is left
+out: deleted and struck out text, hidden text, letters without width.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from reportgen.base.errors import Mark
+from reportgen.handin.word_nodes import XmlNode
+
+OBJECT = "\ufffc"
+"""In place of an equation that another program has made, which nothing here opens."""
+APART = "\u2005"
+"""Before and behind a built formula, so that two of them side by side are two."""
+LONGEST = 20_000
+"""Characters of a line that is read."""
+
+
+@dataclass(frozen=True, slots=True)
+class WordMark(Mark):
+    """A paragraph of a Word file, counted from 1, and the number of the element in which the value stands."""
+
+    element: int = 0
+
+    def __str__(self) -> str:
+        return f"{self.file}:¶{self.line}"
+
+
+@dataclass(slots=True)
+class TextLine:
+    """A paragraph as text; `nodes` has the element of each letter.
+
+    `level` is that of a heading, 0 for any other; `bold` says that all of it is.
+    """
+
+    number: int
+    level: int = 0
+    bold: bool = False
+    letters: list[str] = field(default_factory=list)
+    nodes: list[XmlNode] = field(default_factory=list)
+
+    @property
+    def text(self) -> str:
+        return "".join(self.letters)
+
+    def put(self, text: str, node: XmlNode) -> None:
+        """Letters as they are read, those without width left out."""
+        for letter in text:
+            for plain in LETTERS.get(letter, letter):
+                self.letters.append(plain)
+                self.nodes.append(node)
+
+    def extend(self, other: TextLine) -> None:
+        self.letters += other.letters
+        self.nodes += other.nodes
+
+
+@dataclass(slots=True)
+class TextGrid:
+    """A table by rows of cells; a cell that goes over several columns or rows stands in each of them."""
+
+    rows: list[list[TextCell]]
+
+
+@dataclass(slots=True, eq=False)
+class TextCell:
+    """A cell: its paragraphs, and the tables in it."""
+
+    lines: list[TextLine]
+    blocks: list[TextLine | TextGrid]
+
+    @property
+    def line(self) -> TextLine:
+        """All its paragraphs in one line, broken as they are."""
+        joined = TextLine(self.lines[0].number if self.lines else 0)
+        for number, line in enumerate(self.lines):
+            if number and line.nodes:
+                joined.put("\n", line.nodes[0])
+            joined.extend(line)
+        return joined
+
+
+Block = TextLine | TextGrid
+
+
+def _letters() -> dict[str, str]:
+    """Letters that look alike as one of them, and those that nobody sees as none."""
+    letters = dict.fromkeys("\u200b\u200c\u200d\u2060\u2061\u2062\u2063\u2064\ufeff\xad\u200e\u200f\u20d7\u0305", "")
+    letters |= {"’": "′", "'": "′", "‘": "′", "ʹ": "′", "″": "′′", "”": "′′", '"': "′′", "‴": "′′′"}
+    letters |= {"µ": "μ", "ϕ": "φ", "ɸ": "φ", "ϵ": "ε", "ϑ": "θ", "∙": "·", "⋅": "·", "•": "·", "∗": "*"}
+    letters |= {"＝": "=", "≅": "≈", "≃": "≈", "≒": "≈", "∼": "~", "−": "-", "‐": "-", "‑": "-", "﹣": "-"}
+    letters |= {"⟹": "⇒", "⟶": "→", "➔": "→", "➜": "→"}
+    letters |= {chr(code): str(code - 0x2080) for code in range(0x2080, 0x208A)}
+    letters |= dict(zip("ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ", "aeoxhklmnpstijruv", strict=True))
+    # Letters of mathematics in italics, bold and so on.
+    for first, last, start in ((0x1D400, 0x1D6A3, 52), (0x1D6A8, 0x1D7C9, 58)):
+        for code in range(first, last + 1):
+            place = (code - first) % start
+            if start == 52:
+                letters[chr(code)] = chr(ord("A" if place < 26 else "a") + place % 26)
+            elif 26 <= place <= 50:
+                letters[chr(code)] = chr(0x3B1 + place - 26)
+    letters |= {"ℎ": "h"}
+    return letters
+
+
+LETTERS: Mapping[str, str] = _letters()
+_SYMBOL_FONT = dict(zip("abcdefghijklmnopqrstuvwxyz", "αβχδεφγηιφκλμνοπθρστυϖωξψζ", strict=True)) | {
+    "D": "Δ",
+    "W": "Ω",
+    "S": "Σ",
+    "F": "Φ",
+    "\xb0": "°",
+    "\xb7": "·",
+    "\xb4": "×",
+    "\xbb": "≈",
+    "\xde": "⇒",
+    "\xae": "→",
+    "\xa2": "′",
+    "\xb2": "′′",
+}
+"""What the letters of the font Symbol look like."""
+_UNSEEN = frozenset({"w:del", "w:moveFrom", "w:rPr", "w:pPr", "w:instrText", "w:delText", "m:phant", "w:sdtPr"})
+_OFF = frozenset({"0", "false", "off", "none"})
+_EQUATIONS = re.compile(r"equation|mathtype", re.IGNORECASE)
+
+
+class TextReader:
+    """Reads the body of a document to blocks in their order."""
+
+    def __init__(self, levels: Mapping[str, int]) -> None:
+        self.levels = levels
+        """Levels of headings by the ids of styles."""
+        self.paragraphs = 0
+
+    def blocks(self, nodes: Iterable[XmlNode]) -> Iterator[Block]:
+        """Paragraphs and tables, also those in content controls and in boxes of text, which come behind their line."""
+        for node in nodes:
+            if node.tag == "w:p":
+                line = self.line(node)
+                yield line
+                for box in _boxes(node):
+                    yield from self.blocks(box.children)
+            elif node.tag == "w:tbl":
+                yield self.grid(node)
+            elif node.tag in ("w:sdt", "w:sdtContent", "w:customXml", "w:ins", "w:moveTo", "mc:Choice"):
+                yield from self.blocks(node.children)
+            elif node.tag == "mc:AlternateContent":
+                yield from self.blocks(node.children[:1])
+
+    def line(self, paragraph: XmlNode) -> TextLine:
+        """A paragraph as a line."""
+        self.paragraphs += 1
+        style = paragraph.at("w:pPr", "w:pStyle")
+        own = paragraph.at("w:pPr", "w:outlineLvl")
+        level = self.levels.get(style.get("w:val"), 0) if style else 0
+        if own is not None and own.get("w:val").isdecimal() and int(own.get("w:val")) < 9:
+            level = int(own.get("w:val")) + 1
+        line = TextLine(self.paragraphs, level)
+        runs = [node for node in _within(paragraph) if node.tag == "w:r" and any(c.tag == "w:t" for c in node.children)]
+        line.bold = bool(runs) and all(_is_on(run, "w:b") for run in runs)
+        put(paragraph.children, line)
+        if len(line.letters) > LONGEST:
+            del line.letters[LONGEST:], line.nodes[LONGEST:]
+        return line
+
+    def grid(self, table: XmlNode) -> TextGrid:
+        """A table with its merged cells in all their places."""
+        rows: list[list[TextCell]] = []
+        for tr in _through(table, "w:tr"):
+            row: list[TextCell] = []
+            for tc in _through(tr, "w:tc"):
+                span, merged = tc.at("w:tcPr", "w:gridSpan"), tc.at("w:tcPr", "w:vMerge")
+                width = int(span.get("w:val")) if span is not None and span.get("w:val").isdecimal() else 1
+                goes_on = merged is not None and merged.get("w:val", "continue") == "continue"
+                above = rows[-1][len(row)] if goes_on and rows and len(row) < len(rows[-1]) else None
+                inner = list(self.blocks(tc.children))
+                cell = above or TextCell([one for one in inner if isinstance(one, TextLine)], inner)
+                row += [cell] * min(max(width, 1), 64)
+            rows.append(row)
+        return TextGrid(rows)
+
+
+def _through(node: XmlNode, tag: str) -> Iterator[XmlNode]:
+    """The rows of a table, or the cells of a row, also of content controls among them."""
+    for child in node.children:
+        if child.tag == tag:
+            yield child
+        elif child.tag in ("w:sdt", "w:sdtContent", "w:customXml", "w:ins"):
+            yield from _through(child, tag)
+
+
+def _within(node: XmlNode) -> Iterator[XmlNode]:
+    """All in a paragraph that is seen, without what is in boxes."""
+    for child in node.children:
+        if child.tag not in _UNSEEN and child.tag not in ("w:drawing", "w:pict", "mc:AlternateContent"):
+            yield child
+            yield from _within(child)
+
+
+def _boxes(paragraph: XmlNode) -> Iterator[XmlNode]:
+    """The boxes of text that hang on a paragraph; of one that is there twice, for old and new programs, the new one."""
+    pending = list(reversed(paragraph.children))
+    while pending:
+        node = pending.pop()
+        if node.tag == "w:txbxContent":
+            yield node
+        elif node.tag == "mc:AlternateContent":
+            pending += node.children[:1]
+        elif node.tag not in _UNSEEN:
+            pending += reversed(node.children)
+
+
+def _is_on(run: XmlNode, name: str) -> bool:
+    switch = run.at("w:rPr", name)
+    return switch is not None and switch.get("w:val", "1") not in _OFF
+
+
+def is_unseen(run: XmlNode) -> bool:
+    """Whether the text of a run is hidden or struck out."""
+    return any(_is_on(run, name) for name in ("w:vanish", "w:strike", "w:dstrike"))
+
+
+def put(nodes: Iterable[XmlNode], line: TextLine) -> None:
+    """Put the text of what stands in a paragraph at the end of a line."""
+    for child in nodes:
+        if child.tag == "w:r":
+            _put_run(child, line)
+        elif child.tag in ("m:oMath", "m:oMathPara"):
+            if child.tag == "m:oMath":
+                line.put(APART, child)
+                _put_math(child, line)
+                line.put(APART, child)
+            else:
+                put(child.children, line)
+        elif child.tag not in _UNSEEN:
+            put(child.children, line)
+
+
+def _put_run(run: XmlNode, line: TextLine) -> None:
+    if is_unseen(run):
+        return
+    raised = _raised(run)
+    text = "".join(_text_of(child, run) for child in run.children)
+    if text.strip() and raised:
+        text = f"{raised}{{{text}}}"
+    line.put(text, run)
+
+
+def _text_of(child: XmlNode, run: XmlNode) -> str:
+    match child.tag:
+        case "w:t":
+            fonts = run.at("w:rPr", "w:rFonts")
+            greek = fonts is not None and fonts.get("w:ascii").casefold() == "symbol"
+            return "".join(_SYMBOL_FONT.get(one, one) for one in child.text) if greek else child.text
+        case "w:sym":
+            return _symbol(child)
+        case "w:tab":
+            return "\t"
+        case "w:br" | "w:cr":
+            return "\n"
+        case "w:noBreakHyphen":
+            return "-"
+        case "w:object" | "w:pict":
+            objects = (one for one in child.walk() if one.tag == "o:OLEObject")
+            return OBJECT if any(_EQUATIONS.search(one.get("ProgID")) for one in objects) else ""
+    return ""
+
+
+def _symbol(node: XmlNode) -> str:
+    """A letter of the font Symbol that was put in by itself."""
+    code = node.get("w:char")
+    if node.get("w:font").casefold() != "symbol" or not re.fullmatch("[0-9A-Fa-f]{4}", code):
+        return ""
+    letter = chr(int(code, 16) & 0xFF)
+    return _SYMBOL_FONT.get(letter, letter)
+
+
+def _raised(run: XmlNode) -> str:
+    """ "_" or "^" of an index or an exponent, "" of what stands on the line."""
+    align, position = run.at("w:rPr", "w:vertAlign"), run.at("w:rPr", "w:position")
+    if align is not None:
+        return {"subscript": "_", "superscript": "^"}.get(align.get("w:val"), "")
+    moved = position.get("w:val") if position is not None else ""
+    return "_" if re.fullmatch("-[1-9][0-9]*", moved) else "^" if re.fullmatch("[1-9][0-9]*", moved) else ""
+
+
+# --- built formulas -------------------------------------------------------------------------------
+
+
+def _put_math(node: XmlNode, line: TextLine) -> None:
+    for child in node.children:
+        _put_built(child, line)
+
+
+def _put_built(node: XmlNode, line: TextLine) -> None:
+    """A built formula in a line."""
+
+    def part(name: str) -> None:
+        if (inner := node.child(name)) is not None:
+            _put_math(inner, line)
+
+    def marked(opening: str, name: str, closing: str) -> None:
+        line.put(opening, node)
+        part(name)
+        line.put(closing, node)
+
+    match node.tag:
+        case "m:r":
+            if not is_unseen(node):
+                for child in node.children:
+                    if child.tag in ("m:t", "w:t"):
+                        line.put(child.text, node)
+        case "w:r":
+            _put_run(node, line)
+        case "m:f":
+            marked("(", "m:num", ")/")
+            marked("(", "m:den", ")")
+        case "m:sSub" | "m:sSup" | "m:sSubSup" | "m:sPre":
+            part("m:e")
+            for name, sign in (("m:sub", "_{"), ("m:sup", "^{")):
+                if node.child(name) is not None:
+                    marked(sign, name, "}")
+        case "m:rad":
+            marked("√(", "m:e", ")")
+        case "m:d":
+            _put_fence(node, line)
+        case "m:eqArr" | "m:m":
+            for number, row in enumerate(one for one in node.children if one.tag in ("m:e", "m:mr")):
+                line.put("\n" if number else "", node)
+                _put_math(row, line)
+        case "m:limLow" | "m:limUpp" | "m:nary":
+            # Sums and integrals have values of their own that are no results.
+            line.put("∑(", node)
+            part("m:e")
+            line.put(")", node)
+        case tag if tag.endswith("Pr") or tag in _UNSEEN:
+            pass
+        case _:
+            _put_math(node, line)
+
+
+def _put_fence(node: XmlNode, line: TextLine) -> None:
+    """Parentheses, bars and so on."""
+
+    def sign(name: str, usual: str) -> str:
+        given = node.at("m:dPr", name)
+        return usual if given is None else given.get("m:val", "")
+
+    line.put(sign("m:begChr", "("), node)
+    for number, inner in enumerate(child for child in node.children if child.tag == "m:e"):
+        line.put(sign("m:sepChr", "|") if number else "", node)
+        _put_math(inner, line)
+    line.put(sign("m:endChr", ")"), node)
+
+
+def heading_levels(styles: XmlNode) -> dict[str, int]:
+    """The levels of headings by the ids of the styles that are some, or stand on one that is."""
+    based: dict[str, str] = {}
+    levels: dict[str, int] = {}
+    for style in styles.children:
+        if style.tag != "w:style":
+            continue
+        id, name = style.get("w:styleId"), style.child("w:name")
+        heading = re.fullmatch(r"heading ([1-9])", name.get("w:val").casefold()) if name is not None else None
+        outline, parent = style.at("w:pPr", "w:outlineLvl"), style.child("w:basedOn")
+        if heading:
+            levels[id] = int(heading[1])
+        elif outline is not None and re.fullmatch("[0-8]", outline.get("w:val")):
+            levels[id] = int(outline.get("w:val")) + 1
+        elif parent is not None:
+            based[id] = parent.get("w:val")
+    for id in based:
+        seen, parent_id = {id}, based[id]
+        while parent_id in based and parent_id not in seen:
+            seen.add(parent_id)
+            parent_id = based[parent_id]
+        if parent_id in levels:
+            levels[id] = levels[parent_id]
+    return levels

@@ -1,0 +1,202 @@
+"""What drives a machine or is driven by it: the torque of its shaft at any speed, as its characteristic gives it.
+
+Torques are in N·m, speeds in rad/s, both positive in the sense of the crank's rotation.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Motor:
+    """A motor of a list: rated `power` (W) at the rated `speed` (rad/s), starting and breakdown torque (N·m)."""
+
+    name: str
+    power: float
+    speed: float
+    start: float
+    breakdown: float
+
+    @property
+    def rated(self) -> float:
+        """M_n = P/ω (N·m)."""
+        return self.power / self.speed
+
+
+class Drive(ABC):
+    """A characteristic M(ω)."""
+
+    @abstractmethod
+    def torque(self, speed: Floats) -> Floats:
+        """M [N] (N·m) at ω [N] (rad/s)."""
+
+    @abstractmethod
+    def slope(self, speed: Floats) -> Floats:
+        """dM/dω [N] (N·m·s) at ω [N] (rad/s)."""
+
+    @property
+    def governs(self) -> bool:
+        """Whether its torque depends on the speed, so that the speed settles by itself."""
+        return True
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        """Speeds (rad/s) at which the characteristic bends or has an end."""
+        return ()
+
+
+@dataclass(frozen=True, slots=True)
+class ConstantDrive(Drive):
+    """The same torque M (N·m) at every speed; a brake if it is negative."""
+
+    size: float
+
+    def torque(self, speed: Floats) -> Floats:
+        return np.full(np.shape(speed), self.size)
+
+    def slope(self, speed: Floats) -> Floats:
+        return np.zeros(np.shape(speed))
+
+    @property
+    def governs(self) -> bool:
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class LinearDrive(Drive):
+    """M = M₀ − k ω; a load that grows with the speed where M₀ is 0."""
+
+    start: float
+    fall: float
+
+    def torque(self, speed: Floats) -> Floats:
+        return self.start - self.fall * np.asarray(speed)
+
+    def slope(self, speed: Floats) -> Floats:
+        return np.full(np.shape(speed), -self.fall)
+
+    @property
+    def governs(self) -> bool:
+        return self.fall != 0
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        return (self.start / self.fall,) if self.fall else ()
+
+
+@dataclass(frozen=True, slots=True)
+class KlossDrive(Drive):
+    """An induction motor by Kloss: M = 2 M_k/(s/s_k + s_k/s) with the slip s = 1 − ω/ω₀.
+
+    `breakdown` torque M_k (N·m) at the slip `slip` s_k, synchronous speed `synchronous` ω₀ (rad/s).
+    """
+
+    breakdown: float
+    slip: float
+    synchronous: float
+
+    def torque(self, speed: Floats) -> Floats:
+        s = 1 - np.asarray(speed) / self.synchronous
+        return np.asarray(2 * self.breakdown * s * self.slip / (s**2 + self.slip**2))
+
+    def slope(self, speed: Floats) -> Floats:
+        s = 1 - np.asarray(speed) / self.synchronous
+        by_slip = 2 * self.breakdown * self.slip * (self.slip**2 - s**2) / (s**2 + self.slip**2) ** 2
+        return np.asarray(-by_slip / self.synchronous)
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        return (self.synchronous * (1 - self.slip), self.synchronous)
+
+
+@dataclass(frozen=True, slots=True)
+class TableDrive(Drive):
+    """Torques (N·m) at speeds (rad/s) that rise from 0, linear between; beyond the last as the last two go on."""
+
+    speeds: tuple[float, ...]
+    torques: tuple[float, ...]
+
+    def _slopes(self) -> Floats:
+        return np.diff(self.torques) / np.diff(self.speeds)
+
+    def _part(self, speed: Floats) -> NDArray[np.int64]:
+        return np.clip(np.searchsorted(self.speeds, speed, side="right") - 1, 0, len(self.speeds) - 2)
+
+    def torque(self, speed: Floats) -> Floats:
+        part = self._part(speed)
+        return np.asarray(np.asarray(self.torques)[part] + self.slope(speed) * (speed - np.asarray(self.speeds)[part]))
+
+    def slope(self, speed: Floats) -> Floats:
+        return np.asarray(self._slopes()[self._part(speed)])
+
+    @property
+    def governs(self) -> bool:
+        return bool(np.any(self._slopes()))
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        return self.speeds
+
+
+@dataclass(frozen=True, slots=True)
+class Geared(Drive):
+    """A drive behind a gear: the crank turns `ratio` times as fast, M = M_motor/i at ω_motor = ω/i."""
+
+    motor: Drive
+    ratio: float
+
+    def torque(self, speed: Floats) -> Floats:
+        return self.motor.torque(np.asarray(speed) / self.ratio) / self.ratio
+
+    def slope(self, speed: Floats) -> Floats:
+        return self.motor.slope(np.asarray(speed) / self.ratio) / self.ratio**2
+
+    @property
+    def governs(self) -> bool:
+        return self.motor.governs
+
+    @property
+    def corners(self) -> tuple[float, ...]:
+        return tuple(corner * self.ratio for corner in self.motor.corners)
+
+
+@dataclass(frozen=True, slots=True)
+class Backwards(Drive):
+    """A drive as a crank has it that turns the wrong way round: torque and speed count against the rotation."""
+
+    forwards: Drive
+
+    def torque(self, speed: Floats) -> Floats:
+        return -self.forwards.torque(-np.asarray(speed))
+
+    def slope(self, speed: Floats) -> Floats:
+        return self.forwards.slope(-np.asarray(speed))
+
+
+@dataclass(frozen=True, slots=True)
+class MotionAsked:
+    """What is asked of the true motion of a machine.
+
+    `drive` as it acts on the crank, None for the constant torque that balances the mean of the loads; `inertia` (kg·m²)
+    of motor and gear there.  Cycle angles (rad) `start_from` where the machine starts from rest, `stop_from` where the
+    motor is switched off and the `brake` (N·m) acts; None where neither is asked for.  Start and stop have the flywheel
+    if `wheeled`.  `forces` asks for the forces at the true speeds and accelerations.  One of
+    the `motors` is chosen, behind a gear by which the crank turns `ratio` times as fast.
+    """
+
+    drive: Drive | None
+    inertia: float = 0.0
+    start_from: float | None = None
+    stop_from: float | None = None
+    brake: float = 0.0
+    wheeled: bool = False
+    forces: bool = False
+    motors: tuple[Motor, ...] = ()
+    ratio: float = 1.0

@@ -1,0 +1,119 @@
+"""All that is asked of the true motion of a machine: steady with and without its flywheel, start and stop."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from reportgen.machine.analysis import Analysis, Machine
+from reportgen.machine.drives import ConstantDrive, Drive, MotionAsked
+from reportgen.machine.energy import ReducedMachine
+from reportgen.machine.flywheel import RegulatedCycle
+from reportgen.machine.forces import inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.motion import solve_motion
+from reportgen.machine.motors import DriveDemand, MotorChecks, judged
+from reportgen.machine.running import MotionRun, NoMotionError, SteadyMotion, mean_torque, steady
+from reportgen.machine.starting import StartFromRest, start, stop
+
+NO_INERTIA = 1e-12
+"""A reduced moment of inertia below this share of its greatest is none."""
+State = Literal["", "wheel"]
+"""Without the flywheel, and with it."""
+
+
+@dataclass(frozen=True)
+class TrueMotion:
+    """The true motion of a machine: its steady motion `alone`, and `wheeled` with the flywheel if it has one.
+
+    `drive` as it acts on the crank, `mean` of the reduced torque (N·m), `wheel` J_d (kg·m²); `started`, `stopped` if
+    they are asked for.
+    """
+
+    asked: MotionAsked
+    drive: Drive
+    mean: float
+    alone: SteadyMotion
+    wheel: float = 0.0
+    wheeled: SteadyMotion | None = None
+    started: StartFromRest | None = None
+    stopped: MotionRun | None = None
+
+    @property
+    def states(self) -> dict[State, SteadyMotion]:
+        """The steady motions, that without flywheel first."""
+        return {"": self.alone} if self.wheeled is None else {"": self.alone, "wheel": self.wheeled}
+
+    def added(self, state: State) -> float:
+        """What turns with the crank beside the links (kg·m²): motor and gear, the flywheel."""
+        return self.asked.inertia + (self.wheel if state else 0.0)
+
+    def demand(self, machine: Machine) -> DriveDemand:
+        """What the steady motion asks of the drive, with the flywheel if start and stop have it."""
+        return DriveDemand.of(self.states[self.shown], machine.turns * FULL_TURN)
+
+    def motors(self, machine: Machine) -> list[MotorChecks]:
+        """The motors to choose from by rising power, with their checks."""
+        return judged(self.asked.motors, self.demand(machine), self.asked.ratio) if self.asked.motors else []
+
+    @property
+    def shown(self) -> State:
+        """Which of the two starts and stops."""
+        return "wheel" if self.asked.wheeled and self.wheeled is not None else ""
+
+
+def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle | None) -> TrueMotion:
+    """The true motion that is asked of a machine, with the flywheel that regulates it.
+
+    Raises `NoMotionError`.
+    """
+    own = [float(angle) for angle in machine.cycle_angles]
+    own += [angle for angle in (asked.start_from, asked.stop_from) if angle is not None]
+    alone = ReducedMachine(machine, asked.inertia)
+    path = alone.along(alone.parted(0.0, own))
+    least = min(float(path.inertia.min()), float(path.at_edges[0].min()))
+    if least <= NO_INERTIA * float(path.inertia.max()):
+        raise NoMotionError("no-inertia", angle=float(path.edges[int(path.at_edges[0].argmin())]))
+    mean, _ = mean_torque(alone, path)
+    drive = ConstantDrive(-mean) if asked.drive is None else asked.drive
+    motion = TrueMotion(asked, drive, mean, steady(alone, drive, machine.speed, own))
+    if regulated is not None and regulated.moment > 0:
+        wheeled = replace(alone, added=asked.inertia + regulated.moment)
+        with_wheel = steady(wheeled, drive, machine.speed, own)
+        motion = replace(motion, wheel=regulated.moment, wheeled=with_wheel)
+    body = replace(alone, added=motion.added(motion.shown))
+    to = motion.states[motion.shown]
+    if asked.start_from is not None:
+        motion = replace(motion, started=start(body, drive, to, asked.start_from, own))
+    if asked.stop_from is not None:
+        speed = float(to.run.speed[to.run.place(asked.stop_from)])
+        motion = replace(motion, stopped=stop(body, ConstantDrive(-asked.brake), speed, asked.stop_from, own))
+    return motion
+
+
+def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:
+    """The indices among the samples [N] of a steady motion at which the machine is at its positions."""
+    return np.array([motion.run.place(float(angle)) for angle in machine.cycle_angles])
+
+
+def at_true_speeds(analysis: Analysis, steady: SteadyMotion) -> Analysis:
+    """The same positions with the angular velocity and acceleration that the crank has there in steady motion."""
+    machine, at = analysis.machine, at_positions(analysis.machine, steady)
+    rate, acceleration = machine.turn * steady.run.speed[at], machine.turn * steady.run.acceleration[at]
+    motion = solve_motion(machine.linkage, machine.angles(analysis.cycle_angle), rate, acceleration)
+    applied = tuple(load.load(analysis.cycle_angle, motion) for load in machine.loads)
+    heavy, inert = weights(machine.linkage, motion), inertia_loads(machine.linkage, motion)
+    loads = (*heavy, *inert, *applied)
+    forces = solve_forces(machine.linkage, motion, loads)
+    return replace(
+        analysis,
+        motion=motion,
+        weights=heavy,
+        inertia=inert,
+        applied=applied,
+        forces=forces,
+        torque=forces.torque,
+        torque_by_work=virtual_work_torque(machine.linkage, motion, loads),
+    )

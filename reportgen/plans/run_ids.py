@@ -1,0 +1,29 @@
+"""The ids of the true motion of a machine, which begin with `run`, and what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from reportgen.formula.ids import Name
+from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
+
+along_velocity = Name("run.a.{point}")  # the component of an acceleration along the velocity
+slope = Name("run.dJ[.{link}]")  # J′ of the machine, or what a link gives to it
+WHEEL = "wheel"
+with_wheel = Name("run.{quantity}.wheel")
+quantity = Name("run.{quantity}[.{state}]")  # of the machine by itself, or with its flywheel
+
+
+def in_state(name: str, state: str) -> str:
+    """The id of a quantity of the machine by itself, or with its flywheel."""
+    return quantity(name, *([state] if state else []))
+
+
+KINDS: Mapping[str, QuantityKind] = {"damping": QuantityKind("N·m·s")}
+
+ROWS = (
+    VocabularyRow(along_velocity, "a", "acceleration", Chapter.cycle, name="along velocity"),
+    VocabularyRow(slope, "J", "moment of inertia", Chapter.cycle, name="inertia slope"),
+    VocabularyRow(with_wheel, chapter=Chapter.cycle, name="run {quantity} wheel"),
+    VocabularyRow(quantity, chapter=Chapter.cycle, name="run {quantity}"),
+)

@@ -1,0 +1,333 @@
+"""The chapter on the true motion of a machine: what its words name, its curves and tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
+from reportgen.machine.drives import ConstantDrive
+from reportgen.machine.running import MotionRun
+from reportgen.plans import run_ids
+from reportgen.report import Equation, Inlines, Paragraph, Table, Value, listed, running_motors
+from reportgen.report.report import Report
+from reportgen.report.running_curves import motion_of
+from reportgen.report.running_forces import asks_forces, forces_table
+from reportgen.report.tables import list_table, tables
+
+AS_ASKED = 1e-5
+"""The flywheel's calculation looks for the extremes at angles that miss no more than this share of δ."""
+MOST_CYCLES = 12
+"""Ends of the cycles of a start that its table shows, the last among them."""
+
+
+def _asked(report: Report) -> bool:
+    return report.case.true_motion is not None
+
+
+# --- what the words name ------------------------------------------------------------------------------
+
+
+def drive_form(report: Report) -> str:
+    """How the drive is given: "linear", a "load", "kloss", "table", a "constant" torque, or one that is "found"."""
+    motion = report.case.true_motion
+    if motion is None:
+        return ""
+    if not isinstance(motion.drive, ConstantDrive):
+        if "run.k" in report.ledger:
+            return "linear" if report.case.ledger["run.M0"].values[0] > 0 else "load"
+        return "kloss" if "run.Mk" in report.ledger else "table"
+    return "found" if motion.asked.drive is None else "constant"
+
+
+def governed(report: Report) -> bool:
+    """Whether the torque of the drive depends on the speed."""
+    motion = report.case.true_motion
+    return motion is not None and motion.drive.governs
+
+
+def inertia_slopes(report: Report) -> list[str]:
+    """The components of accelerations along the velocities, the shares of links in J′, and J′."""
+    points = (run_ids.along_velocity(body.centre) for body in report.machine.linkage.inertias)
+    shares = (run_ids.slope(link) for link in report.machine.linkage.links)
+    return report.known([*points, *shares, run_ids.slope()])
+
+
+def characteristic_lines(report: Report) -> list[str]:
+    """What the formula of the characteristic gives at a speed."""
+    return report.known(["run.slip", "run.Mc"])
+
+
+def steady_lines(report: Report, k: int | None = None) -> list[str]:
+    """Energy, speed, acceleration at a position."""
+    return report.known(["run.T", "run.omega", "run.eps"])
+
+
+def bound_lines(report: Report, state: str = "") -> list[str]:
+    """What the cycle comes to: the mean of the bounds of the speed, their distance, the power."""
+    names = ("mean", "delta", "period", "work", "power")
+    return report.known(run_ids.quantity(name, *([state] if state else [])) for name in names)
+
+
+def has_wheeled(report: Report) -> bool:
+    motion = report.case.true_motion
+    return motion is not None and motion.wheeled is not None
+
+
+def verdict(report: Report) -> str:
+    """Whether the true unevenness is "kept" within what is permitted, or "exceeded"; "" where nothing is permitted."""
+    motion, permitted = report.case.true_motion, report.machine.unevenness
+    if motion is None or permitted is None:
+        return ""
+    true = list(motion.states.values())[-1].unevenness
+    return "kept" if true <= permitted * (1 + AS_ASKED) else "exceeded"
+
+
+def with_wheel_or_alone(report: Report) -> str:
+    """Which of the two steady motions the verdict is about."""
+    return "wheel" if has_wheeled(report) else "alone"
+
+
+def starts(report: Report) -> bool:
+    motion = report.case.true_motion
+    return motion is not None and motion.started is not None
+
+
+def stops(report: Report) -> bool:
+    motion = report.case.true_motion
+    return motion is not None and motion.stopped is not None
+
+
+def starts_with(report: Report) -> str:
+    """Whether start and stop are those of the machine "alone" or with its "wheel"."""
+    motion = report.case.true_motion
+    return "wheel" if motion is not None and motion.shown else "alone"
+
+
+def swings(report: Report) -> Inlines:
+    """Where the loads push the crank back as it starts; nothing where they do not."""
+    motion = report.case.true_motion
+    if motion is None or motion.started is None:
+        return ()
+    return listed(Value(_degrees(angle)) for angle in motion.started.turns_back)
+
+
+def cycles(report: Report) -> str:
+    """How many cycles the start takes."""
+    motion = report.case.true_motion
+    return "" if motion is None or motion.started is None else str(len(motion.started.ends))
+
+
+def start_angle(report: Report) -> Inlines:
+    motion = report.case.true_motion
+    return _angle_of(None if motion is None else motion.asked.start_from)
+
+
+def stop_angle(report: Report) -> Inlines:
+    motion = report.case.true_motion
+    return _angle_of(None if motion is None else motion.asked.stop_from)
+
+
+def _angle_of(angle: float | None) -> Inlines:
+    return () if angle is None else (Value(_degrees(angle)),)
+
+
+def _degrees(angle: float) -> Number:
+    return Number(math.degrees(angle), 1, "°")
+
+
+def extreme_places(report: Report, state: str = "") -> Mapping[str, Inlines]:
+    """Where the crank is fastest and slowest: its turn from the first position."""
+    motion = motion_of(report)
+    steady = motion.states["wheel" if state else ""]
+    return {"fastest": _angle_of(steady.fastest.angle), "slowest": _angle_of(steady.slowest.angle)}
+
+
+def motion_equations(report: Report) -> Equation:
+    """The equation of motion, the equation of energy and what it gives, in symbols."""
+    ledger = report.ledger
+    parts = [ledger.symbol(id) for id in ("J.r", "run.J") if id in ledger]
+    J = plus(*parts)
+    ω, ε = ledger.symbol("run.omega"), ledger.symbol("run.eps")
+    M = ledger.symbol("M.r") + ledger.symbol("run.Md")
+    T = ledger.symbol("run.T")
+    slope: Expression = ledger.symbol("run.dJ") if "run.dJ" in ledger else NOTHING
+    turning = ε * J if len(parts) > 1 else J * ε
+    left = turning if slope == NOTHING else turning + ω**2 * slope / 2
+    rate = Symbol("d" + T.base, T.sub) / Symbol("dφ")
+    half = ω**2 * J / 2 if len(parts) > 1 else J * ω**2 / 2
+    time = Symbol("dt") / Symbol("dφ")
+    return Equation((Chain((left, M)), Chain((T, half)), Chain((rate, M)), Chain((time, 1 / ω))))
+
+
+def drive_equations(report: Report) -> Equation:
+    """The characteristic of the drive in symbols, as it acts on the crank."""
+    ledger = report.ledger
+    M, ω = ledger.symbol("run.Md"), Symbol("ω")
+    i = ledger.symbol("run.i") if "run.i" in ledger else None
+    if "run.k" in ledger:
+        falling = ledger.symbol("run.M0") - ledger.symbol("run.k") * (ω if i is None else ω / i)
+        return Equation((Chain((M, falling if i is None else falling / i)),))
+    s, s_k = ledger.symbol("run.slip"), ledger.symbol("run.sk")
+    shares, ω0 = s / s_k + s_k / s, ledger.symbol("run.omega0")
+    kloss = 2 * ledger.symbol("run.Mk") / (shares if i is None else i * shares)
+    return Equation((Chain((M, kloss)), Chain((s, 1 - ω / (ω0 if i is None else i * ω0)))))
+
+
+def step_equation(report: Report) -> Equation:
+    """How the speed goes on from a position to the next one, in symbols."""
+    ω, J, M = Symbol("ω", "b"), Symbol("J"), Symbol("M")
+    after = M * Symbol("Δφ") / (J * ω) + (3 * J - Symbol("J", "", "+")) * ω / (2 * J)
+    return Equation((Chain((Symbol("ω", "b", "+"), after)),))
+
+
+def inertia_apart(report: Report) -> bool:
+    """Whether the reduced moment of inertia has not been worked out in the chapter on the flywheel."""
+    return report.has_reduced_inertia and not report.has_flywheel
+
+
+def inertia_form(report: Report) -> str:
+    """Whether the reduced moment of inertia "varies", is "even", or there is only that of the motor, "none"."""
+    if not report.has_reduced_inertia:
+        return "none"
+    return "varies" if inertia_slopes(report) else "even"
+
+
+def residuals(report: Report) -> dict[str, tuple[float, str]]:
+    """How far the drive is from its characteristic, and a steady cycle from its beginning, as shares."""
+    motion, families = report.case.true_motion, report.case.ledger.families
+    if motion is None:
+        return {}
+    closing = [abs(steady.run.energy[-1] / steady.run.energy[0] - 1) for steady in motion.states.values()]
+    readings = [
+        families[id].values[0]
+        for id in (run_ids.in_state("reading", state) for state in motion.states)
+        if id in families
+    ]
+    result = {"run_energy": (float(max(closing)), "")}
+    return {"drive": (float(max(readings)), ""), **result} if readings else result
+
+
+def _of_shown(name: str) -> Callable[[Report], str]:
+    """The id of a quantity of the motion that starts, stops and has its forces shown."""
+
+    def of(report: Report) -> str:
+        motion = report.case.true_motion
+        return run_ids.in_state(name, "" if motion is None else motion.shown)
+
+    return of
+
+
+VALUES: Mapping[str, Callable[[Report], Any]] = {
+    "forces_omega": _of_shown("omega"),
+    "forces_eps": _of_shown("eps"),
+    "inertia_apart": inertia_apart,
+    "inertia_form": inertia_form,
+    "drive_form": drive_form,
+    "governed": governed,
+    "inertia_slopes": inertia_slopes,
+    "characteristic_lines": characteristic_lines,
+    "motion_verdict": verdict,
+    "verdict_of": with_wheel_or_alone,
+    "has_wheeled": has_wheeled,
+    "starts": starts,
+    "stops": stops,
+    "starts_with": starts_with,
+    "swings": swings,
+    "start_cycles": cycles,
+    "start_angle": start_angle,
+    "stop_angle": stop_angle,
+    "has_motion": _asked,
+    **running_motors.VALUES,
+    "asks_forces": asks_forces,
+}
+FUNCTIONS: Mapping[str, Callable[..., Any]] = {
+    "bound_lines": bound_lines,
+    "steady_lines": steady_lines,
+    "extreme_places": extreme_places,
+    "motion_equations": motion_equations,
+    "drive_equations": drive_equations,
+    "step_equation": step_equation,
+}
+
+# --- tables -----------------------------------------------------------------------------------------------
+
+Head = Sequence[str]
+
+
+def steady_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+    """The steady motion at the positions."""
+    shared = ["J.r", "run.dJ", "M.r"]
+    own = [run_ids.in_state(name, "") for name in ("Md", "T", "omega", "eps", "t")]
+    shown = [id for id in report.known([*shared, *own]) if len(report.ledger[id].values) > 1]
+    return tables(report, key, caption, shown, report.all_positions)
+
+
+def wheel_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+    """The same with the flywheel."""
+    own = report.known(run_ids.in_state(name, "wheel") for name in ("Md", "T", "omega", "eps", "t"))
+    return tables(report, key, caption, own, report.all_positions)
+
+
+def steps_table(report: Report, key: str, caption: str, head: Head) -> tuple[Table | Paragraph, ...]:
+    """The speed by steps beside the true one."""
+    return tables(report, key, caption, ["run.omega", "run.step"], report.all_positions)
+
+
+def start_table(report: Report, key: str, caption: str, head: Head) -> Table:
+    """The start at the positions of its first cycle and at the ends of the others."""
+    started = motion_of(report).started
+    assert started is not None, "a start has a table where it is asked for"
+    run, begin = started.run, float(started.run.angle[0])
+    whole = report.machine.turns * 2 * math.pi
+    places = sorted(begin + np.mod(angle - begin, whole) for angle in report.machine.cycle_angles)
+    # Of a crank that swings back the last time at a place counts.
+    first = [_last_at(run, at, started.ends[0]) for at in places if not np.isclose(at, begin)]
+    ends = list(started.ends)
+    step = -(-len(ends) // MOST_CYCLES)
+    shown = [0, *first, *dict.fromkeys([*ends[::step], ends[-1]])]
+    return list_table(report, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+
+
+def _last_at(run: MotionRun, angle: float, end: int) -> int:
+    near = np.flatnonzero(np.abs(run.angle[: end + 1] - angle) < 1e-8)
+    return int(near[-1]) if near.size else int(np.abs(run.angle[: end + 1] - angle).argmin())
+
+
+def stop_table(report: Report, key: str, caption: str, head: Head) -> Table:
+    """The run-down at the positions that it passes, and its end."""
+    run = motion_of(report).stopped
+    assert run is not None, "a stop has a table where it is asked for"
+    whole = report.machine.turns * 2 * math.pi
+    turns = math.ceil(float(run.angle[-1]) / whole)
+    every = (angle + turn * whole for turn in range(turns) for angle in report.machine.cycle_angles)
+    passed = [angle for angle in every if run.angle[0] < angle < run.angle[-1]]
+    step = -(-len(passed) // MOST_CYCLES) if passed else 1
+    shown = [0, *(run.place(angle) for angle in passed[::step]), len(run.angle) - 1]
+    return list_table(report, key, caption, head, _rows(report, run, shown), (40.0, 40.0, 40.0, 40.0))
+
+
+def _rows(report: Report, run: MotionRun, places: Sequence[int]) -> Iterator[Sequence[object]]:
+    decimals = report.ledger.decimals
+    speeds, times, rates = (decimals[id] for id in ("run.omega", "run.t", "run.eps"))
+    for place in dict.fromkeys(places):
+        yield (
+            Number(math.degrees(float(run.angle[place])), 2),
+            Number(float(run.time[place]), times),
+            Number(float(run.speed[place]), speeds),
+            Number(float(run.acceleration[place]), rates),
+        )
+
+
+TABLES: Mapping[str, Callable[..., Any]] = {
+    "run": steady_table,
+    "run.wheel": wheel_table,
+    "run.steps": steps_table,
+    "run.start": start_table,
+    "run.stop": stop_table,
+    "run.forces": forces_table,
+    **running_motors.TABLES,
+}

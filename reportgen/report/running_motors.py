@@ -1,0 +1,78 @@
+"""The choice of a motor: what the steady motion asks of it, and each motor of the list with its checks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from reportgen.base.units import significant_decimals
+from reportgen.formula import Number
+from reportgen.machine.motors import MotorChecks
+from reportgen.report import Inlines, Table, Text, Value
+from reportgen.report.report import Report
+from reportgen.report.tables import list_table
+
+WIDTHS = (24.0, 22.0, 34.0, 34.0, 34.0, 14.0)
+FIGURES = 4
+
+
+def _checks(report: Report) -> Sequence[MotorChecks]:
+    motion = report.case.true_motion
+    return () if motion is None else motion.motors(report.machine)
+
+
+def has_motors(report: Report) -> bool:
+    """Whether motors are given to choose from."""
+    return bool(_checks(report))
+
+
+def chosen_motor(report: Report) -> Inlines:
+    """The least motor that passes all checks, by name and power; nothing if none does."""
+    fitting = next((one for one in _checks(report) if one.fits), None)
+    if fitting is None:
+        return ()
+    return Text(f"{fitting.motor.name}, "), Value(_typed(fitting.motor.power, "kW"))
+
+
+def demand_lines(report: Report) -> list[str]:
+    """What is asked of the motor, at the crank."""
+    return report.known(["run.Mmean", "run.Meff", "run.Mmost", "run.Mres"])
+
+
+def motors_table(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
+    """Each motor with its torques at the crank, and whether they suffice."""
+    return list_table(report, key, caption, head, _rows(report), WIDTHS)
+
+
+def _rows(report: Report) -> Iterator[Sequence[object]]:
+    words = report.words["motors"]
+
+    def checked(torque: float, wanted: float) -> Inlines:
+        return Value(_number(torque)), Text(" ≥ " if torque >= wanted else " < "), Value(_number(wanted))
+
+    for one in _checks(report):
+        yield (
+            one.motor.name,
+            _typed(one.motor.power),
+            checked(one.rated, one.demand.effective),
+            checked(one.start, one.demand.resistance),
+            checked(one.breakdown, one.demand.most),
+            words["fits" if one.fits else "fits_not"],
+        )
+
+
+def _typed(power: float, unit: str = "") -> Number:
+    """A power (W) in kW, as it was given."""
+    return Number(float(f"{power / 1e3:.9g}"), None, unit)
+
+
+def _number(value: float) -> Number:
+    return Number(float(f"{value:.{FIGURES}g}"), max(significant_decimals(value, FIGURES), 0))
+
+
+VALUES: Mapping[str, Callable[[Report], Any]] = {
+    "has_motors": has_motors,
+    "chosen_motor": chosen_motor,
+    "demand_lines": demand_lines,
+}
+TABLES: Mapping[str, Callable[..., Any]] = {"run.motors": motors_table}

@@ -1,0 +1,135 @@
+"""Engines by orders: published factors and sums, and the exact forces of all pistons, Fourier-analysed."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_file import Parameters
+from reportgen.balancing.engine_sheet import FACTORS, ORDERS, EngineSheet
+from reportgen.formula.sheet import Sheet
+from tests.lanes import proof
+
+PITCH = 0.1
+"""From one cylinder, or one pair of them, to the next (m)."""
+Layout = list[tuple[float, float, float]]
+"""Of each cylinder: its crank (°), its place (pitches), its bank (°)."""
+
+
+def sheet_of(layout: Layout, l: float = 160.0) -> Sheet:  # noqa: E741
+    cylinders = [
+        {"crank": f"{math.fmod(θ, 360):.12g} deg", "at": f"{z * PITCH * 1e3:.12g} mm", "bank": f"{ψ:.12g} deg"}
+        for θ, z, ψ in layout
+    ]
+    given = {"r": "40 mm", "l": f"{l} mm", "n": "3000 rpm", "m3": "0.5 kg", "m2": "0.6 kg"}
+    return EngineSheet(Parameters.model_validate({**given, "s": "0.35", "cylinders": cylinders})).written()
+
+
+@pytest.mark.parametrize(
+    ("l", "factors"),
+    [
+        (40 * 4, (0.25402504, -0.00409811, 0.00007438)),
+        (40 * 3.6, (0.28333914, -0.00568698, 0.00012842)),
+        (40 / 0.3, (0.30705066, -0.00723769, 0.00019194)),
+    ],
+)
+def test_the_factors_of_the_orders(l: float, factors: tuple[float, ...]) -> None:  # noqa: E741
+    """R4a; the first terms of the series are as near as their next one is small."""
+    sheet = sheet_of([(0, 0, 0)], l)
+    λ = 40 / l
+    for order, factor in zip(FACTORS, factors, strict=True):
+        assert sheet.si(orders_ids.factor(order)) == pytest.approx(factor, abs=0.5e-8)
+        assert abs(sheet.si(orders_ids.series(order)) - factor) < λ**7
+
+
+KNOWN: dict[str, tuple[Layout, tuple[float, ...], tuple[float, ...]]] = {
+    "twin at 180°": ([(0, 0, 0), (180, 1, 0)], (0, 2, 2), (1, 0, 0)),
+    "twin at 360°": ([(0, 0, 0), (0, 1, 0)], (2, 2, 2), (0, 0, 0)),
+    "twin at 270°": ([(0, 0, 0), (270, 1, 0)], (math.sqrt(2), 0, 2), (0.5 * math.sqrt(2), 1, 0)),
+    "in-line three": ([(0, 0, 0), (120, 1, 0), (240, 2, 0)], (0, 0, 0), (math.sqrt(3),) * 3),
+    "in-line four": ([(0, 0, 0), (180, 1, 0), (180, 2, 0), (0, 3, 0)], (0, 4, 4), (0, 0, 0)),
+    "in-line six": ([(θ, z, 0) for z, θ in enumerate((0, 120, 240, 240, 120, 0))], (0, 0, 0), (0, 0, 0)),
+    "boxer twin": ([(0, 0, 0), (180, 1, 180)], (0, 0, 0), (1, 1, 1)),
+    "V 90°": ([(0, 0, 45), (0, 0, -45)], (1, math.sqrt(2), math.sqrt(2)), (0, 0, 0)),
+    "V 60°": ([(0, 0, 30), (0, 0, -30)], (1.5, 0.5 * math.sqrt(3), 0.5 * math.sqrt(3)), (0, 0, 0)),
+}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_known_engines(name: str) -> None:
+    """R4c: greatest forces over m r ω² Aₙ, greatest couples over that and the pitch."""
+    layout, forces, couples = KNOWN[name]
+    sheet = sheet_of(layout)
+    for n, force, couple in zip(ORDERS, forces, couples, strict=True):
+        unit = sheet.si("orders.K") * (1.0 if n == 1 else abs(sheet.si(orders_ids.factor(n))))
+        assert sheet.si(orders_ids.force(n)) / unit == pytest.approx(force, abs=1e-12)
+        if orders_ids.couple(n) in sheet:
+            assert sheet.si(orders_ids.couple(n)) / unit / PITCH == pytest.approx(couple, abs=1e-12)
+        else:
+            assert couple == 0
+
+
+def test_a_counterweight_takes_the_first_order_of_a_right_angled_v() -> None:
+    """Both rods on one pin: U = (m_A + m_rec/2) r f₁, and nothing of the first order is left."""
+    sheet = sheet_of(KNOWN["V 90°"][0])
+    assert sheet.si("orders.U") == pytest.approx((0.39 + 0.71 / 2) * 0.04 * 2)
+    assert abs(sheet.si("orders.left")) < 1e-9 * sheet.si("orders.K")
+
+
+# --- against the sum of exact piston forces ---------------------------------------------------------------
+
+SAMPLES = 256
+
+
+def greatest(layout: Layout, l: float, arms: bool) -> dict[int, float]:  # noqa: E741
+    """The greatest force, or couple about the middle, of each order (N, N·m), from exact positions of all pistons."""
+    r, ω, m = 0.04, 3000 * math.pi / 30, 0.71
+    φ = np.arange(SAMPLES) * math.tau / SAMPLES
+    middle = (min(z for _, z, _ in layout) + max(z for _, z, _ in layout)) / 2
+    whole = np.zeros(SAMPLES, complex)
+    for θ, z, ψ in layout:
+        turned = φ + math.radians(θ - ψ)
+        x = r * np.cos(turned) + np.sqrt((l / 1e3) ** 2 - (r * np.sin(turned)) ** 2)
+        # Twice differentiated by its spectrum, which ends far below the highest of so many samples.
+        orders = np.fft.fftfreq(SAMPLES, 1 / SAMPLES)
+        acceleration = np.fft.ifft(-((orders * ω) ** 2) * np.fft.fft(x)).real
+        whole += -m * acceleration * np.exp(1j * math.radians(ψ)) * ((z - middle) * PITCH if arms else 1.0)
+    spectrum = np.fft.fft(whole) / SAMPLES
+    return {n: float(abs(spectrum[n]) + abs(spectrum[-n])) for n in ORDERS}
+
+
+def layouts(many: int) -> list[Layout]:
+    """In-line engines, boxers, V engines, and so many that nobody builds."""
+    found: list[Layout] = [[(720 * k / count, k, 0) for k in range(count)] for count in (1, 2, 3, 4, 5, 6, 8)]
+    for count in (2, 4, 6):
+        found.append([(360 * (k // 2) / count + 180 * (k % 2), k, 180 * (k % 2)) for k in range(count)])
+    for bank in (60, 90):
+        for pairs in range(1, 7):
+            found.append([(720 * (k // 2) / pairs, k // 2, bank / 2 - bank * (k % 2)) for k in range(2 * pairs)])
+    rng = np.random.default_rng(4)
+    for _ in range(many):
+        count = int(rng.integers(1, 13))
+        found.append(
+            [
+                (float(rng.uniform(-360, 360)), k + float(rng.uniform(0, 0.9)), float(rng.choice((0, 45, -60, 180))))
+                for k in range(count)
+            ]
+        )
+    return found
+
+
+@pytest.mark.parametrize("many", [10, pytest.param(200, marks=proof)])
+def test_layouts_against_exact_piston_forces(many: int) -> None:
+    rng = np.random.default_rng(5)
+    for layout in layouts(many):
+        l = float(round(rng.uniform(120, 220), 3))  # noqa: E741
+        sheet = sheet_of(layout, l)
+        forces, couples = greatest(layout, l, False), greatest(layout, l, True)
+        most = len(layout) * sheet.si("orders.K")
+        for n in ORDERS:
+            assert abs(sheet.si(orders_ids.force(n)) - forces[n]) <= 1e-9 * most
+            if orders_ids.couple(n) in sheet:
+                assert abs(sheet.si(orders_ids.couple(n)) - couples[n]) <= 1e-9 * most * len(layout) * PITCH

@@ -1,0 +1,206 @@
+"""What is read of a Word report: everything that a person finds in it, and nothing else."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from reportgen.cases import open_case
+from reportgen.handin import FileReading
+from reportgen.handin.word_file import open_word
+from reportgen.handin.word_reader import read_report
+from reportgen.marking.key import Ask, key_of
+from reportgen.report.key import Key
+from reportgen.writers import word
+from tests.handin import docx, figures, reports
+from tests.lanes import matrix
+
+CASES = [(manner, machine, seed) for manner, machine, seed in reports.each(range(1))]
+TELLING = [(manner, "slotted-lever-01", 0) for manner in reports.MANNERS]
+WELL, CARELESS, OWN = 0.97, 0.85, 0.95
+"""The shares of the values in a report that are to be read."""
+
+
+@pytest.mark.parametrize(("manner", "machine", "seed"), matrix(CASES, TELLING))
+def test_a_made_up_report_is_read_and_no_number_goes_to_a_wrong_place(manner: str, machine: str, seed: int) -> None:
+    made = reports.report(manner, machine, seed)
+    result = figures.judged(made, figures.read(made))
+    assert not result.wrong
+    # What a colon says is left for a person, and a report of few values has more of it by chance.
+    least = 0.7 if manner == "mixed" else CARELESS if reports.MANNERS[manner] in reports.CARELESS else WELL
+    assert result.read >= least * result.stand
+
+
+OWN_REPORTS = [
+    ("slotted-lever-01", "vi"),
+    ("four-bar-01", "en"),
+    ("engine-twin-05", "vi"),
+    ("gears/pair-least-shift", "en"),
+    ("coursework/shaper", "vi"),
+]
+
+
+@pytest.mark.parametrize(("name", "language"), matrix(OWN_REPORTS, OWN_REPORTS[:1]))
+def test_our_own_report_is_read(name: str, language: str) -> None:
+    """Directions that stand in the drawing alone are no values of the text; what stands there agrees with the key."""
+    case = open_case(reports.ROOT / f"{name}.yaml", language)  # type: ignore[arg-type]
+    key = Ask().of(key_of(case))
+    content = word.write(case.document(), lambda scenes: [(b"", b"") for _ in scenes])
+    reading = read_report(open_word(Path("report.docx"), content).blocks, key, "report.docx")
+    assert reading.share >= OWN
+    for (id, position), answer in reading.values.items():
+        row = key.row(id)
+        printed = row.printed[row.at(position)]
+        assert answer.value == pytest.approx(printed, rel=5e-3, abs=1e-9), (id, position, answer)
+
+
+# --- single rules -----------------------------------------------------------------------------------
+
+
+@cache
+def key() -> Key:
+    return reports.key_for("slotted-lever-01", "vi")
+
+
+def read(*blocks: str, language: str = "vi") -> FileReading:
+    content = docx.package("".join(blocks))
+    return read_report(
+        open_word(Path("r.docx"), content).blocks, reports.key_for("slotted-lever-01", language), "r.docx"
+    )
+
+
+def line(text: str) -> str:
+    """A paragraph of plain text."""
+    return docx.paragraph(docx.run(text))
+
+
+HERE = docx.paragraph(docx.run("2.1 Vị trí 2"), "u2")
+PLACE = ("v.D", 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("v_D = 0,25 m/s", 0.25),
+        ("vD = 0,25 m/s", 0.25),
+        ("V_D = 0,25 m/s", 0.25),
+        ("v_D = 25 cm/s", 0.25),
+        ("v_D (mm/s) = 250", 0.25),
+        ("v_D = 2,5·10⁻¹ m/s", 0.25),
+        ("v_D = 2,5.10^-1 m/s", 0.25),
+        ("Suy ra v_D = ω_3·l_CD = 2·0,125 = 0,25 m/s.", 0.25),
+        ("v_D = 0,25 m/s, hướng sang trái", 0.25),
+        ("v_D = 0,25 m/s (hướng sang trái).", 0.25),
+        ("v_D = 0,25 m/s\t(2.15)", 0.25),
+        ("v_D = x ⇒ v_D = 0,25 m/s", 0.25),
+        ("v_D(2) = 0,25 m/s", 0.25),
+        ("- v_D = 0,25 m/s; a_D = 3 m/s²", 0.25),
+        ("𝑣_𝐷 = 0,25 m/s", 0.25),
+        ("v\u200b_D = 0,2\u200b5 m/s", 0.25),
+    ],
+)
+def test_a_statement_has_its_number(text: str, value: float) -> None:
+    reading = read(HERE, line(text))
+    assert reading.values[PLACE].value == pytest.approx(value)
+    assert str(reading.values[PLACE].mark) == "r.docx:¶2"
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("Giả sử v_D = 0,25 m/s", "unread-supposed"),
+        ("Giá trị lớn nhất v_D = 0,25 m/s", "unread-supposed"),
+        ("v_D = 0,25 m/s hoặc 0,3 m/s", "unread-number"),
+        ("v_D = 2·3,1", "unread-number"),
+        ("v_D: 0,25 m/s", "unread-number"),
+        ("2 v_D = 0,5 m/s", "unread-number"),
+        ("v_D = 5.122,95 m/s", "unread-product"),
+        ("v_D = 0,25 kg", "unread-unit"),
+        ("Tại vị trí 2 và 5: v_D = 0,25 m/s", "unread-positions"),
+        ("Tại vị trí thứ ba v_D = 0,25 m/s", "unread-positions"),
+        ("v_D = 0,25 m/s. Lại có v_D = 0,35 m/s", "unread-two-values"),
+    ],
+)
+def test_what_leaves_a_doubt_is_not_read(text: str, code: str) -> None:
+    reading = read(HERE, line("a_D = 1,25 m/s²"), line(text))
+    assert PLACE not in reading.values
+    assert reading.unread[PLACE].code == code
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["sin v_D = 0,25", "F = x + v_D = 0,25 m/s", "v_D^2 = 0,25", "Δv_D = 0,25 m/s", "v_D = ω_3·l_CD", "v_E = 0,25 m/s"],
+)
+def test_what_is_no_value_of_it_is_nothing(text: str) -> None:
+    reading = read(HERE, line(text))
+    assert PLACE not in reading.values.keys() | reading.unread.keys()
+
+
+def test_a_position_ends_with_its_heading() -> None:
+    """Under the next chapter nobody says which it is; a sentence that only compares changes nothing."""
+    compared = read(HERE, line("Nhỏ hơn so với vị trí 5."), line("v_D = 0,25 m/s"))
+    assert compared.values[PLACE].value == 0.25
+    ended = read(HERE, docx.paragraph(docx.run("3 Nhận xét"), "u1"), line("v_D = 0,25 m/s"))
+    assert {fault.code for fault in ended.unread.values()} == {"unread-no-position"}
+    assert not ended.values
+
+
+def test_a_rotation_has_the_sense_that_is_said_or_counts_by_its_size() -> None:
+    row = key().row("turn.omega.3")
+    sign = 1 if row.values[1] > 0 else -1
+    words = ("ngược chiều kim đồng hồ", "cùng chiều kim đồng hồ")
+    for text, value in (("", 0.4 * sign), (f", {words[0]}", 0.4), (f", {words[1]}", -0.4)):
+        reading = read(HERE, line(f"ω_3 = 0,4 rad/s{text}"))
+        assert reading.values["turn.omega.3", 2].value == value
+
+
+def test_what_is_struck_out_deleted_or_hidden_is_not_there() -> None:
+    deleted = '<w:del w:id="1" w:author="x"><w:r><w:delText>9</w:delText></w:r></w:del>'
+    parts = docx.run("v_D = ") + docx.run("7 ", docx.STRUCK) + docx.run("8 ", docx.HIDDEN) + deleted
+    reading = read(HERE, docx.paragraph(parts + docx.run("0,25 m/s")))
+    assert reading.values[PLACE].value == 0.25
+
+
+def test_a_letter_of_the_font_symbol_is_greek() -> None:
+    omega = '<w:r><w:sym w:font="Symbol" w:char="F077"/></w:r>'
+    reading = read(HERE, docx.paragraph(omega + docx.run("3", docx.LOW) + docx.run(" = 0,4 rad/s")))
+    assert abs(reading.values["turn.omega.3", 2].value) == 0.4
+
+
+def test_equations_of_another_program_are_counted_and_what_is_blank_there_is_unread() -> None:
+    """A blank under the heading may stand in one of them; elsewhere it is a blank."""
+    equation = '<w:r><w:object><o:OLEObject Type="Embed" ProgID="Equation.DSMT4" r:id="rId9"/></w:object></w:r>'
+    elsewhere = docx.paragraph(docx.run("2.2 Vị trí 5"), "u2")
+    reading = read(HERE, line("v_D = 0,25 m/s"), docx.paragraph(equation), elsewhere, line("v_D = 0,3 m/s"))
+    assert [note.arguments["count"] for note in reading.notes] == ["1"]
+    assert reading.unread["a.D", 2].code == "unread-object"
+    assert ("a.D", 5) not in reading.unread
+    assert reading.values["v.D", 5].value == 0.3
+
+
+def test_a_box_of_text_is_read_once() -> None:
+    """Word writes it twice, for old programs too."""
+    box = f"<w:txbxContent>{line('v_D = 0,25 m/s')}</w:txbxContent>"
+    twice = (
+        '<w:r><mc:AlternateContent xmlns:mc="http://schemas.openxmlformats.org/markup-compatibility/2006">'
+        f'<mc:Choice Requires="wps"><w:drawing>{box}</w:drawing></mc:Choice>'
+        f"<mc:Fallback><w:pict>{box.replace('0,25', '0,99')}</w:pict></mc:Fallback></mc:AlternateContent></w:r>"
+    )
+    assert read(HERE, docx.paragraph(twice)).values[PLACE].value == 0.25
+
+
+def test_every_reason_has_its_words() -> None:
+    """Each code that the readers give is a message in both languages."""
+    from reportgen.base.words import messages
+
+    folder = Path(reports.__file__).parents[2] / "reportgen" / "handin"
+    codes = {
+        code
+        for file in folder.glob("*.py")
+        for code in re.findall(r'"((?:unread|word|own)-[a-z-]+)"', file.read_text())
+    }
+    for language in ("vi", "en"):
+        assert codes <= set(messages(language)["faults"])  # type: ignore[arg-type]
