@@ -28,7 +28,7 @@ def drum(θ: float, sense: int, name: Symbol) -> Canvas:
     right, left = math.pi / 2 - shown / 2, math.pi / 2 + shown / 2
     items: list[Item] = [
         Circle(0j, RADIUS, style.VISIBLE, style.TINT),
-        Arc(0j, RADIUS + 0.4, right, left, style.HEAVY),
+        Arc(0j, RADIUS + 0.4, right, right + min(θ, TURN), style.HEAVY),
         style.joint(0j),
     ]
     inner = RADIUS * 0.55

@@ -83,8 +83,8 @@ class FrictionCase(DesignCase):
 
     @property
     @abstractmethod
-    def locks(self) -> bool:
-        """Whether it holds by friction alone."""
+    def locks(self) -> bool | None:
+        """Whether it holds by friction alone; None of what can only slip."""
 
     def at(self, name: str) -> float:
         """A result (SI) by the end of its id; 0 of one that the task has not."""
@@ -93,14 +93,16 @@ class FrictionCase(DesignCase):
 
     @cached_property
     def entries(self) -> ResultEntries:
-        """All that is worked out, by the ends of the ids, and whether it locks itself."""
+        """All that is worked out, by the ends of the ids, and whether it locks itself where that is a question."""
         head = f"friction.{self.TASK.name}."
         results: dict[str, Any] = {
             id.removeprefix(head): family.at(1)
             for id, family in self.ledger.families.items()
             if family.definition is not None and not family.hidden
         }
-        return ResultEntries([{"number": 1, self.TASK.name: {**results, "self_locking": self.locks}}])
+        if self.locks is not None:
+            results["self_locking"] = self.locks
+        return ResultEntries([{"number": 1, self.TASK.name: results}])
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
@@ -226,9 +228,8 @@ class BeltCase(FrictionCase):
     TASK = FrictionTask("belt", friction_sheets.belt_sheet, friction_brakes.belt_scheme)
 
     @property
-    def locks(self) -> bool:
+    def locks(self) -> None:
         """A belt slips as soon as the torque is larger."""
-        return False
 
     @property
     def holds(self) -> Mapping[str, bool]:

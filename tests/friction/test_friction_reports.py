@@ -11,8 +11,9 @@ import pytest
 from reportgen import api
 from reportgen.cases import open_case
 from reportgen.catalogue import sample
-from reportgen.drawing import Arrow, Scene
-from reportgen.exercise.friction_drawings import incline_plans, wedge_plans
+from reportgen.drawing import Arrow, Circle, Line, Polyline, Scene
+from reportgen.exercise.friction_brakes import band_scheme, shoe_scheme
+from reportgen.exercise.friction_drawings import incline_plans, screw_scheme, wedge_plans
 from reportgen.exercise.friction_file import TASKS
 from reportgen.marking.key import key_of
 from reportgen.results import results as results_of
@@ -89,6 +90,27 @@ def test_a_ruler_on_the_triangles_of_the_wedge(α: float, f3: float, tmp_path: P
         for name, side in (("R1", first), ("R2", base), ("R3", across)):
             assert abs(side) * μ == pytest.approx(value[f"{end}{name}"], rel=1e-3)
         assert P * μ == pytest.approx(value[f"{end}P"], rel=1e-4)
+
+
+def test_a_ruler_on_thread_and_brakes() -> None:
+    """The lead over the circumference; drum, lever and pivot of the shoe brake; the arms of the band brake."""
+    case = case_of("screw-jack")
+    triangle = next(item for item in screw_scheme(case).items if isinstance(item, Polyline) and len(item.points) == 3)
+    low, right, top = triangle.points
+    # The angle is drawn as it is printed, to 1e-5 degrees.
+    assert (top - right).imag / (right - low).real == pytest.approx(14 / (math.pi * 36.5), rel=1e-5)
+    items = shoe_scheme(case_of("shoe-brake")).items
+    drum = max((item for item in items if isinstance(item, Circle)), key=lambda item: item.radius)
+    per = drum.radius / 120
+    lever = max((item for item in items if isinstance(item, Line)), key=lambda item: abs(item.end - item.start))
+    ends = sorted((lever.start, lever.end), key=lambda end: end.real)
+    assert (ends[1] - ends[0]).real == pytest.approx(600 * per, rel=1e-9)
+    assert (ends[0] - drum.centre) == pytest.approx(complex(-220, 180) * per, rel=1e-9)
+    items = band_scheme(case_of("band-brake")).items
+    lever = next(item for item in items if isinstance(item, Line) and abs(item.end.imag - item.start.imag) < 1e-9)
+    per = abs(lever.end - lever.start) / 525
+    upward = [item.start.real for item in items if isinstance(item, Arrow) and (item.end - item.start).imag > 5]
+    assert upward[1] - upward[0] == pytest.approx(125 * per, rel=1e-9)
 
 
 TOLD = [
