@@ -25,6 +25,7 @@ from reportgen.machine.laws import FULL_TURN, STEPS
 from reportgen.plans.joint_friction import misconceptions
 from reportgen.plans.run_mistakes import mistaken
 from reportgen.report import Block, Document, Paragraph, Strong, Text
+from reportgen.report.balancing_mistakes import mistaken as of_balancing
 from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
 from reportgen.report.key import Span
 from reportgen.report.shafts import Shaft
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
     from reportgen.report.report import Report
 
 
-GENERAL, HEIGHT = "vasntωεφα", "y"
-"""Letters without an index that stand for any point, link or angle, or count links and joints; that of a diagram."""
+GENERAL, HEIGHT, SEEN = "vasntωεφα", "y", "uUψTθrγβ"
+"""Letters without an index that stand for any point, link or angle, or count links and joints; those of diagrams."""
 
 
 def opened(assignment: Assignment) -> Case:
@@ -93,6 +94,7 @@ class MachineCase(MachineAnalysis):
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
         images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}
+        balancing = SEEN if self.balanced else ""
         corners = {corner for polygon in self.polygons for edge in polygon.edges for corner in (edge.start, edge.end)}
         return frozenset(
             {family.symbol for family in self.printed.families.values()}
@@ -103,7 +105,7 @@ class MachineCase(MachineAnalysis):
             | {Symbol(axis, name) for axis in "xy" for name in names}
             | {
                 Symbol(letter)
-                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""))
+                for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""), *balancing)
             }
         )
 
@@ -169,7 +171,11 @@ class MachineCase(MachineAnalysis):
             tuple(load.name for load in analysis.loads),
             _wrong_readings(analysis),
             _whole_rods(analysis.machine, tuple(self.ledger.families)),
-            changed={**misconceptions(self.ledger.families), **mistaken(self.ledger, analysis.machine.turns)},
+            changed={
+                **misconceptions(self.ledger.families),
+                **mistaken(self.ledger, analysis.machine.turns),
+                **of_balancing(self.ledger),
+            },
         )
 
     def fault(self) -> str:

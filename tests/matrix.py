@@ -48,7 +48,7 @@ CONTENT = {".pdf": b"%PDF-", ".xlsx": b"PK", ".docx": b"PK", ".html": b"<!DOCTYP
     ".eps": b"%!PS-Adobe-3.0 EPSF-3.0",
 }
 """What files begin with."""
-LONGEST_FORM = 60_000
+LONGEST_FORM = 64_000
 """Bytes of a form."""
 MOST = 8
 """Cases that are kept at once: those of one coursework and its parts."""

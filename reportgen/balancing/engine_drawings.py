@@ -26,8 +26,8 @@ from reportgen.sheets.plates import on_sheet
 
 UP = 1j
 """The axis x of an engine points upwards."""
-LONG, HIGH = 130.0, 84.0
-"""What the crankshaft from the side and the engine from its end may fill on a page (mm)."""
+LONG, SIDE, HIGH = 130.0, 50.0, 84.0
+"""What the crankshaft from the side, its height, and the engine from its end may fill on a page (mm)."""
 WEB = 0.16
 """Half the width of a throw, as a share of the least distance of two cylinders."""
 APART, OUT = 6.0, 7.0
@@ -113,7 +113,7 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     """The crankshaft from the side, z to the right, with its throws as high as they stand."""
     places = {place: one.at.si for place, one in zip(case.cylinders, case.given.cylinders, strict=True)}
     start, span = min(places.values()), max(places.values()) - min(places.values())
-    usual = nice_up(span * MM / LONG)
+    usual = nice_up(max(span / LONG, 2 * case.given.r.si / SIDE) * MM)
     per = MM * size.per_unit(usual)
     along = sorted({round(place, 12) for place in places.values()})
     web = WEB * min(after - before for before, after in pairwise(along)) * per

@@ -16,7 +16,7 @@ MOST_CYLINDERS = 12
 UPRIGHT = Given(0.0, 0.0, "deg", "0 deg")
 
 
-class Cylinder(Part):
+class CylinderPlace(Part):
     """The angle of its crank and of its bank from the axis x, its place along the crankshaft."""
 
     crank: Angle
@@ -34,7 +34,7 @@ class Parameters(Part):
     m3: PositiveMass
     m2: PositiveMass | None = None
     s: Share | None = None
-    cylinders: Annotated[tuple[Cylinder, ...], Field(min_length=1, max_length=MOST_CYLINDERS)]
+    cylinders: Annotated[tuple[CylinderPlace, ...], Field(min_length=1, max_length=MOST_CYLINDERS)]
 
     @property
     def is_inline(self) -> bool:

@@ -20,6 +20,7 @@ from reportgen.balancing.engine_file import Parameters
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing.geometry import corners_of
 from reportgen.formula import PI, Expression, Number, Ref, cis, size, total
+from reportgen.formula.piston_orders import acceleration_factor, short_series
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import Chapter
 
@@ -31,9 +32,6 @@ FORCES, COUPLES = "fg", "pq"
 """The stars, the one that turns with the crank first."""
 STAR = 46.0
 """The width or height that the largest star of a kind has on a page at most (mm)."""
-EXACT = 1e-18
-"""Terms of the exact series go on until a power of λ² is so small."""
-FEWEST_TERMS = 24
 
 
 class EngineSheet:
@@ -93,10 +91,10 @@ class EngineSheet:
         for order in FACTORS:
             inner = q.define(names.exact(order), acceleration_factor(order, λ, q.si(λ)), hidden=True)
             A = q.define(names.factor(order), inner, optional=order not in ORDERS)
-            told = q.define(names.series(order), short_series(order, λ), optional=True)
-            error = q.define(names.off(order), (told - A) / A, optional=True, residue=True)
+            first_terms = q.define(names.series(order), short_series(order, λ), optional=True)
+            error = q.define(names.off(order), (first_terms - A) / A, optional=True, residue=True)
             q.set_out("factors", A)
-            q.set_out("series", told, error)
+            q.set_out("series", first_terms, error)
         q.set_out("amplitude", q.define("orders.K", m_rec * q["orders.r"] * ω**2))
 
     def _enter_arms(self) -> None:
@@ -196,34 +194,3 @@ def times_direction(weight: Expression, direction: Expression) -> Expression:
 def abs_of(order: int, of: Expression) -> Expression:
     """The size of a force of an order: the factor of the fourth is negative."""
     return size(of) if order == ORDERS[-1] else of
-
-
-def acceleration_factor(order: int, λ: Ref, about: float) -> Expression:
-    """Aₙ of a = rω²(cos φ + Σ Aₙ cos nφ), n even, as a power series of λ that is exact to the last digit.
-
-    Aₙ = (2n²/λ) (−1)^{n/2} Σₖ C(½, k) (−1)ᵏ C(2k, k − n/2) (λ/2)^{2k}, from √(1 − λ² sin² φ).
-    """
-    half = order // 2
-    most = max(FEWEST_TERMS, math.ceil(math.log(EXACT) / math.log(about**2)))
-    binomial, terms = 1.0, []
-    for k in range(1, most + half):
-        binomial *= (0.5 - (k - 1)) / k
-        if k >= half:
-            # In steps that neither overflow nor lose figures: C(2k, k − n/2)/4ᵏ.
-            share = math.exp(
-                math.lgamma(2 * k + 1) - math.lgamma(k - half + 1) - math.lgamma(k + half + 1) - k * math.log(4)
-            )
-            factor = 2 * order**2 * (-1) ** half * binomial * (-1) ** k * share
-            terms.append(factor * λ ** (2 * k - 1))
-    return total(terms)
-
-
-def short_series(order: int, λ: Ref) -> Expression:
-    """The first terms of the series, as books have them: λ + λ³/4 + 15λ⁵/128, …"""
-    match order:
-        case 2:
-            return λ + λ**3 / 4 + 15 * λ**5 / 128
-        case 4:
-            return -(λ**3 / 4 + 3 * λ**5 / 16)
-        case _:
-            return 9 * λ**5 / 128

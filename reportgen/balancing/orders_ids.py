@@ -74,6 +74,6 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(force, "F", "force", _F, below="{order}", name="orders force"),
     VocabularyRow(couple, "M", "torque", _F, below="{order}", name="orders couple"),
     VocabularyRow(Name("orders.rotating"), "F", "force", Chapter.torque, below="rot"),
-    VocabularyRow(Name("orders.U"), "U", "unbalance in metres", Chapter.torque, below="c"),
+    VocabularyRow(Name("orders.U"), "U", "product of mass and radius", Chapter.torque, below="c"),
     VocabularyRow(Name("orders.left"), "F", "force", Chapter.torque, below="1", above="′"),
 )

@@ -66,9 +66,9 @@ def check(given: Parameters) -> Iterator[Finding]:
         places = {"left": bearings[0].text, "right": bearings[1].text}
         yield Finding("rotor-places", (*TOP, "bearings", 1), places)
     for key, others in NEEDS.items():
-        for other in others if getattr(given, key) is not None else ():
-            if getattr(given, other) is None:
-                yield Finding("needs-besides", (*TOP, key), {"key": key, "other": other}, at="key")
+        for further in others if getattr(given, key) is not None else ():
+            if getattr(given, further) is None:
+                yield Finding("needs-besides", (*TOP, key), {"key": key, "other": further}, at="key")
     if given.mass is not None and given.grade is None:
         yield Finding("needs-besides", (*TOP, "mass"), {"key": "mass", "other": "grade"}, at="key")
     own = [plane for plane in (LEFT, RIGHT) if given.correction and getattr(given.correction, plane)]

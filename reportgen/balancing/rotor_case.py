@@ -67,6 +67,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
             "mass_is_sought": "m" in case.given.sought,
             "radius_is_sought": "r" in case.given.sought,
             "against": any(case.ledger[rotor_ids.moment(place)].values[0] < 0 for place in case.moments),
+            "corrects": {plane: bool(written[rotor_ids.unbalance(plane)].at(1)) for plane in case.planes},
             "leaves_couple": not case.two_planes and case.given.has_couple,
             "grade_met": all(case.permitted or ()),
             "has_data": has_data,
@@ -133,10 +134,10 @@ class RotorPage(PlacesPage[SolvedRotor]):
         printed, words = self.case.printed, self.words["compared"]
         rows: list[tuple[Inlines, ...]] = []
         for plane in self.case.planes:
-            for read, computed in (
-                (rotor_ids.unbalance(plane), rotor_ids.by_components("U", plane)),
-                (rotor_ids.direction(plane), rotor_ids.by_components("alpha", plane)),
-            ):
+            pairs = [(rotor_ids.unbalance(plane), rotor_ids.by_components("U", plane))]
+            if printed[rotor_ids.unbalance(plane)].at(1):
+                pairs.append((rotor_ids.direction(plane), rotor_ids.by_components("alpha", plane)))
+            for read, computed in pairs:
                 pair = printed.number(read), printed.number(computed)
                 off = Number(pair[0].shown - pair[1].shown, max(pair[0].decimals or 0, 1), pair[0].unit)
                 rows.append(((InlineMath(printed.symbol(read)),), *((Value(one),) for one in (*pair, off))))
@@ -169,8 +170,11 @@ class RotorCase(SolvedRotor):
 
     PAGE = RotorPage
     SAME = (
-        *((name(BEFORE, at), name(AFTER, at)) for name in (*OF_BEARING, rotor_ids.in_metres) for at in BEARINGS),
-        *(tuple(rotor_ids.share(when, axis, place) for when in (BEFORE, AFTER)) for axis in "xy" for place in BEARINGS),
+        *(
+            tuple(family(when, place) for when in (BEFORE, AFTER) for place in BEARINGS)
+            for family in (*OF_BEARING, rotor_ids.in_metres)
+        ),
+        tuple(rotor_ids.share(when, axis, at) for when in (BEFORE, AFTER) for axis in "xy" for at in BEARINGS),
     )
 
     @property

@@ -23,8 +23,8 @@ from reportgen.drawing.sheet import lettered
 from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import on_sheet
 
-LONG, WIDE = 140.0, 64.0
-"""What the view along the axis and that across it may fill on a page (mm)."""
+LONG, HIGH, WIDE = 140.0, 60.0, 64.0
+"""What the view along the axis, its height, and the view across the axis may fill on a page (mm)."""
 SHAFT, MASS, ARM = Pen(0.8), Pen(0.35), Pen(0.25)
 CORRECTION = Pen(0.4, style.RED)
 DISC = 1.7
@@ -93,7 +93,7 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
     masses, places = placed_masses(case), stations(case)
     ends = [*(one.station for one in masses), *places.values()]
     far = max(abs(one.at) for one in masses)
-    usual = nice_up(max(max(ends) - min(ends), far) * MM / LONG)
+    usual = nice_up(max((max(ends) - min(ends)) / LONG, 2 * far / HIGH) * MM)
     per = MM * size.per_unit(usual)
     high, start = far * per + CLEAR, min(ends)
     along = {name: (place - start) * per for name, place in places.items()}

@@ -32,12 +32,12 @@ tolerance = Name("rotor.tolerance.{place}")
 
 KINDS: Mapping[str, QuantityKind] = {
     "rotor length": QuantityKind("mm", 1e-3),
-    "unbalance": QuantityKind("kg·mm", 1e-3),
-    "moment of unbalance": QuantityKind("kg·mm²", 1e-6),
-    "unbalance on paper": QuantityKind("kg·mm/mm", digits=6),
-    "moment on paper": QuantityKind("kg·mm²/mm", 1e-3, digits=6),
-    "quality": QuantityKind("mm/s", 1e-3),
-    "unbalance in metres": QuantityKind("kg·m"),
+    "rotor unbalance": QuantityKind("kg·mm", 1e-3),
+    "rotor moment": QuantityKind("kg·mm²", 1e-6),
+    "rotor unbalance on paper": QuantityKind("kg·mm/mm", digits=6),
+    "rotor moment on paper": QuantityKind("kg·mm²/mm", 1e-3, digits=6),
+    "balance quality": QuantityKind("mm/s", 1e-3),
+    "product of mass and radius": QuantityKind("kg·m"),
     "eccentricity": QuantityKind("mm", 1e-3),
 }
 
@@ -47,49 +47,49 @@ _AXIS = "{place}{axis}"
 ROWS: tuple[VocabularyRow, ...] = (
     *(VocabularyRow(mass.only(place=plane), "m", "mass", below=plane, name="rotor correction mass") for plane in "AB"),
     *(
-        VocabularyRow(radius.only(place=one), "r", "rotor length", below=one, name="rotor correction radius")
-        for one in "AB"
+        VocabularyRow(radius.only(place=plane), "r", "rotor length", below=plane, name="rotor correction radius")
+        for plane in "AB"
     ),
     VocabularyRow(mass, "m", "mass", below="{place}", name="rotor mass"),
     VocabularyRow(radius, "r", "rotor length", below="{place}", name="rotor radius"),
     VocabularyRow(angle, "α", "angle", below="{place}", name="rotor angle"),
     VocabularyRow(station, "z", "rotor length", below="{place}", name="rotor station"),
     VocabularyRow(Name("rotor.n"), "n", "speed of rotation"),
-    VocabularyRow(Name("rotor.grade"), "G", "quality"),
+    VocabularyRow(Name("rotor.grade"), "G", "balance quality"),
     VocabularyRow(Name("rotor.M"), "M", "mass"),
     VocabularyRow(Name("rotor.L"), "L", "rotor length", _G),
     VocabularyRow(Name("rotor.b"), "b", "rotor length", _F),
     VocabularyRow(Name("rotor.omega"), "ω", "angular velocity", _F),
     *(
-        VocabularyRow(unbalance.only(place=plane), "U", "unbalance", _L, below=plane, name="rotor correction")
+        VocabularyRow(unbalance.only(place=plane), "U", "rotor unbalance", _L, below=plane, name="rotor correction")
         for plane in "AB"
     ),
-    VocabularyRow(unbalance, "U", "unbalance", _G, below="{place}", name="rotor unbalance"),
-    VocabularyRow(moment, "V", "moment of unbalance", _G, below="{place}", name="rotor moment"),
-    VocabularyRow(scale.only(of="U"), "μ", "unbalance on paper", _L, below="U"),
-    VocabularyRow(scale.only(of="V"), "μ", "moment on paper", _L, below="V"),
+    VocabularyRow(unbalance, "U", "rotor unbalance", _G, below="{place}", name="rotor unbalance"),
+    VocabularyRow(moment, "V", "rotor moment", _G, below="{place}", name="rotor moment"),
+    VocabularyRow(scale.only(of="U"), "μ", "rotor unbalance on paper", _L, below="U"),
+    VocabularyRow(scale.only(of="V"), "μ", "rotor moment on paper", _L, below="V"),
     VocabularyRow(laid_off, "", "segment", _L, "rotor.mu.{of}", below="{place}"),
     VocabularyRow(drawn),
     VocabularyRow(direction, "α", "direction", _L, below="{place}", around=True, name="rotor direction"),
-    VocabularyRow(component.only(of="U"), "U", "unbalance", _G, below=_AXIS),
-    VocabularyRow(component.only(of="V"), "V", "moment of unbalance", _G, below=_AXIS),
-    VocabularyRow(resultant.only(of="U"), "U", "unbalance", _G, below="{axis}", name="rotor resultant"),
-    VocabularyRow(resultant.only(of="V"), "V", "moment of unbalance", _G, below="{axis}", name="rotor resultant"),
-    VocabularyRow(by_components.only(of="U"), "U", "unbalance", below="{place}", name="rotor computed"),
+    VocabularyRow(component.only(of="U"), "U", "rotor unbalance", _G, below=_AXIS),
+    VocabularyRow(component.only(of="V"), "V", "rotor moment", _G, below=_AXIS),
+    VocabularyRow(resultant.only(of="U"), "U", "rotor unbalance", _G, below="{axis}", name="rotor resultant"),
+    VocabularyRow(resultant.only(of="V"), "V", "rotor moment", _G, below="{axis}", name="rotor resultant"),
+    VocabularyRow(by_components.only(of="U"), "U", "rotor unbalance", below="{place}", name="rotor computed"),
     VocabularyRow(by_components.only(of="alpha"), "α", "angle", below="{place}", name="rotor computed direction"),
-    VocabularyRow(share.only(when="after"), "U", "unbalance", _F, below=_AXIS, above="′"),
-    VocabularyRow(share, "U", "unbalance", _F, below=_AXIS),
+    VocabularyRow(share.only(when="after"), "U", "rotor unbalance", _F, below=_AXIS, above="′"),
+    VocabularyRow(share, "U", "rotor unbalance", _F, below=_AXIS),
     VocabularyRow(
-        at_bearing.only(when="after"), "U", "unbalance", _F, below="{place}", above="′", name="rotor share after"
+        at_bearing.only(when="after"), "U", "rotor unbalance", _F, below="{place}", above="′", name="rotor share after"
     ),
-    VocabularyRow(at_bearing, "U", "unbalance", _F, below="{place}", name="rotor share"),
-    VocabularyRow(in_metres, "U", "unbalance in metres", _F, below="{place}"),
+    VocabularyRow(at_bearing, "U", "rotor unbalance", _F, below="{place}", name="rotor share"),
+    VocabularyRow(in_metres, "U", "product of mass and radius", _F, below="{place}"),
     VocabularyRow(
         bearing_force.only(when="after"), "N", "force", _F, below="{place}", above="′", name="rotor force after"
     ),
     VocabularyRow(bearing_force, "N", "force", _F, below="{place}", name="rotor force"),
     VocabularyRow(permitted.only(of="e"), "e", "eccentricity", Chapter.cycle, below="per"),
-    VocabularyRow(permitted.only(of="U"), "U", "unbalance", Chapter.cycle, below="per"),
-    VocabularyRow(permitted.only(of="plane"), "U", "unbalance", Chapter.cycle, below="per,1"),
+    VocabularyRow(permitted.only(of="U"), "U", "rotor unbalance", Chapter.cycle, below="per"),
+    VocabularyRow(permitted.only(of="plane"), "U", "rotor unbalance", Chapter.cycle, below="per,1"),
     VocabularyRow(tolerance, "Δm", "mass", Chapter.cycle, below="{place}", name="rotor tolerance"),
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
@@ -91,14 +92,13 @@ class RotorSheet:
         if RIGHT in self.given.planes_by_name:
             μ = self._lay_off("V", self.V, directions)
             line = self._close("V", RIGHT, self.V, directions, μ)
-            of_all = sum(abs(q.si(V)) for V in self.V.values())
-            U_B = q.define(names.unbalance(RIGHT), μ * line / q["rotor.L"], scale=of_all / q.si("rotor.L"))
+            U_B = q.define(names.unbalance(RIGHT), μ * line / q["rotor.L"], scale=self._scale_of(RIGHT))
             directions[RIGHT] = self._directed(RIGHT, "V", U_B)
             U[RIGHT] = U_B
             q.set_out("right", U_B)
         μ = self._lay_off("U", U, directions)
         line = self._close("U", LEFT, U, directions, μ)
-        U_A = q.define(names.unbalance(LEFT), μ * line, scale=sum(q.si(one) for one in U.values()))
+        U_A = q.define(names.unbalance(LEFT), μ * line, scale=self._scale_of(LEFT))
         self._directed(LEFT, "U", U_A)
         q.set_out("left", U_A)
         self._enter_masses()
@@ -143,12 +143,16 @@ class RotorSheet:
     def _enter_components(self) -> None:
         q, shown = self.q, {"U": self.U, "V": self.V}
         for of, sizes in shown.items():
+            every = self._all(sizes)
             for axis, function in AXES.items() if sizes else ():
                 parts = [
-                    q.define(names.component(of, axis, place), size * function(self.α[place]), optional=True)
+                    q.define(
+                        names.component(of, axis, place), size * function(self.α[place]), optional=True, scale=every
+                    )
                     for place, size in sizes.items()
                 ]
-                q.set_out(f"resultant_{of}", q.define(names.resultant(of, axis), total(parts), optional=True))
+                both = q.define(names.resultant(of, axis), total(parts), optional=True, scale=every)
+                q.set_out(f"resultant_{of}", both)
         U = {axis: q[names.resultant("U", axis)] for axis in AXES}
         far: dict[str, Ref] = {}
         if RIGHT in self.given.planes_by_name:
@@ -158,17 +162,28 @@ class RotorSheet:
         near = {axis: self._part(LEFT, axis, -(U[axis] + far[axis]) if far else -U[axis]) for axis in AXES}
         self._enter_polar(LEFT, near)
 
+    def _all(self, sizes: Mapping[str, Ref]) -> float:
+        """The sizes of all masses together (SI), of which a share of 1e-9 is nothing."""
+        return sum(abs(self.q.si(one)) for one in sizes.values())
+
+    def _scale_of(self, plane: str) -> float:
+        """What a correction would be (kg·m) if all masses pulled in one direction."""
+        couples = self._all(self.V) / self.q.si("rotor.L") if RIGHT in self.given.planes_by_name else 0.0
+        return couples if plane == RIGHT else self._all(self.U) + couples
+
     def _part(self, plane: str, axis: str, formula: Expression) -> Ref:
-        part = self.q.define(names.component("U", axis, plane), formula, optional=True)
+        scale = self._scale_of(plane)
+        part = self.q.define(names.component("U", axis, plane), formula, optional=True, scale=scale)
         self.q.set_out("by_components", part)
         return part
 
     def _enter_polar(self, plane: str, parts: Mapping[str, Ref]) -> None:
         """The size of a correction and its angle within one turn."""
         q, x, y = self.q, parts["x"], parts["y"]
-        size = q.define(names.by_components("U", plane), sqrt(x**2 + y**2))
+        size = q.define(names.by_components("U", plane), sqrt(x**2 + y**2), scale=self._scale_of(plane))
         α = q.define(names.by_components("alpha", plane), angle_of(q, x, y), of=size.id)
-        q.set_out("by_components", size, α)
+        # What is nothing has no direction.
+        q.set_out("by_components", size, *([α] if q.families[size.id].at(1) else []))
 
     # --- bearings
 
@@ -201,17 +216,26 @@ class RotorSheet:
                 U, α = q[names.unbalance(plane)], q[names.direction(plane)]
                 arm = z[opposite] - z[plane] if sense < 0 else z[plane] - z[opposite]
                 formula = formula + U * AXES[axis](α) * arm / b
-        return q.define(names.share(when, axis, place), formula, optional=True, residue=self._left_by_rounding(when))
+        traits: dict[str, Any] = {"optional": True, "residue": self._left_by_rounding(when), "scale": self._borne()}
+        return q.define(names.share(when, axis, place), formula, **traits)
+
+    def _borne(self) -> float:
+        """What a bearing would bear (kg·m) if all masses pulled in one direction."""
+        q = self.q
+        arm = max(abs(q.si(self.z[bearing]) - q.si(self.z[LEFT])) for bearing in BEARINGS)
+        return (self._all(self.U) * arm + self._all(self.V)) / q.si("rotor.b")
 
     def _left_by_rounding(self, when: str) -> bool:
         """Whether there is nothing but what corrections as they are written leave."""
         return when == AFTER and (RIGHT in self.given.planes_by_name or not self.V)
 
     def _enter_force(self, when: str, place: str, parts: Mapping[str, Ref]) -> None:
-        q, residue = self.q, self._left_by_rounding(when)
-        U = q.define(names.at_bearing(when, place), sqrt(parts["x"] ** 2 + parts["y"] ** 2), residue=residue)
-        in_metres = q.define(names.in_metres(when, place), U, q.families[U.id].symbol, optional=True, residue=residue)
-        N = q.define(names.bearing_force(when, place), in_metres * q["rotor.omega"] ** 2, residue=residue)
+        q, borne = self.q, self._borne()
+        traits: dict[str, Any] = {"residue": self._left_by_rounding(when), "scale": borne}
+        U = q.define(names.at_bearing(when, place), sqrt(parts["x"] ** 2 + parts["y"] ** 2), **traits)
+        in_metres = q.define(names.in_metres(when, place), U, q.families[U.id].symbol, optional=True, **traits)
+        traits["scale"] = borne * q.si("rotor.omega") ** 2
+        N = q.define(names.bearing_force(when, place), in_metres * q["rotor.omega"] ** 2, **traits)
         q.set_out(f"{when}_{place}", *parts.values(), U, in_metres, N)
 
     # --- the quality grade

@@ -59,12 +59,12 @@ class SolvedEngine(DesignCase):
         """The force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ) e^{iψ}."""
         K = self.ledger["orders.K"].values[0]
         cylinders = [(one.crank.si, one.bank.si) for one in self.given.cylinders]
-        found = {}
+        by_order = {}
         for order in ORDERS:
             A = 1.0 if order == 1 else self.ledger[orders_ids.factor(order)].values[0]
             parts = [np.cos(order * (np.asarray(φ) + θ - ψ)) * np.exp(1j * ψ) for θ, ψ in cylinders]
-            found[order] = np.asarray(K * A * sum(parts))
-        return found
+            by_order[order] = np.asarray(K * A * sum(parts))
+        return by_order
 
     # --- what is often taken for something else
 

@@ -35,7 +35,15 @@ from reportgen.base.source_text import put, text_of
 from reportgen.base.template_folders import kind_file, samples
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
-from reportgen.catalogue import assembly, declared_loads, given_friction, given_motion, given_springs, wide_sliders
+from reportgen.catalogue import (
+    assembly,
+    declared_loads,
+    given_balancing,
+    given_friction,
+    given_motion,
+    given_springs,
+    wide_sliders,
+)
 from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
 from reportgen.machine.laws import FULL_TURN
@@ -92,6 +100,7 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
     if isinstance(assignment.parameters, UnderGravity):
         yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)
         yield from given_springs.faults(assignment.parameters.springs, machine.linkage)
+        yield from given_balancing.faults(assignment.parameters.balancing, machine)
         yield from given_friction.faults(assignment.parameters.friction, machine)
     if isinstance(assignment.parameters, Driven):
         points = declared_loads.pins(machine.linkage)

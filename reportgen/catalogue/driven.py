@@ -7,7 +7,14 @@ from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.catalogue import declared_loads, given_friction, given_motion, given_springs, wide_sliders
+from reportgen.catalogue import (
+    declared_loads,
+    given_balancing,
+    given_friction,
+    given_motion,
+    given_springs,
+    wide_sliders,
+)
 from reportgen.catalogue.given_sheet import GivenSheet
 from reportgen.catalogue.parameters import Flywheel
 from reportgen.machine import DRIVER, Crank, Linkage
@@ -25,6 +32,7 @@ def outline(
     loads: bool,
     flywheel: Flywheel | None,
     *,
+    balancing: bool = False,
     motion: bool = False,
     curves: bool = True,
     further: bool = False,
@@ -41,7 +49,8 @@ def outline(
 
     `sizes` and `load` tell where lengths and loads come from; `summary` follows the accelerations, `course` the
     kinematic diagrams, if there are any `curves`.  `further` loads stand beside those of the kind, there may
-    be `springs`, sliders may have `faces` and joints `friction`.  The true `motion` follows the flywheel.
+    be `springs`, sliders may have `faces` and joints `friction`.  The chapter on `balancing` follows the driver,
+    the true `motion` the flywheel.
     """
     diagrams = ("diagrams", *course) if curves else ()
     kinematics = (*OPENING, sizes, "positions", "velocity", "acceleration", *summary, *diagrams)
@@ -50,9 +59,11 @@ def outline(
     inertia = ("loads",) if masses else ()
     wheel = (*(() if flywheel is None else ("flywheel",)), *(("true-motion",) if motion else ()))
     beside = (*(("further-loads",) if further else ()), *(("springs",) if springs else ()))
+    shaking = ("balancing/chapter",) if balancing else ()
     wide = ("faces",) if faces else ()
     rubbing = ("friction",) if friction else ()
-    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *rubbing, *wheel, *CLOSING)
+    behind = (*rubbing, *shaking, *wheel)
+    return (*kinematics, load, *beside, *inertia, "groups", *wide, driver, *behind, *CLOSING)
 
 
 def with_crank(q: GivenSheet, linkage: Linkage) -> Linkage:
@@ -104,6 +115,7 @@ def driven(
     of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    balancing = given_balancing.entered(given.balancing, q.datum)
     friction = given_friction.entered(given.friction, linkage, faces, q.datum)
     given_motion.entered(given.motion, q.datum)
     rows = declared_loads.rows(given.loads, declared, loads.idle)
@@ -118,6 +130,7 @@ def driven(
     parts |= {
         "springs": bool(springs),
         "faces": bool(faces),
+        "balancing": balancing is not None,
         "friction": friction is not None,
         "curves": not positions.at,
         "motion": given.motion is not None,
@@ -142,6 +155,7 @@ def driven(
         friction=friction,
         sheet=q,
         unevenness=given.unevenness,
+        balancing=balancing,
         true_motion=None if given.motion is None else given.motion.asked,
         applied=loads.applied,
         torques=loads.torques,

@@ -201,7 +201,7 @@ def entered(motion: MotionSection | None, datum: Datum) -> None:
     drive = motion.drive
     rows: list[tuple[str, Given | None, Symbol, str]] = [
         ("run.M0", drive.M0 or drive.constant, Symbol("M", "0"), "torque"),
-        ("run.k", drive.k, Symbol("k"), "damping"),
+        ("run.k", drive.k, Symbol("k", "dc"), "damping"),
         ("run.i", drive.ratio, Symbol("i"), "ratio"),
         ("run.J0", drive.J, Symbol("J", "0"), "moment of inertia"),
     ]
@@ -209,8 +209,8 @@ def entered(motion: MotionSection | None, datum: Datum) -> None:
         n0 = drive.kloss.n0
         rpm = replace(n0, si=n0.value if n0.unit == "rpm" else n0.si * 30 / math.pi)
         rows += [
-            ("run.Mk", drive.kloss.Mk, Symbol("M", "k"), "torque"),
-            ("run.sk", drive.kloss.sk, Symbol("s", "k"), "ratio"),
+            ("run.Mk", drive.kloss.Mk, Symbol("M", "th"), "torque"),
+            ("run.sk", drive.kloss.sk, Symbol("s", "th"), "ratio"),
             ("run.n0", rpm, Symbol("n", "0"), "speed of rotation"),
         ]
     if motion.stop is not None:

@@ -18,6 +18,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
 from reportgen.catalogue import (
     declared_loads,
+    given_balancing,
     given_friction,
     given_motion,
     given_springs,
@@ -134,6 +135,7 @@ def machine(assignment: Assignment) -> Machine:
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))
     q.set_out("loads", *acting)
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
+    balancing = given_balancing.entered(given.balancing, q.datum)
     friction = given_friction.entered(given.friction, linkage, faces, q.datum)
     given_motion.entered(given.motion, q.datum)
     fixed_points = {name: q.coordinates(name) for name in linkage.ground}
@@ -157,9 +159,11 @@ def machine(assignment: Assignment) -> Machine:
             curves=not positions.at,
             springs=bool(springs),
             faces=bool(faces),
+            balancing=balancing is not None,
             friction=friction is not None,
             driver="crank" if crank else "slide",
         ),
+        balancing=balancing,
         unevenness=None if given.flywheel is None else given.flywheel.delta.si,
         true_motion=None if given.motion is None else given.motion.asked,
         facts={**facts(given, tuple(load.name for load in declared), acting), "springs": springs},

@@ -30,6 +30,7 @@ from reportgen.base.errors import Finding, Where
 from reportgen.base.units import Given
 from reportgen.catalogue import given_motion
 from reportgen.catalogue.declared_loads import MOST_LOADS, CrankLoading, Link
+from reportgen.catalogue.given_balancing import BalancingTask
 from reportgen.catalogue.given_friction import JointFriction
 from reportgen.catalogue.given_motion import MotionSection
 from reportgen.catalogue.given_springs import Spring
@@ -57,12 +58,14 @@ OF_LINK: Mapping[str, Any] = {"G": Weight, "m": Mass, "J": MomentOfInertia, "s":
 
 
 class UnderGravity(Part):
-    """Where a machine stands: gravity, none in a horizontal plane; its springs; how wide its sliders are, what rubs."""
+    """Where a machine stands: gravity, none in a horizontal plane; its springs; how wide its sliders are, what rubs;
+    whether what shakes the frame is worked out."""
 
     g: Gravity = Given(9.81, 9.81, "m/s2", "9.81 m/s2")
     plane: Literal["horizontal"] | None = None
     springs: Annotated[tuple[Spring, ...], Field(max_length=MOST_LOADS)] = ()
     faces: Annotated[dict[Link, Face], Field(max_length=MOST_LOADS)] = Field(default_factory=dict)
+    balancing: BalancingTask | None = None
     friction: JointFriction | None = None
 
     @property

@@ -73,7 +73,7 @@ def sheet(
         typer.Option("--size", help="Of the paper.", show_default="the smallest that holds each set"),
     ] = None,
     sets: Annotated[
-        Literal["kinematics", "forces", "all"], typer.Option("--set", help="What the sheets show.")
+        Literal["kinematics", "forces", "balancing", "all"], typer.Option("--set", help="What the sheets show.")
     ] = "all",
     every: Annotated[bool, typer.Option("--all", help="Every plan of the report, not only those handed in.")] = False,
     format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, dxf; parted by commas.")] = "pdf,dxf",

@@ -269,7 +269,10 @@ class Animation:
     """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
 
 
-LAYERS = ("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions", "friction")
+LAYERS = (
+    *("paths", "velocities", "accelerations", "centres", "loads", "inertia", "weights", "reactions", "friction"),
+    *("shaking", "balanced"),
+)
 """What can be drawn on the machine; the first is shown from the start."""
 
 

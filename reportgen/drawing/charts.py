@@ -175,12 +175,14 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
 
 
 def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = None) -> Scene:
-    """The hodograph of a vector (x, y) about the pole with equal scales, its marks and the axes named.
+    """Hodographs of vectors (x, y) about the pole with equal scales, their marks and the axes named.
 
     Its longer side inside the axes is `size` mm; in an `area` its scale is round and printed.
     """
-    (series,) = diagram.curves
-    x, y = np.asarray(series.x, dtype=np.float64), np.asarray(series.y, dtype=np.float64)
+    x, y = (
+        np.concatenate([np.asarray(getattr(curve, axis), dtype=np.float64) for curve in diagram.curves])
+        for axis in "xy"
+    )
     step = nice_up(float(np.nanmax([0.0, *x, *y]) - np.nanmin([0.0, *x, *y])) / TICKS, (1, 2, 5))
     x_ticks, y_ticks = (_around(min(0.0, float(np.nanmin(of))), max(0.0, float(np.nanmax(of))), step) for of in (x, y))
     (x0, *_, x1), (y0, *_, y1) = x_ticks, y_ticks
@@ -190,9 +192,13 @@ def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = Non
     window = _Window((x0, x1), (y0, y1), (x1 - x0) * per, (y1 - y0) * per)
     items = _frame(window, x_ticks, y_ticks, "")
     items += [Line(window.at(x0, 0), window.at(x1, 0), EDGE), Line(window.at(0, y0), window.at(0, y1), EDGE)]
-    vertices = window.vertices(x, y)
-    items += [Polyline(points, PENS[0]) for points in _paths(vertices)]
-    requests = _marked(series, vertices, PENS[0], items)
+    requests: list[Request] = []
+    for n, curve in enumerate(diagram.curves):
+        vertices, pen = window.vertices(curve.x, curve.y), PENS[n % len(PENS)]
+        items += [] if curve.dots else [Polyline(points, pen) for points in _paths(vertices)]
+        requests += _marked(curve, vertices, pen, items)
+        if curve.label and len(diagram.curves) > 1:
+            requests.append(label(_places(vertices), curve.label))
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, diagram.x, diagram.y, items, area is not None)
     notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged),)

@@ -172,6 +172,7 @@ class Chapter(StrEnum):
     forces = "forces"
     torque = "torque"
     cycle = "cycle"
+    balancing = "balancing"
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from reportgen.base.units import Language, QuantityFault
-from reportgen.formula.vocabulary import KINDS
+from reportgen.marking.key import typed_unit
 from reportgen.marking.numbers import DecimalMark, read_number
 from reportgen.report.key import KeyRow
 
@@ -68,10 +68,10 @@ def read_value(number: str, unit: str, row: KeyRow, marks: Marks) -> float:
         raise QuantityFault("product", text=text)
     if not marks.mixed and (match := _DECIMALS.search(text)) and match[1] != marks.decimal:
         raise QuantityFault("product", text=text)
-    if not KINDS[row.kind].unit and unit == "%":
+    if not typed_unit(row) and unit == "%":
         return read_number(_BRACES.sub("", text), "", marks.decimal, agreed=True)[0] / 100
     written = f"{_BRACES.sub('', text)} {plain_unit(unit)}".strip()
-    return read_number(written, KINDS[row.kind].unit, marks.decimal, agreed=True)[0]
+    return read_number(written, typed_unit(row), marks.decimal, agreed=True)[0]
 
 
 def _is_doubtful(text: str, marks: Marks) -> bool:

@@ -45,7 +45,14 @@ CLOCKWISE = re.compile(
 )
 ANTICLOCKWISE = re.compile(r"ngược\s+chiều\s+kim|anti-?clockwise|counter-?clockwise|↺", re.IGNORECASE)
 
-_SYMBOL = r"[^\W\d_][\w′]*(?:[_^](?:\{(?:[^{}]|\{[^{}]*\})*\}|\([^()\s]{1,3}\)|[\w′]+))*′*"
+BEHIND = 80
+"""Characters in front of a symbol that tell whether a statement begins at it."""
+_LETTERS = r"(?:[^\W_]|′)"
+_SYMBOL = (
+    rf"[^\W\d_]{_LETTERS}{{0,24}}+"
+    rf"(?:[_^]\{{(?:[^{{}}]{{1,24}}+|\{{[^{{}}]{{0,24}}\}}){{0,4}}+\}}|\^\([^()\s]{{1,3}}\)|[_^]{_LETTERS}{{1,24}}+){{0,4}}+′{{0,3}}"
+)
+"""No symbol is longer, so that a line is looked through once."""
 _HEAD = re.compile(
     rf"(?<![\w′_^{{}}])(\|\s*)?({_SYMBOL})(\s*\|)?\s*(\([0-9]{{1,3}}[a-z]?′*\))?\s*(?:[\[(]\s*({UNIT})\s*[\])])?\s*(?=[=≈])"
 )
@@ -77,7 +84,9 @@ _PROSE = re.compile(
     re.IGNORECASE,
 )
 """How words begin behind a number without a unit that are no unit themselves."""
-_NAMES = re.compile(r"[^\W\d_][\w′]*(?:[_^](?:\{[^{}]*\}|[\w′]+))*|[_^]\{[^{}]*\}")
+_NAMES = re.compile(
+    r"[^\W\d_](?:[^\W_]|′)*+(?:[_^]\{[^{}]{0,40}\}|_++(?:[^\W_]|′)*+|\^(?:[^\W_]|′)++)*+|[_^]\{[^{}]{0,40}\}"
+)
 _GIVEN = re.compile(rf"\s*{NUMBER}\s*(?:{UNIT}(?![\w/])|[;÷±…]|\s[^\W\d_]{{2,}})")
 """A number that was meant as a value, whatever stands behind it."""
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "π", "pi", "x"})
@@ -160,15 +169,15 @@ def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[
     """`yes` where a statement begins at a symbol, `doubt` where it may stand in another one, "" where it does."""
     start = match.start()
     front = text[:start]
-    if not front.strip() or _BULLET.fullmatch(front):
+    if (start <= BEHIND and (not front.strip() or _BULLET.fullmatch(front))) or front.isspace():
         return "yes"
-    ahead = front.rstrip()
-    last, glued = ahead[-1], len(ahead) == len(front)
+    ahead = front.rstrip()[-BEHIND:]
+    last, glued = ahead[-1], not front[-1].isspace()
     if last in _OPERATORS or (last == "," and glued) or _FUNCTION.search(ahead):
         return ""
-    if last in _SEPARATORS or "\n" in front[len(ahead) :]:
+    if last in _SEPARATORS or "\n" in front[len(front.rstrip()) :]:
         return "yes"
-    if before is not None and _COMPLETE.search(front[before.end() :].rstrip()):
+    if before is not None and _COMPLETE.search(front[before.end() :][-BEHIND:].rstrip()):
         return "yes"
     word = _WORD.search(ahead)
     if word and not symbols.rows_of(word[0]) and bare(word[0]) not in symbols.every:

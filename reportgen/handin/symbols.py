@@ -90,8 +90,16 @@ class Symbols:
             if text.startswith(spelled) and (rows := self.every.get(letter + text.removeprefix(spelled))):
                 return rows
         # A letter alone is too little: r of a machine's structure is no R.
-        for loose in _LOOSER if len(text) > 1 else ():
-            fitting = [known for known in self.every if loose(known) == loose(text)]
-            if fitting:
+        for loose, known in zip(_LOOSER, self._loose if len(text) > 1 else (), strict=False):
+            if fitting := known.get(loose(text)):
                 return self.every[fitting[0]] if len(fitting) == 1 else ()
         return ()
+
+    @cached_property
+    def _loose(self) -> tuple[dict[str, list[str]], ...]:
+        """The symbols by their looser letters, in each way."""
+        ways: tuple[dict[str, list[str]], ...] = tuple({} for _ in _LOOSER)
+        for loose, known in zip(_LOOSER, ways, strict=True):
+            for text in self.every:
+                known.setdefault(loose(text), []).append(text)
+        return ways

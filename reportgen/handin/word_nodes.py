@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 from xml.parsers import expat
 
@@ -68,9 +69,11 @@ class XmlNode:
 
     def walk(self) -> Iterator[XmlNode]:
         """It and all that is in it, in order."""
-        yield self
-        for child in self.children:
-            yield from child.walk()
+        pending = [self]
+        while pending:
+            node = pending.pop()
+            yield node
+            pending += reversed(node.children)
 
     @property
     def above(self) -> Iterator[XmlNode]:
@@ -81,6 +84,7 @@ class XmlNode:
             node = node.parent
 
 
+@lru_cache(maxsize=4096)
 def _named(name: str) -> str:
     space, _, local = name.rpartition(" ")
     return f"{_NAMES.get(space, '?')}:{local}" if space else local

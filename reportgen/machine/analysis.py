@@ -14,6 +14,7 @@ from reportgen.formula import Chain, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Linkage
 from reportgen.machine.coils import Coil
+from reportgen.machine.counterweights import Balancing
 from reportgen.machine.drives import MotionAsked
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import (
@@ -286,6 +287,8 @@ class Machine:
     """Equations by name that the words of its analytic method show."""
     unevenness: float | None = None
     """δ of the speed that a flywheel is to keep to, if the report has its chapter."""
+    balancing: Balancing | None = None
+    """What the report says of balancing, if it has its chapter."""
     true_motion: MotionAsked | None = None
     """What is asked of its motion under a drive, if the report has that chapter."""
     places: tuple[float, ...] = ()

@@ -18,6 +18,7 @@ import numpy as np
 from reportgen.formula import Call, Ref, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
+from reportgen.marking.balancing import errors_of_positions
 
 PAPER_ERROR = 0.5e-3
 """How far off a drawn point may lie (m on paper), at each end of a measured length."""
@@ -29,6 +30,9 @@ WHOLE_DEGREE = np.pi / 180
 
 REACH = 3 / np.sqrt(3)
 """Three standard deviations of errors that are spread evenly over ±1."""
+
+ON_DRAWING = frozenset({"abs", "re", "im"})
+"""What a length on the drawing of the mechanism is of: of a vector its size or a component."""
 
 DIAGRAM = 0.1
 """How high an indicator diagram is plotted (m on paper)."""
@@ -88,14 +92,16 @@ def measuring_errors(
         if family.kind == "segment":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get(vocabulary.plan(id), 1.0))
         elif is_direction(id):
+            if not _is_drawn(family):
+                continue
             side = _on_paper(ledger, id)
             length = np.abs(side.values) / drawn_at.get(vocabulary.plan(side.id), 1.0)
             with np.errstate(all="ignore"):
                 errors[id] = np.minimum(np.where(length > 0, 2 * error / length, np.pi), np.pi)
         elif family.kind == "angle":
             errors[id] = np.full(len(family.values), 2 * error * drawn_at.get("mu.l", 1.0) / crank)
-        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name == "abs":
-            # Measured on the drawing of the mechanism, as a slider's way is.
+        elif family.kind == "length" and isinstance(family.definition, Call) and family.definition.name in ON_DRAWING:
+            # Measured on the drawing of the mechanism, as a slider's way is, or a coordinate.
             scale = ledger["mu.l"].values * drawn_at.get("mu.l", 1.0)
             errors[id] = np.full(len(family.values), 2 * error * scale)
     for link, slope in _pressure_slopes(ledger).items():
@@ -216,6 +222,11 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
     return bands
 
 
+def _is_drawn(direction: Family) -> bool:
+    """Whether a direction is that of a vector on paper, rather than one that its components give."""
+    return isinstance(direction.definition, Call) and isinstance(direction.definition.arguments[0], Ref)
+
+
 def _on_paper(ledger: Ledger, id: str) -> Family:
     """The drawn length (m) of the vector whose direction `dir.…` is measured, or the vector itself on paper."""
     definition = ledger[id].definition
@@ -242,9 +253,9 @@ LARGE = 0.1
 def trapezoid_errors(ledger: Ledger) -> Mapping[str, np.ndarray]:
     """How far excess work [N], flywheel [1] and regulated speed [N] by the rule lie from those of the ledger (SI).
 
-    And all that is found of the true motion, which the same rule integrates.
+    And all that is found of the true motion, which the same rule integrates; counterweights by the positions alone.
     """
-    return {**_of_flywheel(ledger), **_of_true_motion(ledger)}
+    return {**_of_flywheel(ledger), **_of_true_motion(ledger), **errors_of_positions(ledger)}
 
 
 def _of_true_motion(ledger: Ledger) -> Mapping[str, np.ndarray]:

@@ -23,7 +23,7 @@ from reportgen.formula import Expression, Number, ids, refs, substitute
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import Family
-from reportgen.formula.vocabulary import Chapter
+from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.marking.bands import (
     computed_bands,
     drawn_bands,
@@ -46,6 +46,11 @@ def words_of(key: Key) -> Mapping[str, Any]:
 def symbol_text(row: KeyRow, key: Key) -> str:
     """A quantity's symbol in one line of plain text, e.g. v_BA."""
     return formula(row.symbol, key.language)
+
+
+def typed_unit(row: KeyRow) -> str:
+    """The unit in which a number without one is typed, by a name that readers of numbers know; "" of a pure number."""
+    return KINDS[row.kind].unit
 
 
 def shown_number(row: KeyRow, value: float) -> Number:
@@ -180,6 +185,9 @@ DEFAULT = (
     *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),
+    # The parts of what balances a machine, and the rules that are only compared.
+    *("-balance.[PMr].*", "-balance.rod.*", "-balance.*.x", "-balance.*.y", "-balance.*.[a-z]*[a-z]"),
+    *("balance.F.?", "balance.F.dir", "balance.after.*"),
 )
 """What is asked for unless a policy says otherwise: what a quantity comes to, not how it was drawn or checked."""
 

@@ -138,7 +138,7 @@ def _in_a_definition(
     if family.kind == "angle" and _calls(definition, INVERSE):
         yield "radians-for-degrees", _times(np.pi / 180)
     if _calls(definition, TRIGONOMETRIC):
-        angles = [given.id for given in used if given.kind == "angle"]
+        angles = [given.id for given in used if given.kind in ("angle", "direction")]
         yield "degrees-for-radians", _with(definition, {id: _degrees(id) for id in angles})
     if not family.constructed:
         for other in _other_signs(definition):

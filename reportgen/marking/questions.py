@@ -45,10 +45,7 @@ class Item:
 
 
 def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -> list[Item]:
-    """An item for each name that the cells have, in the order of the sheets.
-
-    What earns no points, or is not read yet, is left out.
-    """
+    """An item for each name that the cells have, in the order of the sheets; what counts for no points is left out."""
     of_name: dict[object, list[tuple[Marking, list[Marked]]]] = {}
     for marking in markings:
         own: dict[object, list[Marked]] = {}

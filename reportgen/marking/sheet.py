@@ -22,8 +22,8 @@ from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, load_words
-from reportgen.formula.vocabulary import KINDS, Chapter
-from reportgen.marking.key import shown_number, symbol_text, words_of
+from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.key import shown_number, symbol_text, typed_unit, words_of
 from reportgen.marking.marks import Answer, Place, Submission
 from reportgen.marking.numbers import DecimalMark, decimal_mark, is_blank, read_number
 from reportgen.report import plain
@@ -413,15 +413,13 @@ class _Reading:
             self.values[place] = Answer(cell.value, cell.text, cell.mark)
             return None
         try:
-            number, doubtful = read_number(cell.value, KINDS[row.kind].unit, mark, agreed)
+            number, doubtful = read_number(cell.value, typed_unit(row), mark, agreed)
         except QuantityFault as fault:
             # The unit is named as the sheet prints it.
             arguments = fault.arguments | ({"unit": row.unit} if "unit" in fault.arguments else {})
             return self.problem(place, Fault(fault.code, cell.mark, arguments))
         if doubtful:
-            ways = sorted(
-                {read_number(cell.value, KINDS[row.kind].unit, one)[0] for one in get_args(DecimalMark)}, key=abs
-            )
+            ways = sorted({read_number(cell.value, typed_unit(row), one)[0] for one in get_args(DecimalMark)}, key=abs)
             number = _nearest(ways, float(row.values[row.at(place[1])]), number)
             read, other_reading = (units.write(way, None, self.language or self.key.language) for way in ways)
             self.note(Fault("cell-thousands", cell.mark, {"text": cell.text, "read": read, "other": other_reading}))

@@ -47,7 +47,7 @@ from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, motio
 from reportgen.machine.forces import Load, as_single_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import Motion
-from reportgen.page import panes
+from reportgen.page import panes, shaking
 from reportgen.page.friction_layer import friction_items
 from reportgen.page.running import timed_runs, working_point
 from reportgen.plans import enter_plans
@@ -216,7 +216,7 @@ class Samples:
         look = looks(report, scale)
         shown = self._sample(self.case.assignment.worked_positions[0]) % (self.knots.size - 1)
         items = linkage_items(linkage, motion, shown, scale, look)
-        low, high = self.chosen("box", lambda: extent(items))
+        low, high = self.chosen("box", lambda: shaking.with_room(report, motion, scale, extent(items)))
         names = self.machine.paths or tuple(n for n in motion.points if n not in linkage.ground)
         items = ([] if self.machine.instants else path_items(linkage, motion, names, scale)) + items
         scales = [BarScale(1 / scale, "segment")]
@@ -228,6 +228,7 @@ class Samples:
         forces, per = self._forces(scale)
         items += [*forces, *friction_items(self.report, self.analysis, scale, per, self.knots.size)]
         scales += [BarScale(per, "force", FORCES)] if forces else []
+        shaken, bars = shaking.shown(report, motion, scale, ARROW, self.chosen)
         spots = tuple(
             Spot(
                 name,
@@ -242,10 +243,10 @@ class Samples:
         return Pane(
             "machine",
             report.words["page"]["machine"],
-            items=tuple(items),
+            items=(*items, *shaken),
             low=low,
             high=high,
-            scales=tuple(scales),
+            scales=(*scales, *bars),
             spots=spots,
         )
 
@@ -442,6 +443,7 @@ class Samples:
                 panes.scalar(self._force_symbol(name)), "force", np.abs(analysis.forces.reactions[name].force)
             )
         yield panes.value(self.report.balance_symbol(), ledger["M.eq"].kind, analysis.torque)
+        yield from (panes.value(*shown) for shown in shaking.values(self.report, motion))
 
     # --- what interpolation costs
 

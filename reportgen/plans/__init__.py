@@ -16,8 +16,10 @@ from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
 from reportgen.machine.analysis import Analysis, GasState, no_formulas
+from reportgen.machine.balance import BalancedTurn, balanced_turn
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.machine.true_motion import TrueMotion, true_motion
+from reportgen.plans.balancing import enter_balancing
 from reportgen.plans.cycle import enter_flywheel
 from reportgen.plans.forces import enter_forces
 from reportgen.plans.groups import enter_kinematics
@@ -44,11 +46,15 @@ class PlannedLedger:
 
 
 def write_ledger(
-    analysis: Analysis, units: Mapping[str, str] | None = None, worked: Sequence[int] = ()
+    analysis: Analysis,
+    units: Mapping[str, str] | None = None,
+    worked: Sequence[int] = (),
+    balanced: BalancedTurn | None = None,
 ) -> PlannedLedger:
     """The ledger of an analysis: given data, plans, closed formulas, forces, both torques, the cycle's figures.
 
-    The plans of the `worked` positions fill their paper, of all positions if none is named.
+    The plans of the `worked` positions fill their paper, of all positions if none is named.  What balances the machine
+    is taken as `balanced` if it is known.
     """
     machine = analysis.machine
     q, polygons = enter_plans(analysis, worked, machine.formulas)
@@ -67,6 +73,8 @@ def write_ledger(
             if machine.true_motion is not None:
                 moved = true_motion(machine, machine.true_motion, regulated)
                 enter_running(q, analysis, moved)
+        if machine.balancing is not None:
+            enter_balancing(q, analysis, balanced or balanced_turn(machine))
     ledger = Ledger(q.families, machine.positions, units=units or {}, same=ONE_QUANTITY, lines=q.lines)
     return PlannedLedger(ledger, polygons, regulated, moved)
 

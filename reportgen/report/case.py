@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
     from reportgen.formula.ledger import Ledger
     from reportgen.machine.analysis import Analysis
+    from reportgen.machine.balance import BalancedTurn
     from reportgen.machine.flywheel import RegulatedCycle
     from reportgen.machine.true_motion import TrueMotion
     from reportgen.plans import PlannedLedger
@@ -398,7 +399,7 @@ class MachineAnalysis(LoadedAssignment):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.plans import write_ledger
 
-        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions)
+        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, self.balanced)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
     @property
@@ -415,7 +416,7 @@ class MachineAnalysis(LoadedAssignment):
     def entries(self) -> ResultEntries:
         """What holds at each of its positions."""
         asked = self.analysis.machine.true_motion
-        return entries_of(self.analysis, None if asked is None else self.true_motion)
+        return entries_of(self.analysis, None if asked is None else self.true_motion, self.balanced)
 
     @property
     def polygons(self) -> tuple[Polygon, ...]:
@@ -426,6 +427,13 @@ class MachineAnalysis(LoadedAssignment):
     def flywheel(self) -> RegulatedCycle | None:
         """The flywheel, if the assignment asks for one."""
         return self.written.flywheel
+
+    @cached_property
+    def balanced(self) -> BalancedTurn | None:
+        """What balances it, if the assignment asks for it."""
+        from reportgen.machine.balance import balanced_turn
+
+        return balanced_turn(self.analysis.machine) if self.analysis.machine.balancing else None
 
     @property
     def true_motion(self) -> TrueMotion | None:

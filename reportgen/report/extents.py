@@ -21,9 +21,9 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             # constructions step by step, plans of the other positions, further curves
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
-            *("polar", "flywheel-work", "flywheel-speed"),
+            *("polar", "flywheel-work", "flywheel-speed", "balancing/hodograph"),
             *("motion-reduced", "motion-equation", "motion-acceleration", "motion-diagrams", "motion-by-steps"),
-            *("motion-start", "motion-stop", "motion-forces"),
+            *("motion-worked", "motion-wheel", "motion-start", "motion-stop", "motion-forces"),
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),
             # tables that the work goes on without, and what is said of them

@@ -186,19 +186,19 @@ def line_styles(report: Report) -> FigureScenes:
 
 
 def scheme(report: Report) -> FigureScenes:
-    return FigureScenes((scheme_scene(report, _reduction(report)),))
+    return FigureScenes((scheme_scene(report, reduction(report)),))
 
 
 def scheme_scene(report: Report, factor: float) -> Scene:
     """The kinematic scheme, by a factor of enlargement."""
     scale = drawing_scale(report) * factor
     look = looks(report, scale, factor)
-    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, _shown_at(report), scale, look)
+    return scheme_figure.scheme(report.machine.linkage, report.analysis.motion, shown_at(report), scale, look)
 
 
 def groups(report: Report) -> FigureScenes:
     """The driver and each group by itself, as large as the scheme, or smaller if they then stand in one row."""
-    own = _reduction(report)
+    own = reduction(report)
     drawn = (_groups(report, factor) for factor in REDUCTIONS if own >= factor >= own * LEGIBLE)
     first = next(drawn)
     return FigureScenes(next((row for row in (first, *drawn) if len(in_rows(row)) == 1), first))
@@ -208,17 +208,17 @@ def _groups(report: Report, factor: float) -> tuple[Scene, ...]:
     scale, words = drawing_scale(report) * factor, report.words["figure"]
     titles = (words["driver"], *(words["group"].format(i=group.i, j=group.j) for group in report.groups))
     look = replace(looks(report, scale, factor), scale=None)
-    return scheme_figure.groups(report.machine.linkage, report.analysis.motion, _shown_at(report), scale, look, titles)
+    return scheme_figure.groups(report.machine.linkage, report.analysis.motion, shown_at(report), scale, look, titles)
 
 
-def _shown_at(report: Report) -> int:
+def shown_at(report: Report) -> int:
     """The index of the position that schemes show: the only one where there is but one."""
     return min(SHOWN_AT, report.count - 1)
 
 
-def _reduction(report: Report) -> float:
+def reduction(report: Report) -> float:
     """The ratio 1, 1/2, 1/2.5, … at which the mechanism at μ_l fits the box of a scheme."""
-    index, motion = _shown_at(report), report.analysis.motion
+    index, motion = shown_at(report), report.analysis.motion
     hung = [place[index] for coil in report.machine.coils for place in coil.at(motion)]
     points = np.array([*(report.place(name, index + 1) for name in motion.points), *hung])
     size = points[np.isfinite(points)] * drawing_scale(report) * report.enlarged
@@ -274,7 +274,7 @@ def extremes(report: Report) -> FigureScenes:
     course = report.machine.sliders[0]
     motion = motion_at(report.machine, course.dead_centres[:2] - course.phase)
     shows = PositionPlan(_numbered(report), report.machine.paths, labels=("I", "II"))
-    factor = _reduction(report)
+    factor = reduction(report)
     return replace(on_paper(_position_plan(report, motion, shows, factor=factor)), smaller=1 / factor)
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from reportgen.machine.analysis import Position
-from reportgen.report import Paragraph, Table, joint_friction, result_tables, running, tables, wide_sliders
+from reportgen.report import Paragraph, Table, balancing, joint_friction, result_tables, running, tables, wide_sliders
 from reportgen.report import chapters as overview
 from reportgen.report.report import Report
 
@@ -74,6 +74,12 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
     "M": QuantityTable(result_tables.balance, "all_positions"),
     "flywheel": result_tables.flywheel,
+    # balancing
+    "shaking": QuantityTable(balancing.shaking_lines, "all_positions"),
+    "rules": RowTable(balancing.rules_table, (58.0, 26.0, 22.0, 26.0, 26.0)),
+    "factors": RowTable(balancing.factors_table, (20.0, 36.0, 36.0, 30.0)),
+    "balanced": QuantityTable(balancing.balanced_table, "all_positions"),
+    "costs": RowTable(balancing.cost_table, (78.0, 28.0, 28.0, 22.0)),
     "friction": QuantityTable(joint_friction.results, "all_positions"),
     "friction.rounds": joint_friction.rounds,
     "friction.dead": RowTable(joint_friction.dead_rows, (24.0, 48.0, 44.0, 44.0)),

@@ -27,6 +27,7 @@ from reportgen.report import (
     Reference,
     Section,
     Text,
+    balancing,
     chapters,
     comments,
     curves,
@@ -162,6 +163,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "speed_limits": chapters.speed_limits,
     "tabled_forces": chapters.tabled_forces,
     "tangent_lines": chapters.tangent_lines,
+    **balancing.VALUES,
     "uniform_rods": chapters.uniform_rods,
     "without_mass": chapters.without_mass,
     "work_lines": chapters.work_lines,
@@ -216,6 +218,7 @@ FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {
     "flywheel-work": ("fig.Jr", curves.flywheel_work),
     "flywheel-speed": ("fig.speed", curves.flywheel_speed),
     "wittenbauer": ("fig.wittenbauer", curves.wittenbauer),
+    **balancing.FIGURES,
     **running_curves.FIGURES,
 }
 """What the keys of a figure begin with, and who draws it; its caption stands in `words.yaml` under `captions`."""
@@ -356,6 +359,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "slider_rates": comments.slider_rates,
     "top_reactions": comments.top_reactions,
     "work_range": comments.work_range,
+    **balancing.FUNCTIONS,
     **running.FUNCTIONS,
 }
 """Functions of a report and of what a template puts between the parentheses."""

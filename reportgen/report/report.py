@@ -273,8 +273,9 @@ class Report:
         declared = {
             id: words[what] + (subscripted(of) if what == "length" else of) for id, what, of in self.own["quantities"]
         }
-        of_drive = {id: name for id, name in self.words["given_of_crank"].items() if id.startswith("run.")}
-        return {**declared, "unevenness": words["unevenness"], **of_drive}
+        heads = ("run.", "balance.")
+        further = {id: name for id, name in self.words["given_of_crank"].items() if id.startswith(heads)}
+        return {**declared, "unevenness": words["unevenness"], **further}
 
     @property
     def mobility(self) -> Mobility:

@@ -9,9 +9,11 @@ from typing import Any
 from reportgen.formula import ids
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis, Machine
+from reportgen.machine.balance import BalancedTurn
 from reportgen.machine.forces import Load
 from reportgen.machine.joint_friction import FrictionForces
 from reportgen.machine.true_motion import TrueMotion, at_positions, at_true_speeds
+from reportgen.report.balancing_entries import balancing_summary, shaken_entries
 
 Entries = Mapping[str, Any]
 """Numbers (SI, radians), vectors of the plane as complex numbers, and tables of them, by name."""
@@ -25,17 +27,21 @@ class ResultEntries:
     besides: Entries = field(default_factory=dict)
 
 
-def entries_of(analysis: Analysis, motion: TrueMotion | None = None) -> ResultEntries:
-    """The entries of a machine, with its true motion if that is asked for."""
+def entries_of(analysis: Analysis, motion: TrueMotion | None = None, turn: BalancedTurn | None = None) -> ResultEntries:
+    """The entries of a machine, with its true motion and its balancing if these are asked for."""
     signs = {f"{dyad.links[0]}{dyad.links[1]}": dyad.sign for dyad in analysis.machine.linkage.dyads}
     positions = [_position(analysis, k) for k in range(len(analysis.cycle_angle))]
-    if motion is None:
-        return ResultEntries(positions, {"dyad_signs": signs})
-    moved = true_motion_entries(analysis, motion)
-    return ResultEntries(
-        [None if entry is None else {**entry, "true_motion": of} for entry, of in zip(positions, moved, strict=True)],
-        {"dyad_signs": signs, "true_motion": true_motion_summary(analysis.machine, motion)},
-    )
+    besides: dict[str, Any] = {"dyad_signs": signs}
+    further: list[list[Entries]] = []
+    if motion is not None:
+        further.append([{"true_motion": of} for of in true_motion_entries(analysis, motion)])
+        besides["true_motion"] = true_motion_summary(analysis.machine, motion)
+    if turn is not None:
+        further.append(list(shaken_entries(analysis, turn)))
+        besides["balancing"] = balancing_summary(turn)
+    for entries in further:
+        positions = [None if entry is None else {**entry, **of} for entry, of in zip(positions, entries, strict=True)]
+    return ResultEntries(positions, besides)
 
 
 STATES = {"": "alone", "wheel": "with_flywheel"}

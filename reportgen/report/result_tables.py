@@ -23,6 +23,7 @@ from reportgen.report import (
     Table,
     Text,
     Value,
+    balancing,
     running,
 )
 from reportgen.report.comments import AT_REST
@@ -297,7 +298,7 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
         largest["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
         if analysis.machine.cyclic:
             largest["energy"] = (analysis.summary.energy_error, "")
-    return largest | running.residuals(report)
+    return largest | running.residuals(report) | balancing.residuals(report)
 
 
 def _closure(report: Report) -> float:

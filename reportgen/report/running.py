@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
-from reportgen.machine.drives import ConstantDrive
+from reportgen.machine.drives import ConstantDrive, Geared, TableDrive
 from reportgen.machine.running import MotionRun
 from reportgen.plans import run_ids
-from reportgen.report import Equation, Inlines, Paragraph, Table, Value, listed, running_motors
+from reportgen.report import Equation, InlineMath, Inlines, Paragraph, Table, Text, Value, listed, running_motors
 from reportgen.report.report import Report
 from reportgen.report.running_curves import motion_of
 from reportgen.report.running_forces import asks_forces, forces_table
@@ -20,6 +20,8 @@ from reportgen.report.tables import list_table, tables
 
 AS_ASKED = 1e-5
 """The flywheel's calculation looks for the extremes at angles that miss no more than this share of δ."""
+RPM = 30 / math.pi
+"""Revolutions a minute of a radian a second."""
 MOST_CYCLES = 12
 """Ends of the cycles of a start that its table shows, the last among them."""
 
@@ -177,6 +179,34 @@ def drive_equations(report: Report) -> Equation:
     return Equation((Chain((M, kloss)), Chain((s, 1 - ω / (ω0 if i is None else i * ω0)))))
 
 
+def drive_formula(report: Report) -> Inlines:
+    """The same within a sentence; nothing of a drive without a formula."""
+    if drive_form(report) not in ("linear", "load", "kloss"):
+        return ()
+    chains = (InlineMath(chain, slashed=True) for chain in drive_equations(report).rows if isinstance(chain, Chain))
+    return listed(chains)
+
+
+def drive_points(report: Report) -> Inlines:
+    """The torques of a characteristic that is a table, at its speeds; nothing of another one."""
+    motion = report.case.true_motion
+    drive = None if motion is None else motion.drive
+    motor = drive.motor if isinstance(drive, Geared) else drive
+    if not isinstance(motor, TableDrive):
+        return ()
+    pairs = zip(motor.speeds, motor.torques, strict=True)
+    rpm = report.ledger.units.get("rpm", "rpm")
+    points = (
+        (Value(_short(torque, "N·m")), Text(f" {report.words['figure']['at_speed']} "), Value(_short(speed * RPM, rpm)))
+        for speed, torque in pairs
+    )
+    return tuple(part for number, point in enumerate(points) for part in (*((Text("; "),) if number else ()), *point))
+
+
+def _short(value: float, unit: str) -> Number:
+    return Number(float(f"{value:.9g}"), None, unit)
+
+
 def step_equation(report: Report) -> Equation:
     """How the speed goes on from a position to the next one, in symbols."""
     ω, J, M = Symbol("ω", "b"), Symbol("J"), Symbol("M")
@@ -241,6 +271,8 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "start_angle": start_angle,
     "stop_angle": stop_angle,
     "has_motion": _asked,
+    "drive_formula": drive_formula,
+    "drive_points": drive_points,
     **running_motors.VALUES,
     "asks_forces": asks_forces,
 }

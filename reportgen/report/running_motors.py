@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from reportgen.base.units import significant_decimals
 from reportgen.formula import Number
 from reportgen.machine.motors import MotorChecks
-from reportgen.report import Inlines, Table, Text, Value
+from reportgen.report import Inline, Inlines, Table, Text, Value
 from reportgen.report.report import Report
 from reportgen.report.tables import list_table
 
@@ -28,10 +29,24 @@ def has_motors(report: Report) -> bool:
 
 def chosen_motor(report: Report) -> Inlines:
     """The least motor that passes all checks, by name and power; nothing if none does."""
-    fitting = next((one for one in _checks(report) if one.fits), None)
+    fitting = next((checked_motor for checked_motor in _checks(report) if checked_motor.fits), None)
     if fitting is None:
         return ()
     return Text(f"{fitting.motor.name}, "), Value(_typed(fitting.motor.power, "kW"))
+
+
+def motor_list(report: Report) -> Inlines:
+    """The motors to choose from, with all that is given of them."""
+    motion, words = report.case.true_motion, report.words["motors"]
+    parts: list[Inline] = []
+    for motor in () if motion is None else motion.asked.motors:
+        rpm = Number(float(f"{motor.speed * 30 / math.pi:.9g}"), None, report.ledger.units.get("rpm", "rpm"))
+        parts += [Text("; ")] if parts else []
+        parts += [Text(f"{motor.name} ("), Value(_typed(motor.power, "kW")), Text(", "), Value(rpm)]
+        for key, torque in (("start", motor.start), ("breakdown", motor.breakdown)):
+            parts += [Text(f", {words[key]} "), Value(Number(float(f"{torque:.9g}"), None, "N·m"))]
+        parts.append(Text(")"))
+    return tuple(parts)
 
 
 def demand_lines(report: Report) -> list[str]:
@@ -50,14 +65,14 @@ def _rows(report: Report) -> Iterator[Sequence[object]]:
     def checked(torque: float, wanted: float) -> Inlines:
         return Value(_number(torque)), Text(" ≥ " if torque >= wanted else " < "), Value(_number(wanted))
 
-    for one in _checks(report):
+    for checked_motor in _checks(report):
         yield (
-            one.motor.name,
-            _typed(one.motor.power),
-            checked(one.rated, one.demand.effective),
-            checked(one.start, one.demand.resistance),
-            checked(one.breakdown, one.demand.most),
-            words["fits" if one.fits else "fits_not"],
+            checked_motor.motor.name,
+            _typed(checked_motor.motor.power),
+            checked(checked_motor.rated, checked_motor.demand.effective),
+            checked(checked_motor.start, checked_motor.demand.resistance),
+            checked(checked_motor.breakdown, checked_motor.demand.most),
+            words["fits" if checked_motor.fits else "fits_not"],
         )
 
 
@@ -73,6 +88,7 @@ def _number(value: float) -> Number:
 VALUES: Mapping[str, Callable[[Report], Any]] = {
     "has_motors": has_motors,
     "chosen_motor": chosen_motor,
+    "motor_list": motor_list,
     "demand_lines": demand_lines,
 }
 TABLES: Mapping[str, Callable[..., Any]] = {"run.motors": motors_table}

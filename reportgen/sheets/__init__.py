@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
-from typing import get_args
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
@@ -58,7 +57,8 @@ def drawing_sheets(
 def plates_by_set(case: MachineAnalysis, sets: Collection[str] = (), every: bool = False) -> Plates:
     """The plates of some sets, all if none is named; without those of which there are none."""
     sources = Sources.of(case, every)
-    offered = get_args(Set) if sources.report.has_forces else ("kinematics",)
+    offered: tuple[Set, ...] = ("kinematics", *(("forces",) if sources.report.has_forces else ()))
+    offered += ("balancing",) if sources.report.case.balanced is not None else ()
     return {name: list(plates_of(sources, name)) for name in offered if not sets or name in sets}
 
 

@@ -23,7 +23,7 @@ from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, curves, running_curves
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves, running_curves
 from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
@@ -52,7 +52,7 @@ from reportgen.report.result_tables import (
     velocity_segments,
 )
 
-Set = Literal["kinematics", "forces"]
+Set = Literal["kinematics", "forces", "balancing"]
 WIDEST, MOST_ROWS = 180.0, 24
 """A table is so wide (mm) and has so many positions at most; then another stands beside it."""
 SEGMENT = 2
@@ -317,6 +317,25 @@ def _flywheel_speed(sources: Sources) -> Iterator[Drawn]:
         yield Drawn("flywheel-speed", "curves", curves.flywheel_speed(sources.small).scenes)
 
 
+def _balancing(sources: Sources) -> Iterator[Drawn]:
+    """The hodographs of the force on the frame, and what the crank sees of it."""
+    small = sources.small
+    if small.case.balanced is None:
+        return
+    yield Drawn("hodograph", "curves", balancing.hodograph(small).scenes)
+    if small.case.balanced.products:
+        yield Drawn("seen", "curves", balancing.seen_curve(small).scenes)
+    if small.case.balanced.weights:
+        yield Drawn("counterweights", "scheme", balancing.discs(small).scenes)
+    if small.case.balanced.products and small.case.balanced.weights:
+        yield Drawn("balanced", "curves", balancing.balanced_hodograph(small).scenes)
+
+
+def _balancing_table(sources: Sources) -> Iterator[Drawn]:
+    if sources.report.case.balanced is not None:
+        yield from _table(sources, "balancing", (balancing.shaking_lines, balancing.balanced_table), cycle=True)
+
+
 def _true_motion(sources: Sources) -> Iterator[Drawn]:
     if sources.report.case.true_motion is not None:
         yield Drawn("run", "curves", tuple(running_curves.sheet(sources.small)))
@@ -453,6 +472,7 @@ SETS: Mapping[Set, tuple[Draw, ...]] = {
         _true_motion,
         *(_reaction_table, _load_table),
     ),
+    "balancing": (_balancing, _balancing_table),
 }
 """What each set shows, in the order of the work."""
 FURTHER = frozenset({_centres, _friction_plans, _force_plates, _polar, _flywheel_speed})

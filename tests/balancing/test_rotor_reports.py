@@ -13,12 +13,13 @@ import pytest
 from reportgen import api
 from reportgen import report as tree
 from reportgen.balancing import rotor_ids
-from reportgen.balancing.rotor_drawings import moments_plan, unbalance_plan
+from reportgen.balancing.rotor_drawings import moments_plan, two_views, unbalance_plan
 from reportgen.balancing.rotor_file import MOST_MASSES
 from reportgen.cases import open_case, opened
 from reportgen.catalogue import sample
 from reportgen.drawing import Arrow, Label, Scene
-from reportgen.formula import PI, Chain, Number
+from reportgen.formula import PI, Chain, Number, walk
+from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
@@ -30,6 +31,8 @@ FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
 FILES = sorted(FOLDER.glob("*.yaml"))
 NAMES = [file.stem for file in FILES]
 MM = 1000
+SMALL = 1e-4
+"""Of five figures less than one unit of the last."""
 ROUNDED = 0.005 + 1e-9
 """How far a length on paper is rounded (mm)."""
 
@@ -44,6 +47,10 @@ def recomputes(chain: Chain) -> bool | None:
     if isinstance(result, Number) and result.unit == "°":
         in_degrees = tuple(part * 180 / PI for part in parts[1:])
         return comes_out(Chain((parts[0], *in_degrees, replace(result, unit=""))))
+    if isinstance(result, Number) and result.value == 0 and len(chain.parts) > 2 and comes_out(chain) is False:
+        # A value that rounds to nothing is written as 0, without decimals: it is small beside what it is made of.
+        numbers = [abs(part.value) for part in walk(parts[-1]) if isinstance(part, Number)]
+        return bool(abs(float(evaluate(parts[-1]))) <= SMALL * max(numbers, default=0.0))
     return comes_out(chain)
 
 
@@ -278,3 +285,22 @@ def test_a_radius_in_one_plane_and_a_mass_in_the_other(tmp_path: Path) -> None:
             assert case.ledger[rotor_ids.mass(plane)].at(1) == pytest.approx(m or U / 0.08)
         found = [recomputes(chain) for chain in chains(case.document().blocks)]
         assert False not in found
+
+
+def test_a_bearing_that_bears_nothing(tmp_path: Path) -> None:
+    """All unbalance stands at bearing C: what the other one bears is nothing, and prints as such."""
+    file = tmp_path / "rotor.yaml"
+    file.write_text(TEXT.replace("z: 100 mm", "z: -80 mm").replace("z: 300 mm", "z: -80 mm"), encoding="utf-8")
+    case = open_case(file, "en")
+    assert case.ledger[rotor_ids.bearing_force("before", "D")].at(1) == 0
+    assert case.printed.number(rotor_ids.bearing_force("before", "D")).value == 0
+    assert False not in [recomputes(chain) for chain in chains(case.document().blocks)]
+
+
+def test_a_slender_engine_or_rotor_keeps_to_its_page(tmp_path: Path) -> None:
+    """Radii far larger than the distances along the shaft: a scheme is no higher than a page."""
+    file = tmp_path / "rotor.yaml"
+    file.write_text(TEXT.replace("r: 50 mm, angle: 0", "r: 5000 mm, angle: 0"), encoding="utf-8")
+    scene = two_views(open_case(file, "en"))  # type: ignore[arg-type]
+    assert scene.height < 200
+    assert scene.width < 170

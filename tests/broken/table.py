@@ -185,6 +185,11 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
     ],
     "engine-v": [
         ("flywheel without loads", {"PC: 1 kN": "flywheel: {delta: 1/50}"}, "2:102 flywheel-without-loads"),
+        (
+            "balancing of no four-bar",
+            {"PC: 1 kN": "m2: 1 kg, balancing: {links: [1, 3], radius: 9 mm}"},
+            "2:124 balancing-of-four-bar",
+        ),
         ("articulation beyond the rod", {"BD: 66 mm": "BD: 260 mm"}, "2:41 out-of-range"),
         ("rod too short", {"BC: 253 mm": "BC: 80 mm"}, "2:29 no-assembly"),
         # A rod articulated far out on a short main rod follows the eight that its end goes through.
@@ -354,8 +359,65 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             {"AB: 120 mm": "…\n  springs: [{link: 3, at: C, to: [3 mm], c: 4 N/mm, free: 9 mm}]"},
             "5:34 spring-end",
         ),
+        ("balancing without mass", {"AB: 120 mm": "…\n  balancing: {}"}, "5:3 balancing-without-mass"),
+        (
+            "balancing an accelerating crank",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  epsilon1: 2 rad/s2\n  balancing: {}"},
+            "7:3 balancing-without-turn",
+            "epsilon1",
+        ),
+        (
+            "balancing at instants",
+            {"kind: four-bar": "…\npositions: {at: [50 deg]}", "AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {}"},
+            "7:3 balancing-without-turn",
+            "“at”",
+        ),
+        (
+            "a rule of slider-cranks",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [rms, rotating], radius: 9 mm}}"},
+            "6:44 rule-of-slider-cranks",
+        ),
+        (
+            "a rule twice",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [rms, rms], radius: 9 mm}}"},
+            "6:44 repeated",
+        ),
+        (
+            "a share that no rule takes",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [rms], share: 1/2, radius: 9 mm}}"},
+            "6:45 share-without-rule",
+        ),
+        ("no rule", {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {radius: 9 mm}}"}, "6:15 missing-key"),
+        (
+            "an unknown rule",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {counterweight: {rules: [least], radius: 9 mm}}"},
+            "6:39 choice",
+        ),
+        (
+            "counterweights without a distance",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {links: [1, 3]}"},
+            "6:3 missing-key",
+            "radius",
+        ),
+        (
+            "a distance of nothing",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {radius: 9 mm}"},
+            "6:3 missing-key",
+            "counterweight | links",
+        ),
+        (
+            "a counterweight on the coupler",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {links: [1, 2], radius: 9 mm}"},
+            "6:15 balancing-links",
+            "1, 3",
+        ),
+        (
+            "two ways of balancing",
+            {"AB: 120 mm": "…\n  m2: 3 kg\n  balancing: {links: [1, 3], counterweight: {rules: [rms], radius: 9 mm}}"},
+            "6:15 both-given",
+        ),
         ("friction in no joint", {"AB: 120 mm": "…\n  friction: {pins: {X: {rho: 2 mm}}}"}, "5:21 no-such-joint"),
-        ("a pin without radius", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1}}}"}, "5:23 missing-key"),
+        ("a pin without radius", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1}}}"}, "5:24 missing-key"),
         ("a circle and f", {"AB: 120 mm": "…\n  friction: {pins: {A: {f: 0.1, rho: 2 mm}}}"}, "5:25 both-given"),
         ("friction of no slider", {"AB: 120 mm": "…\n  friction: {sliders: {3: 0.1}}"}, "5:24 no-slider"),
         (
@@ -504,6 +566,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
             "with link 1 at 120 mm",
         ),
         ("flywheel", {"parameters:\n": "parameters:\n  flywheel: {delta: 1/50}\n"}, "5:3 flywheel-of-slide"),
+        ("balancing", {"parameters:\n": "parameters:\n  balancing: {}\n"}, "5:3 balancing-of-slide"),
         ("motion", {"parameters:\n": "parameters:\n  motion: {drive: {constant: find}}\n"}, "5:3 motion-of-slide"),
     ],
     "dyad": [

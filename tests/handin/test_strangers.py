@@ -11,8 +11,9 @@ import pytest
 from reportgen.handin import word_file, word_nodes
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
+from reportgen.handin.word_reader import read_report
 from reportgen.workbook.package import RefusedError
-from tests.handin import docx
+from tests.handin import docx, reports
 
 BODY = docx.paragraph(docx.run("v_D = 0,25 m/s"))
 
@@ -96,3 +97,21 @@ def test_a_template_that_stands_elsewhere_is_told_and_dropped_from_the_copy() ->
     assert b"dotm" not in everything
     assert b"attachedTemplate" not in everything
     assert b'<w:zoom w:percent="100"/>' in copy.read("word/settings.xml")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "v" + "_" * 9000 + "= 1",
+        "v" + "′" * 9000 + " = 1",
+        "v_D=1 " * 1500,
+        "v_D = " + "1,2 " * 2200,
+        "v_D = 1 " + "(" * 9000,
+        "x_{" * 3000,
+        "v_D = 1" + "·10^" * 2000,
+    ],
+)
+def test_a_line_made_to_take_long_is_looked_through_once(text: str) -> None:
+    """A pattern that tries all ways to part such a line would take minutes, and the run with it."""
+    blocks = open_word(Path("r.docx"), docx.package(docx.paragraph(docx.run(text)))).blocks
+    assert not read_report(blocks, reports.key_for("slotted-lever-01", "vi"), "r.docx").values

@@ -10,17 +10,20 @@ import numpy as np
 import pytest
 from time_integration import integrate
 
+from reportgen.assignment.common import Positions
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
-from reportgen.machine.analysis import Machine, analyse
+from reportgen.machine.analysis import Machine, analyse, breaks
+from reportgen.machine.coils import Anchor
 from reportgen.machine.drives import ConstantDrive, Drive, Geared, KlossDrive, LinearDrive, Motor, TableDrive
 from reportgen.machine.energy import ReducedMachine
 from reportgen.machine.flywheel import flywheel
 from reportgen.machine.laws import FULL_TURN, AngleLaw, ConstantLaw, Law, Stroke, TableLaw, by_stroke, opposing
-from reportgen.machine.loads import Applied, Torque, fixed
+from reportgen.machine.loads import Applied, Torque, course, crank_motion, fixed
 from reportgen.machine.motors import DriveDemand, judged
 from reportgen.machine.reduction import reduced
 from reportgen.machine.running import MotionRun, NoMotionError, mean_torque, steady
+from reportgen.machine.springs import SpringLaw
 from reportgen.machine.starting import start, stop
 from reportgen.machine.true_motion import at_positions, at_true_speeds
 from tests.lanes import matrix
@@ -272,9 +275,10 @@ def test_a_resistance_holds_what_it_has_stopped() -> None:
 @pytest.mark.parametrize("seed", matrix(range(40), (0, 3)))
 def test_machines_made_at_random(seed: int) -> None:
     machine, added, drive = made_at_random(seed)
-    motion = steady(ReducedMachine(machine, added), drive, machine.speed, np.radians([10.0, 25.0, 40.0]))
+    low, high = math.radians(10.0), math.radians(40.0)
+    stops = np.array([low, *(angle for angle in breaks(machine) if low < angle < high), high])
+    motion = steady(ReducedMachine(machine, added), drive, machine.speed, stops)
     run = motion.run
-    stops = np.radians([10.0, 25.0, 40.0])
     places = [run.place(angle) for angle in stops]
 
     def torque(speed: float) -> float:
@@ -287,11 +291,15 @@ def test_machines_made_at_random(seed: int) -> None:
 
 
 def made_at_random(seed: int) -> tuple[Machine, float, Drive]:
-    """A crank with a rod and slider or a rocker, weights, a force over the angle, a torque; a motor that drives it."""
+    """A crank with a rod and a slider or a rocker, weights, a force that jumps, a spring, a torque; its motor.
+
+    What a slider has besides resists its motion, or is a gas in two turns.
+    """
     rng = np.random.default_rng(seed)
     r, l = rng.uniform(0.05, 0.12), rng.uniform(0.3, 0.5)  # noqa: E741 - the length's own letter
-    if seed % 2:
-        dyad = Dyad("RRP", (2, 3), "A", "B", Guide(1j * rng.uniform(-0.05, 0.05), rng.uniform(-0.3, 0.3)), (l, 0.0))
+    slides, turn, axis = seed % 2 == 1, 1 if seed % 4 < 2 else -1, rng.uniform(-0.3, 0.3)
+    if slides:
+        dyad = Dyad("RRP", (2, 3), "A", "B", Guide(1j * rng.uniform(-0.05, 0.05), axis), (l, 0.0))
     else:
         dyad = Dyad("RRR", (2, 3), "A", "B", "D", (l, rng.uniform(0.25, 0.3)), 1)
     linkage = Linkage(
@@ -305,12 +313,30 @@ def made_at_random(seed: int) -> tuple[Machine, float, Drive]:
             Inertia(3, "B", rng.uniform(1.0, 6.0), 0.0),
         ),
     )
-    knots = tuple(np.linspace(0.0, FULL_TURN, 7))
+    motion_at = crank_motion(linkage, Positions(direction="anticlockwise" if turn > 0 else "clockwise"), 0.3)
     sizes = rng.uniform(-300.0, 300.0, 6)
-    force = Applied("P3", 3, "B", fixed(np.exp(1j * rng.uniform(0, 6))), AngleLaw(knots, (*sizes, sizes[0])))
-    turn = 1 if seed % 4 < 2 else -1
+    jump = math.radians(25.0)
+    knots = (0.0, jump, float(np.nextafter(jump, 9.0)), 2.0, 4.0, FULL_TURN)
+    table = AngleLaw(knots, (*map(float, sizes[:5]), float(sizes[0])))
+    spring = SpringLaw(1, (Anchor("S2"), Anchor(place=0.2 + 0.4j)), rng.uniform(200.0, 900.0), 0.2)
+    applied = [
+        Applied("P3", 3, "B", fixed(np.exp(1j * rng.uniform(0, 6))), table),
+        Applied("P2", 2, "S2", spring.towards(0), spring),
+    ]
+    if slides:
+        along = np.exp(1j * axis)
+
+        def rate(angle: np.ndarray) -> np.ndarray:
+            return np.asarray((np.conj(along) * motion_at(angle).points["B"].v).real)
+
+        if seed % 3:
+            law: Law = opposing(rng.uniform(50.0, 200.0), rate)
+        else:
+            stroke = course(linkage, 3, motion_at)
+            law = TableLaw(stroke, by_stroke((0.0, 0.3, 1.0), (900.0, 300.0, 0.0), (900.0, 100.0, 50.0)), turns=1)
+        applied.append(Applied("P3a", 3, "B", fixed(along), law))
     resisting = Torque("M1", 1, ConstantLaw(-turn * rng.uniform(20.0, 40.0)))
-    machine = Machine("", linkage, 0.3, turn, 25.0, 12, 1, Sheet(), (), applied=(force,), torques=(resisting,))
+    machine = Machine("", linkage, 0.3, turn, 25.0, 12, 1, Sheet(), (), applied=tuple(applied), torques=(resisting,))
     added = rng.uniform(0.5, 2.0)
     body = ReducedMachine(machine, added)
     mean, _ = mean_torque(body, body.along(body.parted(0.0)))

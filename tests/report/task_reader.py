@@ -92,12 +92,13 @@ def file_of(kind: str, text: str) -> File:
     symbols = COMMON | LENGTHS[kind]
     parameters: File = {symbols[symbol]: value for symbol, value in data.items() if symbol in symbols}
     for symbol, value in data.items():
-        if found := re.fullmatch(r"([Gm])_(\d)|(s)_(\d)|(J)_S?(\d)", symbol):
+        if found := re.fullmatch(r"([Gm])_(\d)|(s)_(\d)|(J)_S?([1-9]\d?)", symbol):
             letter, link = (part for part in found.groups() if part)
             parameters[letter + link] = value
     if "δ_ω" in data:
         parameters["flywheel"] = {"delta": data["δ_ω"]}
-    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data)
+    parameters |= _motion(task, data)
+    parameters |= OWN.get(kind, lambda task, data: {})(task, data) | _further(task, data) | _balancing(task, data)
     file["parameters"] = parameters
     if rows := task.table("Indicator diagram"):
         file["indicator"] = _diagram(rows)
@@ -125,7 +126,76 @@ def _positions(task: Task) -> File:
     return found
 
 
+# --- the motion under a drive ---------------------------------------------------------------------------
+
+DRIVES = {"M_0": "M0", "k_dr": "k", "i": "ratio", "J_0": "J"}
+KLOSS = {"M_k": "Mk", "s_k": "sk", "n_0": "n0"}
+FROM_REST = r"the start from rest at φ = (\S+?°) from the first position"
+TO_REST = r"the brake acting from φ = (\S+?°) of a steady cycle"
+MOTOR = (
+    r"(?P<name>[^;(]+?) \((?P<power>\S+ kW), (?P<n>\S+ rpm), starting torque (?P<start>\S+ N·m), "
+    r"breakdown torque (?P<breakdown>\S+ N·m)\)"
+)
+
+
+def _motion(task: Task, data: Mapping[str, str]) -> File:
+    """The drive of a machine, its start and stop; nothing where none is asked for."""
+    asked = re.search(r"The machine (?:is driven|drives a load)(.*)", task.text)
+    if not asked:
+        return {}
+    drive: File = {key: data[symbol] for symbol, key in DRIVES.items() if symbol in data}
+    if "by Kloss" in asked[0]:
+        drive["kloss"] = {key: data[symbol] for symbol, key in KLOSS.items()}
+    elif "to be found" in asked[0]:
+        drive["constant"] = "find"
+    elif torques := re.search(r"with the torques (.*), linear between", asked[0]):
+        points = [point.split(" at ") for point in torques[1].split("; ")]
+        drive["table"] = {"n": [typed(n) for _, n in points], "M": [typed(torque) for torque, _ in points]}
+    if "Choose the motor among: " in asked[0]:
+        told = re.finditer(MOTOR, asked[0].partition("Choose the motor among: ")[2])
+        drive["motors"] = [{key: typed(text.strip(" ;")) for key, text in one.groupdict().items()} for one in told]
+    motion: File = {"drive": drive}
+    if start := task.find(FROM_REST):
+        motion["start"] = {"from": typed(start)}
+    if stop := task.find(TO_REST):
+        motion["stop"] = {"brake": data["M_br"], "from": typed(stop)}
+    if ", with the flywheel" in asked[0]:
+        motion["flywheel"] = "true"
+    if "the forces at the true speeds" in asked[0]:
+        motion["forces"] = "true"
+    return {"motion": motion}
+
+
 # --- what every kind may have -------------------------------------------------------------------------
+
+RULES = {
+    "rms": ("so that the mean square", "the one of least mean square"),
+    "max": ("so that the maximum", "the one of least maximum"),
+    "rotating": ("so that it balances the part that turns,", "the one that balances the part that turns"),
+    "share": ("so that it balances the part that turns and", "the one that also balances a share"),
+}
+"""How the rule for a counterweight is told that is carried out, and one that is compared."""
+
+
+def _balancing(task: Task, data: Mapping[str, str]) -> File:
+    """What is to be balanced, and how."""
+    text = task.find(r"(Find the force and the moment that the inertia.*)")
+    if text is None:
+        return {}
+    if "force whole" in text:
+        return {"balancing": {"links": [1, 3], "radius": data["r_c"]}}
+    if "counterweight" not in text:
+        return {"balancing": {}}
+    first, _, others = text.partition("Compare it with")
+    # They are compared in the order of the file.
+    compared = {others.find(told): rule for rule, (_, told) in RULES.items() if told in others}
+    rules = [
+        *(rule for rule, (chosen, _) in RULES.items() if chosen in first),
+        *(compared[at] for at in sorted(compared)),
+    ]
+    share = {"share": data["κ"]} if "κ" in data else {}
+    return {"balancing": {"counterweight": {"rules": rules, "radius": data["r_c"], **share}}}
+
 
 HUNG = r"from (?P<at>\w+) on link (?P<link>\d+) to "
 SIZES = r", stiffness (?P<c>.*?), free length (?P<free>.*)"
@@ -336,6 +406,7 @@ def _linkage(task: Task, data: Mapping[str, str]) -> File:
         file["g"] = data["g"]
     if "δ_ω" in data:
         file["flywheel"] = {"delta": data["δ_ω"]}
+    file |= _motion(task, data)
     if "their cycle takes two turns" in task.text:
         file["turns"] = "2"
     return file | _beside(task)

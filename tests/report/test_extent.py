@@ -147,11 +147,12 @@ def test_contents_leave_no_page_half_white(entries: int, alone: bool) -> None:
     ),
 )
 def test_its_pages(name: str, engine: api.Engine) -> None:
-    """At most 25 for an engine and 20 for other machines, and one more for a plan that has a sheet of its own."""
+    """At most 25 for an engine, 20 for other machines, one more for a plan on a sheet of its own, two for motion."""
     pdf = api.typeset(document(name, "short"), engine)[1]
     with pymupdf.open(stream=pdf) as pages:
         sheets = sum(isinstance(block, Plate) for block in document(name, "short").blocks)
-        assert len(pages) <= (ENGINE if name.startswith("engine") else OTHER) + min(sheets, 1)
+        moves = 2 * ("true-motion" in Report(case(name, "short")).sections)
+        assert len(pages) <= (ENGINE if name.startswith("engine") else OTHER) + min(sheets, 1) + moves
 
 
 # --- what does not depend on it -------------------------------------------------------------------

@@ -22,9 +22,10 @@ from tests.sheets.laid import EVERY, EXERCISES, block_of, laid, numbers, opened,
 
 TELLING = [("four-bar-02", "A0"), ("shaper-01", "A1"), ("engine-twin-05", "A2"), ("linkage-slide", "A3"), ("16", "A3")]
 """Each size of paper, both languages, rods, sliding blocks, two cylinders, a sliding driver, an exercise."""
-THREE = {"engine-v-02": 3, "engine-friction": 3}
+THREE = {"engine-v-02": 3, "engine-friction": 3, "slider-crank-04": 3, "four-bar-04": 3}
+THREE |= {"engine-single-load": 3, "toggle-press-02": 3}
 """On A1: two cylinders at 14 positions a turn, and 28 in a cycle, with plans of both; an engine with its friction
-circles.  All others have two sheets at most."""
+circles; a set for balancing; curves of the true motion beside many plans.  All others have two sheets at most."""
 
 
 @pytest.mark.parametrize(

@@ -259,7 +259,7 @@ def cad_arrows(document: Any) -> list[float]:
     return found
 
 
-@pytest.mark.parametrize("name", matrix(MACHINES[:13], ["four-bar-01"]))
+@pytest.mark.parametrize("name", matrix([*MACHINES[:11], "four-bar-01"], ["four-bar-01"]))
 def test_the_file_is_sound_and_shows_the_whole_sheet(name: str) -> None:
     from ezdxf.addons.drawing import Frontend, RenderContext
     from ezdxf.addons.drawing.recorder import Recorder

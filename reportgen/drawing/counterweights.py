@@ -1,0 +1,50 @@
+"""The scheme of a machine with its counterweights: a disc each, on an arm from the centre that its link turns about."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.drawing import Circle, Content, Item, Line, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.labels import Request, label
+from reportgen.drawing.scheme import Looks, driver_marks, mechanism, skeleton
+from reportgen.machine import GROUND, Linkage
+from reportgen.machine.motion import Motion
+
+LARGEST, LEAST = 5.0, 2.0
+"""Radii of discs (mm): of the heaviest, and at least; areas are as the masses."""
+ARM = 1.0
+"""Half the width of an arm (mm)."""
+
+
+@dataclass(frozen=True, slots=True)
+class CounterweightDisc:
+    """A counterweight: its centre and the centre of its link (m), its mass (kg), what it is called."""
+
+    at: complex
+    pivot: complex
+    mass: float
+    label: Content
+
+
+def with_discs(
+    linkage: Linkage, motion: Motion, index: int, scale: float, looks: Looks, discs: Sequence[CounterweightDisc]
+) -> Scene:
+    """The scheme at position `index`, `scale` mm of paper per m, with counterweights."""
+    bones = skeleton(linkage, motion, index, scale)
+    heaviest = max(disc.mass for disc in discs)
+    items: list[Item] = []
+    requests: list[Request] = []
+    for disc in discs:
+        radius = max(LARGEST * float(np.sqrt(disc.mass / heaviest)), LEAST)
+        centre, pivot = disc.at * scale, disc.pivot * scale
+        along = (centre - pivot) / abs(centre - pivot)
+        end = centre - radius * along
+        items += [Line(pivot + side, end + side, style.VISIBLE) for side in (1j * ARM * along, -1j * ARM * along)]
+        items.append(Circle(centre, radius, style.VISIBLE, style.TINT))
+        requests.append(label(centre, disc.label, gap=radius + 0.4))
+    whole = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
+    return finish(Canvas(tuple(items), tuple(requests)) + whole, notes=looks.notes)

@@ -1,0 +1,38 @@
+"""The star of an order of an engine: a vector for each cylinder, all of one size, and their sum, to scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from reportgen.drawing import Arrow, Circle, Content, Item, Line, Scene, style
+from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.geometry import clusters
+from reportgen.drawing.labels import Request, joined, label
+
+RAY = 14.0
+"""Length of a cylinder's vector (mm)."""
+SAME = 0.4
+"""Ends within this (mm) are one."""
+CLOSED = 1e-9
+"""A sum below this share of a vector is none."""
+BEYOND = 3.0
+"""How far the axes go beyond the circle (mm)."""
+
+
+def star(vectors: Sequence[complex], names: Sequence[Content], total: Content, title: str = "") -> Scene:
+    """Vectors of the size 1 from one pole with what they are called, and their sum, called `total`."""
+    reach = RAY + BEYOND
+    items: list[Item] = [Line(-reach + 0j, reach + 0j, style.AXIS), Line(-1j * reach, 1j * reach, style.AXIS)]
+    items.append(Circle(0j, RAY, style.THIN))
+    items += [Arrow(0j, RAY * vector, style.ACTIVE) for vector in vectors]
+    ends = [(RAY * vector, name) for vector, name in zip(vectors, names, strict=True)]
+    requests: list[Request] = [
+        label(group[0][0], *joined(name for _, name in group), size=style.SMALL)
+        for group in clusters(ends, SAME, lambda end: end[0])
+    ]
+    whole = sum(vectors)
+    if abs(whole) > CLOSED:
+        items.append(Arrow(0j, RAY * whole, style.FOUND))
+        requests.append(label([RAY * whole, RAY * whole / 2], total, size=style.SMALL))
+    items.append(Circle(0j, 0.6, style.KNOWN, style.PAPER))
+    return finish(Canvas(tuple(items), tuple(requests)), title=title, margin=2.0)

@@ -1,0 +1,75 @@
+"""The chapter on the true motion of a machine: its values are the solver's, its verdict names what is permitted."""
+
+from __future__ import annotations
+
+import pytest
+
+from reportgen.machine.true_motion import at_positions
+from reportgen.report import Table, text_of
+from reportgen.report.report import Report
+from reportgen.report.result_tables import residuals
+from tests.report import built, trees
+from tests.report.calculator import misses
+
+FILE = built.ROOT / "assignments" / "slider-crank-03.yaml"
+
+
+HEADINGS = [
+    "True motion of the machine",
+    "Torque of the drive",
+    "Reduced moment of inertia and reduced torque",
+    "Equation of motion",
+    "Steady motion",
+    "Working points and energy",
+    "Calculation by steps",
+    "Forces in the true motion",
+    "Start",
+    "Stop",
+]
+
+
+@pytest.fixture(scope="module")
+def lines() -> list[str]:
+    """The lines of the whole report."""
+    return text_of(built.written(FILE, "en").document).splitlines()
+
+
+def test_what_stands_in_it(lines: list[str]) -> None:
+    numbered = [line.partition(" ") for line in lines if line.startswith("2.6")]
+    assert [title for _, _, title in numbered] == HEADINGS
+    blocks = built.written(FILE, "en").document.blocks
+    keys = [block.key for block in blocks if isinstance(block, Table) and block.key.startswith("tab.run")]
+    assert keys == ["tab.run", "tab.run.wheel", "tab.run.steps", "tab.run.forces.2", "tab.run.start", "tab.run.stop"]
+
+
+def test_the_ledger_has_the_values_of_the_solver() -> None:
+    case = built.case(FILE, "en")
+    motion, machine = case.true_motion, case.analysis.machine
+    assert motion is not None
+    for state, suffix in (("", ""), ("wheel", ".wheel")):
+        steady = motion.states[state]
+        at = at_positions(machine, steady)
+        for name, values in (("omega", steady.run.speed), ("eps", steady.run.acceleration), ("t", steady.run.time)):
+            # T is the first energy and the work from there on: as exact as the integration.
+            assert case.ledger[f"run.{name}{suffix}"].values == pytest.approx(values[at], rel=1e-9, abs=1e-9)
+        assert case.ledger[f"run.delta{suffix}"].values[0] == pytest.approx(steady.unevenness)
+    # J′ from the plans is that of the motion at unit speed.
+    slope = motion.alone.run.slope[at_positions(machine, motion.alone)]
+    assert case.ledger["run.dJ"].values == pytest.approx(slope, abs=1e-10)
+
+
+def test_readings_and_steadiness_are_checked() -> None:
+    checked = residuals(Report(built.case(FILE, "en")))
+    assert checked["drive"][0] < 1e-12
+    assert checked["run_energy"][0] < 1e-12
+
+
+def test_its_lines_recompute() -> None:
+    found = trees.lines(trees.chains(built.written(FILE, "en").document), "en")
+    assert misses(found) == []
+
+
+def test_the_verdict_names_both(lines: list[str]) -> None:
+    (verdict,) = (line for line in lines if line.startswith("Verdict."))
+    assert "0.048997, without it 0.19233; the permissible one is 1/20" in verdict
+    assert verdict.endswith("the condition is fulfilled.")
