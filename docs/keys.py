@@ -19,7 +19,7 @@ PAGE = Path(__file__).resolve().parent / "machines.md"
 KINDS = (
     *("engine-twin", "engine-single", "engine-v", "slider-crank", "four-bar", "lever-six-bar", "toggle-press"),
     *("scotch-yoke", "slotted-lever", "shaper", "linkage", "cam", "gear-pair", "planetary-train", "plane-motion"),
-    *("rotor", "engine-balance"),
+    *("rotor", "engine-balance", "friction"),
 )
 FIND = "`find`"
 HEAD = "| key of `parameters` | is |\n| --- | --- |\n"

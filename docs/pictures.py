@@ -39,6 +39,7 @@ SHOWN = {
     "cam": ROOT / "assignments" / "cam" / "roller-01.yaml",
     "gear-pair": ROOT / "assignments" / "gears" / "pair-centre-distance.yaml",
     "planetary-train": ROOT / "assignments" / "gears" / "train-double.yaml",
+    "friction": ROOT / "assignments" / "friction" / "incline.yaml",
     "rotor": ROOT / "assignments" / "rotor" / "rotor-two-planes.yaml",
     "engine-balance": ROOT / "assignments" / "engine-balance" / "v-six.yaml",
 }
@@ -57,7 +58,7 @@ MARGIN = 72.0
 
 AROUND = (-15.0, -12.0, 15.0, 4.0)
 """Room for labels around the lines of a scheme: left, top, right, bottom (pt)."""
-BELOW = {"cam": 8.0, "rotor": 8.0}
+BELOW = {"cam": 8.0, "rotor": 8.0, "friction": 8.0}
 """More room below what has labels there (pt)."""
 
 DRAW = """

@@ -197,6 +197,7 @@ Expression = (
 Operand = Expression | float
 
 PI = Symbol("π", value=math.pi)
+E = Symbol("e", value=math.e)
 
 
 # --- building -------------------------------------------------------------------------------------
@@ -233,6 +234,11 @@ def column(*entries: Operand) -> Matrix:
 
 def sqrt(of: Operand) -> Root:
     return Root(as_expression(of))
+
+
+def exp(of: Operand) -> Power:
+    """e raised to a power."""
+    return Power(E, as_expression(of))
 
 
 OfOne = Callable[[Operand], Call]

@@ -1,9 +1,10 @@
-"""What the ids of friction in joints are called, and what they say."""
+"""What the ids of friction are called, and what they say: in the joints of machines, and in exercises."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
+from reportgen.formula import friction_exercises
 from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
 
@@ -26,7 +27,7 @@ cycle_efficiency = "friction.eta.cycle"
 dead = Name("friction.dead.{slider}.{number}.{side}")
 """How far before or behind a dead centre a slider cannot move its crank."""
 
-KINDS: Mapping[str, QuantityKind] = {}
+KINDS: Mapping[str, QuantityKind] = friction_exercises.KINDS
 ROWS = (
     VocabularyRow(coefficient, "f", "ratio", name="friction coefficient"),
     VocabularyRow(pin_radius, "r", "length", name="pin radius"),
@@ -45,4 +46,5 @@ ROWS = (
     VocabularyRow(Name(mean), "M", "torque", Chapter.cycle, below="m", above="fr", name="mean torque with friction"),
     VocabularyRow(Name(cycle_efficiency), "η", "ratio", Chapter.cycle, below="m", name="efficiency over the cycle"),
     VocabularyRow(dead, "Δφ", "angle", Chapter.cycle, below="{slider}", name="dead zone"),
+    *friction_exercises.ROWS,
 )

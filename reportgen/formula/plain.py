@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from reportgen.base.units import Language
 from reportgen.formula import (
+    PI,
     Call,
     Expression,
     Fraction,
@@ -93,7 +94,7 @@ def python(node: Expression, names: Mapping[str, str]) -> str:
         case Number():
             return f"np.radians({node.shown:g})" if node.unit == "°" else repr(node.shown).removesuffix(".0")
         case Symbol(value=float()):
-            return "np.pi"
+            return "np.pi" if node == PI else "np.e"
         case Ref(id):
             return names[id]
         case Sum(terms):
@@ -108,7 +109,9 @@ def python(node: Expression, names: Mapping[str, str]) -> str:
             return f"{inside(top)} / {below if isinstance(bottom, Ref | Number | Call | Root) else f'({below})'}"
         case Power(base, exponent):
             simple = isinstance(base, Ref | Call | Root)
-            return f"{python(base, names) if simple else f'({python(base, names)})'}**{python(exponent, names)}"
+            power = python(exponent, names)
+            raised = f"({power})" if isinstance(exponent, Product | Fraction) else inside(exponent)
+            return f"{python(base, names) if simple else f'({python(base, names)})'}**{raised}"
         case Root(of):
             return f"np.sqrt({python(of, names)})"
         case Call(name, arguments):

@@ -30,6 +30,7 @@ OTHERS = {
     "cam/roller-01.yaml": {"cam.md"},
     "gears/pair-equal-sliding.yaml": {"gear-pair.md"},
     "gears/train-motor.yaml": {"planetary-train.md"},
+    "friction/belt.yaml": {"friction.md"},
     "rotor/rotor-two-planes.yaml": {"rotor.md"},
     "engine-balance/v-six.yaml": {"engine-balance.md"},
 }
