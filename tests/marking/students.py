@@ -40,6 +40,8 @@ OF_FURTHER_KEYS = {
 }
 """The mistakes with what few files give: an acceleration of the driving link, springs, friction."""
 
+OF_BALANCING = {*("omega-not-squared", "counterweight-on-pin-side", "share-of-turning-part", "order-with-single-angle")}
+"""The mistakes about the force on the frame."""
 OF_TRUE_MOTION = {
     *("half-forgotten", "slope-left-out", "speed-not-squared", "half-of-slope", "load-sign"),
     *("motor-constant", "two-pi-forgotten", "bounds-of-table"),

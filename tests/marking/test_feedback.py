@@ -26,7 +26,7 @@ from reportgen.report import Figure, Table, plain, text_of
 from reportgen.workbook import write_csv, write_xlsx
 from reportgen.workbook.writing import FILLS
 from tests.marking.keys import small_key
-from tests.marking.students import NAMES, OF_FURTHER_KEYS, OF_TRUE_MOTION
+from tests.marking.students import NAMES, OF_BALANCING, OF_FURTHER_KEYS, OF_TRUE_MOTION
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
 LANGUAGES: tuple[Language, ...] = get_args(Language)
@@ -158,7 +158,15 @@ def test_there_are_words_for_every_mistake_verdict_and_warning(language: Languag
         one = cell("v.B", 1, Verdict.wrong, 1.0, 2.0, first=True, mistake=name, where="omega.1")
         assert any("ω" in str(inline) for inline in mistake_inlines(one, key, words))
         assert words["mistake_names"][name]
-    assert set(words["mistakes"]) == {*NAMES, *OF_FURTHER_KEYS, *OF_TRUE_MOTION, *SLIPS, *OF_PLANS, WRONG_DATUM}
+    assert set(words["mistakes"]) == {
+        *NAMES,
+        *OF_FURTHER_KEYS,
+        *OF_TRUE_MOTION,
+        *OF_BALANCING,
+        *SLIPS,
+        *OF_PLANS,
+        WRONG_DATUM,
+    }
     assert set(words["mistake_names"]) == {*words["mistakes"], "none"}
     assert {*words["verdicts"]} == {*Verdict, "first"} == {*words["verdict_notes"]}
     assert {*words["warnings"]} == {*words["warning_names"]}
