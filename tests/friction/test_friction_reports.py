@@ -176,8 +176,11 @@ def test_tasks_are_parts_beside_friction_in_joints(tmp_path: Path) -> None:
     assert len(set(ids)) == len(ids)
     for id in ("friction.M.01", "friction.screw.M", "friction2.incline.P"):
         assert id in ids
-    found = [recomputes(chain) for chain in chains(case.document().blocks)]
-    assert False not in found
+    # Those of the machine are chains of other forms, which its own tests read.
+    lines = [
+        chain for chain in chains(case.document().blocks) if chain.parts[0] == case.printed.symbol("friction.screw.eta")
+    ]
+    assert [recomputes(chain) for chain in lines] == [True]
 
 
 # --- faults -----------------------------------------------------------------------------------------------
