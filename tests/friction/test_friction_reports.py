@@ -20,7 +20,7 @@ from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.gears.test_pair_reports import recomputes
 from tests.gears.test_train_reports import chains
-from tests.lanes import matrix
+from tests.lanes import matrix, proof
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "friction"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
@@ -153,6 +153,34 @@ def test_words_sheets_and_mistakes(name: str) -> None:
             assert case.words["mistake_names"][mistake]
     (sheet,) = drawing_sheets(case_of(name))
     assert sheet.parts
+
+
+WHOLE = """kind: slider-crank
+report: {language: en, extent: short}
+parameters: {r: 100 mm, l: 400 mm, omega1: 10 rad/s, g: 0 m/s2,
+  force: {by: stroke, unit: N, s: [0, 1], inward: [1000, 1000], outward: [1000, 1000]},
+  friction: {pins: {A: {f: 0.1, r: 20 mm}, B: {f: 0.1, r: 15 mm}}, sliders: {3: 0.12}}}
+parts:
+  - {kind: friction, parameters: {screw: {Q: 20 kN, d: 36 mm, p: 7 mm, f: 0.1}}}
+  - {kind: friction, parameters: {incline: {Q: 1200 N, alpha: 25 deg, f: 0.18}}}
+"""
+
+
+@proof
+def test_tasks_are_parts_beside_friction_in_joints(tmp_path: Path) -> None:
+    """Ids of a machine with friction and of two tasks do not meet; each task has a chapter, and rows in the key."""
+    file = tmp_path / "whole.yaml"
+    file.write_text(WHOLE, encoding="utf-8")
+    case = open_case(file)
+    ids = [row.id for row in key_of(case).rows]
+    assert len(set(ids)) == len(ids)
+    for id in ("friction.M.01", "friction.screw.M", "friction2.incline.P"):
+        assert id in ids
+    # Those of the machine are chains of other forms, which its own tests read.
+    lines = [
+        chain for chain in chains(case.document().blocks) if chain.parts[0] == case.printed.symbol("friction.screw.eta")
+    ]
+    assert [recomputes(chain) for chain in lines] == [True]
 
 
 # --- faults -----------------------------------------------------------------------------------------------
