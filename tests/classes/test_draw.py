@@ -106,7 +106,7 @@ def test_every_assignment_is_a_usable_spec_of_one_variant(file: Path) -> None:
 
 def test_the_eight_published_engines_go_round_a_class(put_file: Put) -> None:
     """A table of their parameters: 8 students have all eight, 20 have each two or three times."""
-    sources = sorted((ROOT / "assignments").glob("engine-single-*.yaml"))
+    sources = sorted((ROOT / "assignments").glob("engine-single-[IV]*.yaml"))
     tops = [plain(read_text(source.read_text(encoding="utf-8")).top) for source in sources]
     flat = [{key: value for key, value in top["parameters"].items() if isinstance(value, str)} for top in tops]
     keys = list(dict.fromkeys(key for one in flat for key in one))

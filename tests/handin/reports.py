@@ -17,7 +17,7 @@ import numpy as np
 from reportgen.cases import open_case
 from reportgen.marking.key import Ask, key_of
 from reportgen.report.key import Key, KeyRow
-from tests.handin import docx
+from tests.handin import wml
 
 ROOT = Path(__file__).parents[2] / "assignments"
 MACHINES = ("four-bar-01", "slider-crank-01", "shaper-02", "lever-six-bar-01", "engine-v-01", "slotted-lever-01")
@@ -95,34 +95,34 @@ class Report:
         base, sub, sup = row.symbol.base, row.symbol.sub, row.symbol.sup
         match look or self.look:
             case "built":
-                return docx.formula(docx.scripts(base, sub, sup))
+                return wml.formula(wml.scripts(base, sub, sup))
             case "linear":
-                return docx.run(base + (f"_{sub}" if sub else "") + (f"^{sup}" if sup else ""))
+                return wml.run(base + (f"_{sub}" if sub else "") + (f"^{sup}" if sup else ""))
             case "lost":
-                return docx.run(base + sub + sup)
+                return wml.run(base + sub + sup)
             case "loose":
                 letters = {"ω": "w", "ε": "ε", "v": "V", "a": "a"}
-                return docx.run(letters.get(base, base) + (f"_{sub}" if sub else "") + (f"^{sup}" if sup else ""))
+                return wml.run(letters.get(base, base) + (f"_{sub}" if sub else "") + (f"^{sup}" if sup else ""))
             case _:
-                low = docx.run(sub, docx.LOW) if sub else ""
-                return docx.run(base) + low + (docx.run(sup, docx.HIGH) if sup else "")
+                low = wml.run(sub, wml.LOW) if sub else ""
+                return wml.run(base) + low + (wml.run(sup, wml.HIGH) if sup else "")
 
     def put(self, inner: str, style: str = "") -> None:
-        self.blocks.append(docx.paragraph(inner, style))
+        self.blocks.append(wml.paragraph(inner, style))
 
     def heading(self, text: str, level: int) -> None:
-        self.put(docx.run(text), f"u{level}")
+        self.put(wml.run(text), f"u{level}")
 
     def built(self, row: KeyRow, position: int) -> str:
         """A whole line as one built formula, with a product on the way."""
         base, sub, sup = row.symbol.base, row.symbol.sub, row.symbol.sup
-        inner = docx.scripts(base, sub, sup) + docx.math_run("=")
+        inner = wml.scripts(base, sub, sup) + wml.math_run("=")
         if self.chance.random() < 0.5:
-            top = docx.scripts("v", "x1") + docx.math_run("·") + docx.scripts("l", "x2")
-            inner += docx.fraction(top, docx.math_run("2")) + docx.math_run("=")
-            inner += docx.fraction(docx.math_run(f"{self.any_number()}·{self.any_number()}"), docx.math_run("2"))
-            inner += docx.math_run("=")
-        return docx.formula(inner + docx.math_run(self.draw(row, position) + self.unit(row)))
+            top = wml.scripts("v", "x1") + wml.math_run("·") + wml.scripts("l", "x2")
+            inner += wml.fraction(top, wml.math_run("2")) + wml.math_run("=")
+            inner += wml.fraction(wml.math_run(f"{self.any_number()}·{self.any_number()}"), wml.math_run("2"))
+            inner += wml.math_run("=")
+        return wml.formula(inner + wml.math_run(self.draw(row, position) + self.unit(row)))
 
     def line(self, row: KeyRow, position: int, unit: bool = True) -> str:
         """A statement in running text, with a step on the way now and then."""
@@ -134,7 +134,7 @@ class Report:
             factor, length = self.chance.choice("μωk"), self.chance.choice(("pb", "xy", "l"))
             middle = f" = {factor}·{length} = {self.any_number()}.{self.any_number()}"
         shown = self.draw(row, position) + (self.unit(row) if unit else "")
-        return self.symbol(row) + docx.run(f"{middle} = {shown}")
+        return self.symbol(row) + wml.run(f"{middle} = {shown}")
 
     def rows(self) -> list[KeyRow]:
         return [row for row in self.key.asked if row.positions]
@@ -146,7 +146,7 @@ class Report:
         return [row for row in self.rows() if k in row.positions and not row.single]
 
     def file(self) -> bytes:
-        return docx.package("".join(self.blocks))
+        return wml.package("".join(self.blocks))
 
 
 # --- manners: well kept ---------------------------------------------------------------------------
@@ -181,21 +181,21 @@ def runs_by_chapter(report: Report) -> None:
             report.heading(report.position(k).capitalize(), 2)
             for row in rows:
                 if k in row.positions:
-                    report.put(report.line(row, k) + docx.run(report.chance.choice(("", ".", ";"))))
+                    report.put(report.line(row, k) + wml.run(report.chance.choice(("", ".", ";"))))
 
 
 def in_sentences(report: Report) -> None:
     """The position stands in each sentence."""
     report.look = report.chance.choice(("runs", "built", "linear"))
-    _given(report, lambda row: report.put(docx.run(report.say("Tính được ", "This gives ")) + report.line(row, 0)))
+    _given(report, lambda row: report.put(wml.run(report.say("Tính được ", "This gives ")) + report.line(row, 0)))
     order = [(row, k) for k in POSITIONS for row in report.at(k)]
     report.chance.shuffle(order)
     for row, k in order:
         lead = report.say(f"Tại {report.position(k)}, ta có ", f"At {report.position(k)} we have ")
         if report.chance.random() < 0.3:
-            report.put(report.line(row, k) + docx.run(f" ({report.position(k)})."))
+            report.put(report.line(row, k) + wml.run(f" ({report.position(k)})."))
         else:
-            report.put(docx.run(lead) + report.line(row, k) + docx.run("."))
+            report.put(wml.run(lead) + report.line(row, k) + wml.run("."))
 
 
 def scripts_lost(report: Report) -> None:
@@ -203,9 +203,9 @@ def scripts_lost(report: Report) -> None:
     report.look = "lost"
     _given(report, lambda row: report.put(report.line(row, 0)))
     for k in POSITIONS:
-        report.put(docx.run(report.position(k).capitalize() + ":", docx.BOLD))
+        report.put(wml.run(report.position(k).capitalize() + ":", wml.BOLD))
         for row in report.at(k):
-            report.put(docx.run(report.chance.choice(("- ", "+ ", "", "a) "))) + report.line(row, k))
+            report.put(wml.run(report.chance.choice(("- ", "+ ", "", "a) "))) + report.line(row, k))
 
 
 def tables_across(report: Report) -> None:
@@ -216,20 +216,20 @@ def tables_across(report: Report) -> None:
     for start in range(0, len(rows), 8):
         part = rows[start : start + 8]
         own_unit = report.chance.random() < 0.5
-        head = [docx.cell(docx.run(report.say("Đại lượng", "Quantity")), merged="first")]
-        head += [docx.cell(docx.run(report.say("Đơn vị", "Unit")), merged="first")] if own_unit else []
-        head.append(docx.cell(docx.run(report.say("Vị trí", "Position")), span=len(POSITIONS)))
-        second = [docx.cell("", merged="more") for _ in head[:-1]]
-        second += [docx.cell(docx.run(report.key.labels[k - 1])) for k in POSITIONS]
+        head = [wml.cell(wml.run(report.say("Đại lượng", "Quantity")), merged="first")]
+        head += [wml.cell(wml.run(report.say("Đơn vị", "Unit")), merged="first")] if own_unit else []
+        head.append(wml.cell(wml.run(report.say("Vị trí", "Position")), span=len(POSITIONS)))
+        second = [wml.cell("", merged="more") for _ in head[:-1]]
+        second += [wml.cell(wml.run(report.key.labels[k - 1])) for k in POSITIONS]
         lines = [head, second]
         for row in part:
             unit = row.unit.replace("°", "độ" if report.vi else "°")
-            beside = docx.run(f" ({unit})") if unit and not own_unit else ""
-            line = [docx.cell(report.symbol(row) + beside)]
-            line += [docx.cell(docx.run(unit))] if own_unit else []
-            line += [docx.cell(docx.run(report.draw(row, k) if k in row.positions else "–")) for k in POSITIONS]
+            beside = wml.run(f" ({unit})") if unit and not own_unit else ""
+            line = [wml.cell(report.symbol(row) + beside)]
+            line += [wml.cell(wml.run(unit))] if own_unit else []
+            line += [wml.cell(wml.run(report.draw(row, k) if k in row.positions else "–")) for k in POSITIONS]
             lines.append(line)
-        report.blocks.append(docx.table(lines, len(POSITIONS) + 1 + own_unit))
+        report.blocks.append(wml.table(lines, len(POSITIONS) + 1 + own_unit))
 
 
 def tables_down(report: Report) -> None:
@@ -240,14 +240,14 @@ def tables_down(report: Report) -> None:
     rows = [row for row in report.rows() if not row.single]
     for start in range(0, len(rows), 5):
         part = rows[start : start + 5]
-        head = [docx.cell(docx.run(report.say("Vị trí", "Position")))]
-        head += [docx.cell(report.symbol(row) + docx.run(f", {row.unit}" if row.unit else "")) for row in part]
+        head = [wml.cell(wml.run(report.say("Vị trí", "Position")))]
+        head += [wml.cell(report.symbol(row) + wml.run(f", {row.unit}" if row.unit else "")) for row in part]
         lines = [head]
         for k in POSITIONS:
-            line = [docx.cell(docx.run(report.key.labels[k - 1]))]
-            line += [docx.cell(docx.run(report.draw(row, k) if k in row.positions else "")) for row in part]
+            line = [wml.cell(wml.run(report.key.labels[k - 1]))]
+            line += [wml.cell(wml.run(report.draw(row, k) if k in row.positions else "")) for row in part]
             lines.append(line)
-        report.blocks.append(docx.table(lines, len(part) + 1))
+        report.blocks.append(wml.table(lines, len(part) + 1))
 
 
 def long_chains(report: Report) -> None:
@@ -259,25 +259,25 @@ def long_chains(report: Report) -> None:
         for row in report.at(k):
             number += 1
             report.put(
-                docx.formula(
-                    docx.scripts("v", "X")
-                    + docx.math_run("=")
-                    + docx.scripts("v", "Y")
-                    + docx.math_run("+")
-                    + docx.scripts("v", "XY")
+                wml.formula(
+                    wml.scripts("v", "X")
+                    + wml.math_run("=")
+                    + wml.scripts("v", "Y")
+                    + wml.math_run("+")
+                    + wml.scripts("v", "XY")
                 )
-                + docx.run(f"   (2.{number})")
+                + wml.run(f"   (2.{number})")
             )
             way = report.chance.random()
             if way < 0.35:
-                report.put(report.symbol(row) + docx.run(f" = {report.any_number()}·{report.any_number()}"))
-                report.put(docx.run(f"= {report.draw(row, k)}{report.unit(row)}"))
+                report.put(report.symbol(row) + wml.run(f" = {report.any_number()}·{report.any_number()}"))
+                report.put(wml.run(f"= {report.draw(row, k)}{report.unit(row)}"))
             elif way < 0.6:
                 report.put(
                     report.symbol(row)
-                    + docx.run(" = k·x ⇒ ")
+                    + wml.run(" = k·x ⇒ ")
                     + report.symbol(row)
-                    + docx.run(f" = {report.draw(row, k)}{report.unit(row)}")
+                    + wml.run(f" = {report.draw(row, k)}{report.unit(row)}")
                 )
             else:
                 report.put(report.line(row, k))
@@ -294,48 +294,46 @@ def corrected(report: Report) -> None:
             if way < 0.2:
                 report.put(
                     report.symbol(row)
-                    + docx.run(" = ")
-                    + docx.run(report.any_number(), docx.STRUCK)
-                    + docx.run(f"{report.draw(row, k)}{report.unit(row)}")
+                    + wml.run(" = ")
+                    + wml.run(report.any_number(), wml.STRUCK)
+                    + wml.run(f"{report.draw(row, k)}{report.unit(row)}")
                 )
                 continue
             if way < 0.35:
-                deleted = docx.run(report.any_number()).replace("w:t ", "w:delText ").replace("/w:t>", "/w:delText>")
+                deleted = wml.run(report.any_number()).replace("w:t ", "w:delText ").replace("/w:t>", "/w:delText>")
                 report.put(
                     report.symbol(row)
-                    + docx.run(" = ")
+                    + wml.run(" = ")
                     + f'<w:del w:id="1" w:author="x">{deleted}</w:del>'
-                    + f'<w:ins w:id="2" w:author="x">{docx.run(report.draw(row, k) + report.unit(row))}</w:ins>'
+                    + f'<w:ins w:id="2" w:author="x">{wml.run(report.draw(row, k) + report.unit(row))}</w:ins>'
                 )
                 continue
             if way < 0.5:
-                report.put(docx.run(report.say("Giả sử ", "Suppose ")) + report.symbol(row) + docx.run(wrong + "."))
+                report.put(wml.run(report.say("Giả sử ", "Suppose ")) + report.symbol(row) + wml.run(wrong + "."))
             report.put(report.line(row, k))
 
 
 def furniture(report: Report) -> None:
     """Captions, notes, contents, empty lines, text in many runs with letters that nobody sees."""
-    report.put(docx.run(report.say("MỤC LỤC", "CONTENTS"), docx.BOLD))
+    report.put(wml.run(report.say("MỤC LỤC", "CONTENTS"), wml.BOLD))
     for k in POSITIONS:
-        report.put(docx.run(f"2.{k} {report.position(k).capitalize()}\t{k + 3}"))
+        report.put(wml.run(f"2.{k} {report.position(k).capitalize()}\t{k + 3}"))
     _given(report, lambda row: report.put(report.line(row, 0)))
     for k in POSITIONS:
         report.heading(f"2.{k}. {report.position(k).capitalize()}", 2)
         for index, row in enumerate(report.at(k)):
             if index % 4 == 0:
                 report.put(
-                    docx.run(
-                        report.say(f"Hình 2.{index}. Họa đồ vận tốc, μ = 0,02", f"Figure 2.{index}. Velocity plan")
-                    )
+                    wml.run(report.say(f"Hình 2.{index}. Họa đồ vận tốc, μ = 0,02", f"Figure 2.{index}. Velocity plan"))
                 )
             text = f" = {report.draw(row, k)}{report.unit(row)}"
             cut = report.chance.randrange(1, len(text))
-            pieces = docx.run(text[:cut]) + docx.run("\u200b") + docx.run(text[cut:])
+            pieces = wml.run(text[:cut]) + wml.run("\u200b") + wml.run(text[cut:])
             report.put(
                 report.symbol(row)
                 + pieces
                 + (
-                    docx.run(report.say(" (theo hình trên).", " (from the plan)."))
+                    wml.run(report.say(" (theo hình trên).", " (from the plan)."))
                     if report.chance.random() < 0.3
                     else ""
                 )
@@ -350,7 +348,7 @@ def many_in_a_line(report: Report) -> None:
     report.look = report.chance.choice(("runs", "linear"))
     _given(report, lambda row: report.put(report.line(row, 0)))
     for k in POSITIONS:
-        report.put(docx.run(report.position(k).capitalize(), docx.BOLD))
+        report.put(wml.run(report.position(k).capitalize(), wml.BOLD))
         rows = report.at(k)
         for start in range(0, len(rows), 3):
             joint = report.chance.choice((", ", "; ", report.say(" và ", " and "), ". "))
@@ -358,7 +356,7 @@ def many_in_a_line(report: Report) -> None:
             parts = [
                 report.line(row, k, unit=worded or report.chance.random() < 0.8) for row in rows[start : start + 3]
             ]
-            report.put(docx.run(joint).join(parts) + docx.run("."))
+            report.put(wml.run(joint).join(parts) + wml.run("."))
 
 
 def loose_letters(report: Report) -> None:
@@ -366,12 +364,12 @@ def loose_letters(report: Report) -> None:
     report.look = "loose"
     _given(report, lambda row: report.put(report.line(row, 0)))
     for k in POSITIONS:
-        report.put(docx.run(report.say(f"Xét {report.position(k)}:", f"Consider {report.position(k)}:")))
+        report.put(wml.run(report.say(f"Xét {report.position(k)}:", f"Consider {report.position(k)}:")))
         for index, row in enumerate(report.at(k)):
             if index % 7 == 3:
                 another = report.chance.choice([one for one in POSITIONS if one != k])
                 report.put(
-                    docx.run(
+                    wml.run(
                         report.say(
                             f"Lớn hơn so với {report.position(another)}.",
                             f"This is larger than at {report.position(another)}.",
@@ -386,7 +384,7 @@ def loose_letters(report: Report) -> None:
                     report.say(" (theo chiều dương)", " (positive)"),
                 )
             )
-            report.put(report.line(row, k) + docx.run(remark))
+            report.put(report.line(row, k) + wml.run(remark))
 
 
 def unsaid(report: Report) -> None:
@@ -404,14 +402,14 @@ def unsaid(report: Report) -> None:
                     report.say(f"Từ {report.position(2)} đến 5, ", f"From {report.position(2)} to 5, "),
                 )
             )
-            report.put(docx.run(lead) + report.symbol(row) + docx.run(f" = {report.any_number()}{report.unit(row)}"))
+            report.put(wml.run(lead) + report.symbol(row) + wml.run(f" = {report.any_number()}{report.unit(row)}"))
 
 
 def _traps(report: Report, row: KeyRow, other: KeyRow, k: int) -> list[Callable[[], str]]:
     """Lines with a number that is no value of the row at the position, whatever it looks like."""
     number, unit, symbol = report.any_number, report.unit(row), report.symbol
     away = report.chance.choice([one for one in POSITIONS if one != k])
-    text = docx.run
+    text = wml.run
     say = report.say
 
     return [
@@ -433,7 +431,7 @@ def _traps(report: Report, row: KeyRow, other: KeyRow, k: int) -> list[Callable[
         lambda: symbol(row) + text(f" = {number()} ÷ {number()}{unit}"),
         lambda: symbol(row) + text(f" = {number()}{unit} {say('hoặc', 'or')} {number()}{unit}"),
         lambda: symbol(row) + text(f" = {number()}{unit} ({say('sai', 'wrong')})"),
-        lambda: symbol(row) + docx.run("2", docx.HIGH) + text(f" = {number()}"),
+        lambda: symbol(row) + wml.run("2", wml.HIGH) + text(f" = {number()}"),
         lambda: (
             text(say("Nếu ", "If ")) + symbol(row) + text(f" = {number()}{unit} {say('thì', 'then')} x = {number()}")
         ),
@@ -456,11 +454,11 @@ def _traps(report: Report, row: KeyRow, other: KeyRow, k: int) -> list[Callable[
             + text(f" = {number()}{unit}")
         ),
         lambda: text("Δ") + symbol(row, "linear") + text(f" = {number()}{unit}"),
-        lambda: docx.formula(
-            docx.math_run("|")
-            + docx.scripts(row.symbol.base, row.symbol.sub, row.symbol.sup)
-            + docx.math_run("|")
-            + docx.math_run("·k = 3")
+        lambda: wml.formula(
+            wml.math_run("|")
+            + wml.scripts(row.symbol.base, row.symbol.sub, row.symbol.sup)
+            + wml.math_run("|")
+            + wml.math_run("·k = 3")
         ),
     ]
 
@@ -487,7 +485,7 @@ def mixed(report: Report) -> None:
         report.chance.choice(
             (
                 lambda k=k: report.heading(report.position(k).capitalize(), 2),
-                lambda k=k: report.put(docx.run(report.position(k).capitalize() + ":", docx.BOLD)),
+                lambda k=k: report.put(wml.run(report.position(k).capitalize() + ":", wml.BOLD)),
             )
         )()
         rows = report.at(k)
@@ -502,27 +500,24 @@ def mixed(report: Report) -> None:
             elif way == 1 and rows:
                 other = rows.pop()
                 joint = report.chance.choice(("; ", ", ", "\t", report.say(" còn ", " and ")))
-                report.put(report.line(row, k) + docx.run(joint) + report.line(other, k))
+                report.put(report.line(row, k) + wml.run(joint) + report.line(other, k))
             elif way == 2:
                 report.put(
-                    docx.run(report.say(f"Ở {report.position(k)}: ", f"In {report.position(k)}: "))
-                    + report.line(row, k)
+                    wml.run(report.say(f"Ở {report.position(k)}: ", f"In {report.position(k)}: ")) + report.line(row, k)
                 )
             elif way == 3:
                 # A product without a sign between its factors.
-                report.put(
-                    report.symbol(row) + docx.run(" = ω l = ") + docx.run(report.draw(row, k) + report.unit(row))
-                )
+                report.put(report.symbol(row) + wml.run(" = ω l = ") + wml.run(report.draw(row, k) + report.unit(row)))
             elif way == 4:
                 report.put(
                     report.symbol(row)
-                    + docx.run(f" [{row.unit}] = " if row.unit else " = ")
-                    + docx.run(report.draw(row, k))
+                    + wml.run(f" [{row.unit}] = " if row.unit else " = ")
+                    + wml.run(report.draw(row, k))
                 )
             elif way == 5:
-                report.put(report.line(row, k) + docx.run(f"\t(2.{len(rows)})"))
+                report.put(report.line(row, k) + wml.run(f"\t(2.{len(rows)})"))
             elif way == 6:
-                report.put(report.symbol(row) + docx.run(f": {report.draw(row, k)}{report.unit(row)}"))
+                report.put(report.symbol(row) + wml.run(f": {report.draw(row, k)}{report.unit(row)}"))
             else:
                 report.put(report.line(row, k))
 

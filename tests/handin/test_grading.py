@@ -24,7 +24,7 @@ from reportgen.marking.policy import Policy, read_policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.report.key import Key
-from tests.handin import docx, reports
+from tests.handin import reports, wml
 from tests.lanes import proof
 
 FILE = reports.ROOT / "slotted-lever-01.yaml"
@@ -49,7 +49,7 @@ def key() -> Key:
 
 def report(key: Key, but: dict[str, str] | None = None, left: int = 0, head: str = "") -> bytes:
     """A report of all right values; `but` some by id, and `left` of them without a position."""
-    lines = [docx.paragraph(docx.run(head))]
+    lines = [wml.paragraph(wml.run(head))]
     later: list[str] = []
     for row in key.asked:
         place = row.positions[0]
@@ -58,11 +58,11 @@ def report(key: Key, but: dict[str, str] | None = None, left: int = 0, head: str
         symbol += f"^{row.symbol.sup}" if row.symbol.sup else ""
         written = (but or {}).get(row.id, f"{symbol} = {number} {row.unit}")
         if not row.single and len(later) < left:
-            later.append(docx.paragraph(docx.run(written)))
+            later.append(wml.paragraph(wml.run(written)))
         else:
-            lines.append(docx.paragraph(docx.run(f"Vị trí 2: {written}")))
-    ended = docx.paragraph(docx.run("Phần khác"), "u1")
-    return docx.package("".join((*lines, ended, *later)))
+            lines.append(wml.paragraph(wml.run(f"Vị trí 2: {written}")))
+    ended = wml.paragraph(wml.run("Phần khác"), "u1")
+    return wml.package("".join((*lines, ended, *later)))
 
 
 def grades(graded: assess.Graded, policy: Policy = RULES) -> list[dict[str, str]]:

@@ -13,9 +13,9 @@ from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
 from reportgen.workbook.package import RefusedError
-from tests.handin import docx, reports
+from tests.handin import reports, wml
 
-BODY = docx.paragraph(docx.run("v_D = 0,25 m/s"))
+BODY = wml.paragraph(wml.run("v_D = 0,25 m/s"))
 
 
 def refusal(content: bytes) -> str:
@@ -26,11 +26,11 @@ def refusal(content: bytes) -> str:
 
 def relation(kind: str, target: str, external: bool = True) -> str:
     mode = ' TargetMode="External"' if external else ""
-    return f'<Relationship Id="rId7" Type="{docx.R}/{kind}" Target="{target}"{mode}/>'
+    return f'<Relationship Id="rId7" Type="{wml.R}/{kind}" Target="{target}"{mode}/>'
 
 
 def with_part(name: str, content: bytes) -> bytes:
-    stream = io.BytesIO(docx.package(BODY))
+    stream = io.BytesIO(wml.package(BODY))
     with zipfile.ZipFile(stream, "a", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr(name, content)
     return stream.getvalue()
@@ -48,12 +48,12 @@ ENTITY = '<?xml version="1.0"?><!DOCTYPE x [<!ENTITY a "aaaa">]><x>&a;</x>'
         (with_part("word/vbaProject.bin", b"x"), "word-macros"),
         (with_part("word/settings.xml", ENTITY.encode()), "word-entities"),
         (with_part("word/big.bin", bytes(9_000_000)), "word-bomb"),
-        (docx.package(BODY, relations=relation("oleObject", "file:///etc/passwd")), "word-links"),
-        (docx.package(BODY, relations=relation("subDocument", "other.docx")), "word-links"),
-        (docx.package("<w:p>" * 250 + "</w:p>" * 250), "word-elements"),
-        (docx.package(BODY, {"word/document.xml": "<w:document"}), "word-damaged"),
-        (docx.package(BODY, {"word/document.xml": ENTITY}), "word-entities"),
-        (docx.package(BODY, {"word/document.xml": "<other/>"}), "word-damaged"),
+        (wml.package(BODY, relations=relation("oleObject", "file:///etc/passwd")), "word-links"),
+        (wml.package(BODY, relations=relation("subDocument", "other.docx")), "word-links"),
+        (wml.package("<w:p>" * 250 + "</w:p>" * 250), "word-elements"),
+        (wml.package(BODY, {"word/document.xml": "<w:document"}), "word-damaged"),
+        (wml.package(BODY, {"word/document.xml": ENTITY}), "word-entities"),
+        (wml.package(BODY, {"word/document.xml": "<other/>"}), "word-damaged"),
     ],
 )
 def test_it_is_refused(content: bytes, code: str) -> None:
@@ -62,12 +62,12 @@ def test_it_is_refused(content: bytes, code: str) -> None:
 
 def test_a_text_of_too_many_elements_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(word_nodes, "MOST_ELEMENTS", 50)
-    assert refusal(docx.package(BODY * 50)) == "word-elements"
+    assert refusal(wml.package(BODY * 50)) == "word-elements"
 
 
 def test_a_file_that_is_too_large_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(word_file, "LARGEST", 100)
-    assert refusal(docx.package(BODY)) == "word-large"
+    assert refusal(wml.package(BODY)) == "word-large"
 
 
 def test_pictures_and_links_of_honest_files_are_left_alone() -> None:
@@ -75,7 +75,7 @@ def test_pictures_and_links_of_honest_files_are_left_alone() -> None:
     links = relation("image", "http://example.org/a.png") + relation("hyperlink", "http://example.org").replace(
         "7", "8"
     )
-    file = open_word(Path("r.docx"), docx.package(BODY, {"word/media/a.png": "no picture"}, relations=links))
+    file = open_word(Path("r.docx"), wml.package(BODY, {"word/media/a.png": "no picture"}, relations=links))
     assert file.blocks
     assert not file.notes
 
@@ -83,14 +83,14 @@ def test_pictures_and_links_of_honest_files_are_left_alone() -> None:
 def test_a_template_that_stands_elsewhere_is_told_and_dropped_from_the_copy() -> None:
     """Who opens the copy fetches nothing; the student's own file is honest and is read."""
     template = '<w:zoom w:percent="100"/><w:attachedTemplate r:id="rId1"/>'
-    settings = f'<w:settings xmlns:w="{docx.W}" xmlns:r="{docx.R}">{template}</w:settings>'
+    settings = f'<w:settings xmlns:w="{wml.W}" xmlns:r="{wml.R}">{template}</w:settings>'
     attached = relation("attachedTemplate", "file:///C:/Users/x/report.dotm")
     parts = {
         "word/settings.xml": settings,
-        "word/_rels/settings.xml.rels": f'<Relationships xmlns="{docx.OPC}/relationships">{attached}</Relationships>',
+        "word/_rels/settings.xml.rels": f'<Relationships xmlns="{wml.OPC}/relationships">{attached}</Relationships>',
     }
     own = relation("settings", "settings.xml", external=False)
-    file = open_word(Path("r.docx"), docx.package(BODY, parts, relations=own))
+    file = open_word(Path("r.docx"), wml.package(BODY, parts, relations=own))
     assert [note.code for note in file.notes] == ["word-template"]
     copy = zipfile.ZipFile(io.BytesIO(with_comments(file, [MarginNote("read")])))
     everything = b"".join(copy.read(name) for name in copy.namelist())
@@ -113,5 +113,5 @@ def test_a_template_that_stands_elsewhere_is_told_and_dropped_from_the_copy() ->
 )
 def test_a_line_made_to_take_long_is_looked_through_once(text: str) -> None:
     """A pattern that tries all ways to part such a line would take minutes, and the run with it."""
-    blocks = open_word(Path("r.docx"), docx.package(docx.paragraph(docx.run(text)))).blocks
+    blocks = open_word(Path("r.docx"), wml.package(wml.paragraph(wml.run(text)))).blocks
     assert not read_report(blocks, reports.key_for("slotted-lever-01", "vi"), "r.docx").values

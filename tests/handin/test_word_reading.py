@@ -15,7 +15,7 @@ from reportgen.handin.word_reader import read_report
 from reportgen.marking.key import Ask, key_of
 from reportgen.report.key import Key
 from reportgen.writers import word
-from tests.handin import docx, figures, reports
+from tests.handin import figures, reports, wml
 from tests.lanes import matrix
 
 CASES = [(manner, machine, seed) for manner, machine, seed in reports.each(range(1))]
@@ -66,7 +66,7 @@ def key() -> Key:
 
 
 def read(*blocks: str, language: str = "vi") -> FileReading:
-    content = docx.package("".join(blocks))
+    content = wml.package("".join(blocks))
     return read_report(
         open_word(Path("r.docx"), content).blocks, reports.key_for("slotted-lever-01", language), "r.docx"
     )
@@ -74,10 +74,10 @@ def read(*blocks: str, language: str = "vi") -> FileReading:
 
 def line(text: str) -> str:
     """A paragraph of plain text."""
-    return docx.paragraph(docx.run(text))
+    return wml.paragraph(wml.run(text))
 
 
-HERE = docx.paragraph(docx.run("2.1 Vị trí 2"), "u2")
+HERE = wml.paragraph(wml.run("2.1 Vị trí 2"), "u2")
 PLACE = ("v.D", 2)
 
 
@@ -143,7 +143,7 @@ def test_a_position_ends_with_its_heading() -> None:
     """Under the next chapter nobody says which it is; a sentence that only compares changes nothing."""
     compared = read(HERE, line("Nhỏ hơn so với vị trí 5."), line("v_D = 0,25 m/s"))
     assert compared.values[PLACE].value == 0.25
-    ended = read(HERE, docx.paragraph(docx.run("3 Nhận xét"), "u1"), line("v_D = 0,25 m/s"))
+    ended = read(HERE, wml.paragraph(wml.run("3 Nhận xét"), "u1"), line("v_D = 0,25 m/s"))
     assert {fault.code for fault in ended.unread.values()} == {"unread-no-position"}
     assert not ended.values
 
@@ -159,22 +159,22 @@ def test_a_rotation_has_the_sense_that_is_said_or_counts_by_its_size() -> None:
 
 def test_what_is_struck_out_deleted_or_hidden_is_not_there() -> None:
     deleted = '<w:del w:id="1" w:author="x"><w:r><w:delText>9</w:delText></w:r></w:del>'
-    parts = docx.run("v_D = ") + docx.run("7 ", docx.STRUCK) + docx.run("8 ", docx.HIDDEN) + deleted
-    reading = read(HERE, docx.paragraph(parts + docx.run("0,25 m/s")))
+    parts = wml.run("v_D = ") + wml.run("7 ", wml.STRUCK) + wml.run("8 ", wml.HIDDEN) + deleted
+    reading = read(HERE, wml.paragraph(parts + wml.run("0,25 m/s")))
     assert reading.values[PLACE].value == 0.25
 
 
 def test_a_letter_of_the_font_symbol_is_greek() -> None:
     omega = '<w:r><w:sym w:font="Symbol" w:char="F077"/></w:r>'
-    reading = read(HERE, docx.paragraph(omega + docx.run("3", docx.LOW) + docx.run(" = 0,4 rad/s")))
+    reading = read(HERE, wml.paragraph(omega + wml.run("3", wml.LOW) + wml.run(" = 0,4 rad/s")))
     assert abs(reading.values["turn.omega.3", 2].value) == 0.4
 
 
 def test_equations_of_another_program_are_counted_and_what_is_blank_there_is_unread() -> None:
     """A blank under the heading may stand in one of them; elsewhere it is a blank."""
     equation = '<w:r><w:object><o:OLEObject Type="Embed" ProgID="Equation.DSMT4" r:id="rId9"/></w:object></w:r>'
-    elsewhere = docx.paragraph(docx.run("2.2 Vị trí 5"), "u2")
-    reading = read(HERE, line("v_D = 0,25 m/s"), docx.paragraph(equation), elsewhere, line("v_D = 0,3 m/s"))
+    elsewhere = wml.paragraph(wml.run("2.2 Vị trí 5"), "u2")
+    reading = read(HERE, line("v_D = 0,25 m/s"), wml.paragraph(equation), elsewhere, line("v_D = 0,3 m/s"))
     assert [note.arguments["count"] for note in reading.notes] == ["1"]
     assert reading.unread["a.D", 2].code == "unread-object"
     assert ("a.D", 5) not in reading.unread
@@ -189,7 +189,7 @@ def test_a_box_of_text_is_read_once() -> None:
         f'<mc:Choice Requires="wps"><w:drawing>{box}</w:drawing></mc:Choice>'
         f"<mc:Fallback><w:pict>{box.replace('0,25', '0,99')}</w:pict></mc:Fallback></mc:AlternateContent></w:r>"
     )
-    assert read(HERE, docx.paragraph(twice)).values[PLACE].value == 0.25
+    assert read(HERE, wml.paragraph(twice)).values[PLACE].value == 0.25
 
 
 def test_every_reason_has_its_words() -> None:

@@ -18,10 +18,10 @@ from reportgen.marking.marking import mark
 from reportgen.marking.marks import Verdict
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
-from tests.handin import docx, reports
+from tests.handin import reports, wml
 from tests.lanes import matrix
 
-W = f"{{{docx.W}}}"
+W = f"{{{wml.W}}}"
 NAME = Path("report.docx")
 
 
@@ -106,21 +106,21 @@ def test_nothing_else_changes() -> None:
 
 
 def test_comments_that_are_there_already_stay() -> None:
-    theirs = f'<w:comments xmlns:w="{docx.W}"><w:comment w:id="4" w:author="An"><w:p/></w:comment></w:comments>'
-    marked = '<w:commentRangeStart w:id="4"/>' + docx.run("v = 1") + '<w:commentRangeEnd w:id="4"/>'
+    theirs = f'<w:comments xmlns:w="{wml.W}"><w:comment w:id="4" w:author="An"><w:p/></w:comment></w:comments>'
+    marked = '<w:commentRangeStart w:id="4"/>' + wml.run("v = 1") + '<w:commentRangeEnd w:id="4"/>'
     marked += '<w:r><w:commentReference w:id="4"/></w:r>'
-    related = f'<Relationship Id="rId5" Type="{docx.R}/comments" Target="comments.xml"/>'
-    types = f'<Override PartName="/word/comments.xml" ContentType="{docx.OFFICE}.comments+xml"/>'
-    content = docx.package(docx.paragraph(marked), {"word/comments.xml": theirs}, related, types)
+    related = f'<Relationship Id="rId5" Type="{wml.R}/comments" Target="comments.xml"/>'
+    types = f'<Override PartName="/word/comments.xml" ContentType="{wml.OFFICE}.comments+xml"/>'
+    content = wml.package(wml.paragraph(marked), {"word/comments.xml": theirs}, related, types)
     pairs = commented(with_comments(open_word(NAME, content), [MarginNote("mine")]))
     assert pairs == [("mine", "v = 1"), ("", "v = 1")] or pairs == [("", "v = 1"), ("mine", "v = 1")]
 
 
 def test_a_number_in_a_box_of_text_has_its_comment_outside() -> None:
     """Word takes no comments in boxes."""
-    inner = f"<w:txbxContent>{docx.paragraph(docx.run('v = 2'))}</w:txbxContent>"
-    box = docx.paragraph(f"<w:r><w:pict><v:textbox>{inner}</v:textbox></w:pict></w:r>")
-    file = open_word(NAME, docx.package(box))
+    inner = f"<w:txbxContent>{wml.paragraph(wml.run('v = 2'))}</w:txbxContent>"
+    box = wml.paragraph(f"<w:r><w:pict><v:textbox>{inner}</v:textbox></w:pict></w:r>")
+    file = open_word(NAME, wml.package(box))
     element = next(node.number for node in file.tree.walk() if node.tag == "w:t")
     changed = zipfile.ZipFile(io.BytesIO(with_comments(file, [MarginNote("x", element)]))).read("word/document.xml")
     assert changed.index(b"commentRangeStart") < changed.index(b"w:pict") < changed.index(b"commentRangeEnd")
