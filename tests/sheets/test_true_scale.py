@@ -44,6 +44,7 @@ RULER = 0.02
 """Millimetres: places in the PDF are written to a thousandth, its heads to the angle of the arrow."""
 BY_RATIO = {
     ("engine-single-I", "drawn.BC"): 0.01,
+    ("engine-friction", "drawn.BC"): 0.01,
     ("engine-single-V", "drawn.BC"): 0.03,
     ("engine-single-VI", "drawn.BC"): 0.1,
 }
