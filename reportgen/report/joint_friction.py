@@ -18,6 +18,7 @@ from reportgen.drawing.labels import label
 from reportgen.drawing.plan import SAME_POINT, Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.scheme import mechanism, skeleton
 from reportgen.formula import Number, Symbol, friction_ids, ids
+from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.machine.joint_friction import FrictionForces, relative_sense
 from reportgen.plans.joint_friction import RubbingJoint, rubbing_joints
@@ -276,13 +277,9 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
         Line(foot - REACH / 2 * along, foot + REACH / 2 * along, style.CONSTRUCTION),
         Arc(0j, radius + 3.0, start, stop, style.DIMENSION, style.DIMENSION_HEAD),
     ]
-    turning = friction_ids.turning(carried.each.digits)
-    # Of a pin on the frame the link itself turns.
-    ω = (
-        report.ledger.symbol(turning)
-        if turning in report.ledger
-        else Symbol("ω", str(max(carried.each.of.joint.links)))
-    )
+    first, second = carried.each.of.joint.links
+    # Of a pin on the frame the link itself turns; no other link's ω is told where it slides.
+    ω = Symbol("ω", str(second) if first == GROUND else ids.joint(second, first))
     names = [
         label(foot / 2, report.ledger.symbol(friction_ids.circle(carried.each.point))),
         label((radius + 3.0) * polar(turn), ω),

@@ -19,7 +19,7 @@ from tests.report import built
 VARIANTS, FEW = 20, 2
 FIGURES = 5
 """Of a computed quantity's largest value."""
-GIVEN_WITH = {"segment": 2, "angle": 2, "direction": 1, "count": 0, "sign": 0}
+GIVEN_WITH = {"segment": 2, "angle": 2, "direction": 1, "count": 0, "sign": 0, "share": 3}
 """Decimals of what is not told by figures."""
 
 

@@ -251,7 +251,8 @@ def test_every_name_of_quantities_is_that_of_one(table: str) -> None:
     names: dict[str, set[bool]] = {}
     # No example has a linkage with each kind of group.
     rare = (built.ROOT / "tests" / "broken" / "files").glob("dyad*.yaml")
-    for path in (*(built.ROOT / "assignments").glob("*.yaml"), *rare):
+    samples = built.ROOT / "assignments"
+    for path in (*samples.glob("*.yaml"), *samples.glob("balancing/*.yaml"), *rare):
         case = built.case(path, "en")
         for kind in ("", case.assignment.kind):
             for name in (name for key in _own(table, kind) for name in key.split(", ")):
