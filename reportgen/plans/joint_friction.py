@@ -46,6 +46,12 @@ class RubbingJoint:
         return self.joint.kind == "R"
 
     @property
+    def ends(self) -> tuple[int, int]:
+        """The link that acts and the one that is acted on, of the reaction as it is named."""
+        first, second = self.joint.links
+        return (first, second) if self.digits == ids.joint(first, second) else (second, first)
+
+    @property
     def lost(self) -> str:
         """The id of the couple or the force of friction."""
         return (friction_ids.couple if self.is_pin else friction_ids.force)(self.digits)

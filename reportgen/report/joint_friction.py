@@ -171,7 +171,7 @@ def dead_rows(report: Report) -> Iterator[Sequence[object]]:
 
 @dataclass(frozen=True, slots=True)
 class JointForce:
-    """What a joint that rubs carries at a position: its force on the second link, and where that acts (m)."""
+    """What a joint that rubs carries at a position: its force on the link that its name ends with, and where (m)."""
 
     each: Rubbing
     force: complex
@@ -196,13 +196,15 @@ def joint_forces(report: Report, k: int) -> Iterator[JointForce]:
         name = reaction_name(*joint.links)
         reaction, rubs = solved.forces.reactions[name], loads[name, joint.links[1]]
         force, pin = complex(reaction.force[index]), complex(motion.points[joint.point].p[index])
+        # The forces are found for the second link; the reaction may be named as the one on the first.
+        sign = 1 if each.of.ends == joint.links else -1
         if each.kind == "pin":
             couple = float(rubs.couple[index])
             offset = -1j * force * couple / abs(force) ** 2 if force else 0j
-            yield JointForce(each, force, pin, k, offset)
+            yield JointForce(each, sign * force, pin, k, offset)
         else:
-            place = complex(reaction.point[index])
-            yield JointForce(each, force + complex(rubs.force[index]), place if cmath.isfinite(place) else pin, k, 0j)
+            place, whole = complex(reaction.point[index]), sign * (force + complex(rubs.force[index]))
+            yield JointForce(each, whole, place if cmath.isfinite(place) else pin, k, 0j)
 
 
 def scheme(report: Report, k: int) -> FigureScenes:
@@ -267,7 +269,9 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
     factor = max((factor for factor in ENLARGEMENTS if radius * factor <= ENLARGED), default=1.0)
     radius *= factor
     along, foot = carried.force / abs(carried.force), carried.offset / abs(carried.offset) * radius
-    sense = float(relative_sense(carried.each.of.joint, report.analysis.motion)[k - 1])
+    joint = carried.each.of.joint
+    acting, loaded = carried.each.of.ends
+    sense = float(relative_sense(joint, report.analysis.motion)[k - 1]) * (1 if loaded == joint.links[1] else -1)
     turn = cmath.phase(-foot)
     start, stop = (turn - 0.7, turn + 0.7) if sense > 0 else (turn + 0.7, turn - 0.7)
     items: list[Item] = [
@@ -277,9 +281,8 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
         Line(foot - REACH / 2 * along, foot + REACH / 2 * along, style.CONSTRUCTION),
         Arc(0j, radius + 3.0, start, stop, style.DIMENSION, style.DIMENSION_HEAD),
     ]
-    first, second = carried.each.of.joint.links
-    # Of a pin on the frame the link itself turns; no other link's ω is told where it slides.
-    ω = Symbol("ω", str(second) if first == GROUND else ids.joint(second, first))
+    # The link that the force acts on turns against the other; of a pin on the frame it does so by itself.
+    ω = Symbol("ω", str(loaded) if acting == GROUND else ids.joint(loaded, acting))
     names = [
         label(foot / 2, report.ledger.symbol(friction_ids.circle(carried.each.point))),
         label((radius + 3.0) * polar(turn), ω),

@@ -47,7 +47,22 @@ def test_reactions_are_tangent_to_the_friction_circles(file: Path) -> None:
         moment = np.imag(np.conj(carried.offset) * carried.force)
         assert abs(carried.offset) == pytest.approx(ρ, rel=1e-4), carried.each.digits  # as printed, to five figures
         assert abs(np.real(np.conj(carried.offset) * carried.force)) < 1e-9 * abs(carried.force) * ρ
-        assert np.sign(moment) == -relative_sense(carried.each.of.joint, report.analysis.motion)[k - 1]
+        turning = relative_sense(carried.each.of.joint, report.analysis.motion)[k - 1]
+        on_second = carried.each.digits.endswith(str(carried.each.of.joint.links[1]))
+        assert np.sign(moment) == (-turning if on_second else turning)
+
+
+@pytest.mark.parametrize("file", [SHAPER, SLIDER_CRANK], ids=lambda path: path.stem)
+def test_reactions_are_drawn_as_they_are_named(file: Path) -> None:
+    """The force of link i on link j: with the loads on a link, those named as on it less those as from it balance."""
+    report, k = report_of(file)
+    drawn = {carried.each.digits: carried.force for carried in friction.joint_forces(report, k)}
+    loads = [load for load in report.analysis.loads if load.name[0] != "R"]
+    for link in report.machine.linkage.links[1:]:
+        given = sum(complex(load.force[k - 1]) for load in loads if load.link == link)
+        on = sum(force for digits, force in drawn.items() if digits[1] == str(link))
+        by = sum(force for digits, force in drawn.items() if digits[0] == str(link))
+        assert abs(given + on - by) < 1e-6 * max(map(abs, drawn.values())), link
 
 
 def test_the_scheme_shows_circles_to_scale() -> None:
