@@ -52,6 +52,7 @@ PLAIN: Mapping[str, tuple[float, Dimension]] = {
     "rpm": (math.pi / 30, _SPEED),
     "rad/s": (1.0, _SPEED),
     "kg": (1.0, _MASS),
+    "g": (1e-3, _MASS),
     "N": (1.0, _FORCE),
     "kN": (1e3, _FORCE),
     "Pa": (1.0, _PRESSURE),
