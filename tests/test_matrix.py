@@ -21,10 +21,7 @@ BRIEF = [case for case in CASES if case[2] == matrix.OWN]
 WHOLE = "whole-shaper-whole"
 """A coursework with a part of each kind; the others, and what takes long of it, are for `make proof`."""
 SOON = {"check", "solve", "solve_json", "solve_format", "compare"}
-"""Commands that typeset and draw nothing: each kind answers them in the first lane."""
-OF_ROOMS = {*{module.rpartition(".")[0]: kind for kind, module in kinds().items()}.values(), "friction"}
-"""A kind of each room, and both sorts of exercises: these answer all commands there."""
-TELLING = [case for case in BRIEF if case[0] in OF_ROOMS or (case[1] in SOON and case[0] in {*kinds(), WHOLE})]
+TELLING = [case for case in BRIEF if case[0] in kinds() or (case[0] == WHOLE and case[1] in SOON)]
 
 
 def named(case: tuple[str, ...]) -> str:
