@@ -63,7 +63,7 @@ const now = () => performance.timeOrigin + performance.now(), begun = now();
 new MutationObserver((_, observer) => {
   observer.disconnect();
   requestAnimationFrame(() => setTimeout(() => done([begun, now()])));
-}).observe(document.body, { attributes: true, attributeFilter: ["data-moving"] });
+}).observe(document.body, { attributes: true, attributeFilter: ["data-moving", "data-drawn"] });
 field.value = arguments[1];
 field.dispatchEvent(new Event("change", { bubbles: true }));
 """

@@ -68,6 +68,8 @@
     if ("list" in input.dataset) body.list = true;
     input.dataset.was = input.value;
     change(body);
+    // What moves takes a number at once, before all is made anew from the file.
+    if ("unit" in input.dataset || "number" in input.dataset) drag(input);
   };
 
   // While a slider is drawn, only what moves follows: the newest value is asked for when the last one is there.
@@ -90,6 +92,7 @@
         // Changes of another machine than the page shows are no changes of that; its own come with the next value.
         if (String(changes.of) !== document.body.dataset.moving) continue;
         extended.get(machine?.root)?.feed(new Float32Array(samples, 4 + length), changes);
+        document.body.dataset.drawn = body.value;
       } catch { /* the server tells of itself */ }
     }
     asking = false;
