@@ -144,7 +144,8 @@ class EngineSheet:
         return angles
 
     def _weight(self, of: Expression) -> float:
-        return 1.0 if isinstance(of, Number) else self.q.si(of)  # type: ignore[arg-type]
+        """A vector's weight in its star: 1 where its pieces are alike, else what is entered for its cylinder."""
+        return self.q.si(of) if isinstance(of, Ref) else 1.0
 
     def _extent(self, weights: Mapping[str, Expression], directions: Mapping[str, Ref]) -> float:
         """The larger of width and height of a star, as its vectors are drawn one after another."""

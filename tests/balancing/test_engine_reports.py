@@ -5,19 +5,22 @@ from __future__ import annotations
 import cmath
 import math
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from reportgen import api
 from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_case import EngineCase
 from reportgen.balancing.engine_drawings import UP, star
 from reportgen.balancing.engine_sheet import COUPLES, ORDERS
+from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.catalogue import sample
 from reportgen.classes import assess
 from reportgen.classes.variants import make_variants
 from reportgen.drawing import Label
-from reportgen.formula import Chain
+from reportgen.formula import Chain, Number, Symbol
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.policy import Policy
@@ -32,16 +35,19 @@ from tests.marking.designs import named
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "engine-balance"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
-CASES = [(name, language) for name in NAMES for language in ("vi", "en")]
+LANGUAGES: tuple[Language, ...] = get_args(Language)
+CASES = [(name, language) for name in NAMES for language in LANGUAGES]
 TELLING = [("inline-four", "vi"), ("v-six", "en"), ("v-twin", "vi")]
 
 
-def case_of(name: str, language: str = "en"):  # type: ignore[no-untyped-def]
-    return open_case(FOLDER / f"{name}.yaml", language)  # type: ignore[arg-type]
+def case_of(name: str, language: Language = "en") -> EngineCase:
+    case = open_case(FOLDER / f"{name}.yaml", language)
+    assert isinstance(case, EngineCase)
+    return case
 
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))
-def test_every_line_recomputes(name: str, language: str) -> None:
+def test_every_line_recomputes(name: str, language: Language) -> None:
     found = [recomputes(chain) for chain in chains(case_of(name, language).document().blocks)]
     assert found.count(True) >= 10
     assert False not in found
@@ -90,7 +96,8 @@ def test_words_page_sheet_and_results(name: str) -> None:
     for part in sheet.parts:
         labels = [item.content for item in part.scene.items if isinstance(item, Label)]
         notes = [content.parts for content in labels if isinstance(content, Chain)]
-        μ = {parts[0].sub: parts[1].value for parts in notes}  # type: ignore[union-attr]
+        scales = [(parts[0], parts[1]) for parts in notes]
+        μ = {of.sub: by.value for of, by in scales if isinstance(of, Symbol) and isinstance(by, Number)}
         for side, length in arrows(part.scene).items():
             if side[1:].isdigit():
                 value = case.printed[orders_ids.resultant(side[0], side[1:])].at(1)
@@ -131,16 +138,16 @@ def test_what_cannot_be_is_located(old: str, new: str, faults: list[str], tmp_pa
     file = tmp_path / "engine.yaml"
     assert TEXT.count(old) == 1
     file.write_text(TEXT.replace(old, new), encoding="utf-8")
-    for language in ("vi", "en"):
-        found = api.check(file, language)  # type: ignore[arg-type]
+    for language in LANGUAGES:
+        found = api.check(file, language)
         assert [f"{one.mark.line}:{one.mark.column} {one.code}" for one in found] == faults
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])
-def test_the_file_of_new_is_right(language: str, tmp_path: Path) -> None:
+def test_the_file_of_new_is_right(language: Language, tmp_path: Path) -> None:
     file = tmp_path / "new.yaml"
-    file.write_text(sample("engine-balance", language), encoding="utf-8")  # type: ignore[arg-type]
-    assert api.check(file, language) == []  # type: ignore[arg-type]
+    file.write_text(sample("engine-balance", language), encoding="utf-8")
+    assert api.check(file, language) == []
 
 
 # --- marking ----------------------------------------------------------------------------------------------
