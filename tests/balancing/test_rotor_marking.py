@@ -9,19 +9,15 @@ import pytest
 from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_sheet import BEFORE
 from reportgen.cases import open_case
-from reportgen.classes import assess
 from reportgen.classes.assess import Graded
-from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
 from reportgen.marking.marking import mark
-from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
 from tests.lanes import proof
-from tests.marking import demo, students
-from tests.marking.designs import named, telling_and_texts
+from tests.marking import students
+from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
-STUDENTS = 12
 DRAWN = {
     "angle: 75 deg": "angle: {from: 60 deg, to: 100 deg, step: 5 deg}",
     "m: 3 kg": "m: {from: 2.5 kg, to: 3.5 kg, step: 0.1 kg}",
@@ -34,29 +30,13 @@ DIR_A, DIR_B = rotor_ids.direction("A"), rotor_ids.direction("B")
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of twelve variants, by an angle, a mass and the speed."""
-    folder = tmp_path_factory.mktemp("rotors")
-    text = (FOLDER / "rotor-two-planes.yaml").read_text(encoding="utf-8")
-    for old, new in DRAWN.items():
-        assert text.count(old) == 1
-        text = text.replace(old, new)
-    (folder / "spec.yaml").write_text(text, encoding="utf-8")
-    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
-    (folder / "roster.csv").write_text(roster, encoding="utf-8")
-    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
-    assert len(made.files) == STUDENTS
-    return folder
+    return drawn_class(tmp_path_factory.mktemp("rotors"), with_ranges(FOLDER / "rotor-two-planes.yaml", DRAWN))
 
 
 @pytest.fixture(scope="module")
 def graded(drawn: Path) -> Graded:
     """Sheets of three figures; the first student puts a correction on the wrong side and goes on from that."""
-    (drawn / "sheets").mkdir()
-    for path in sorted((drawn / "variants").glob("S*.yaml")):
-        scheme = marking_scheme(open_case(path))
-        slip = named(scheme, "rotor-wrong-side", DIR_B) if path.stem == "S01" else None
-        sheet = students.written(scheme, students.worked_out(scheme, slip))
-        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
-    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+    return graded_class(drawn, "rotor-wrong-side", DIR_B)
 
 
 def test_variants_differ(drawn: Path) -> None:

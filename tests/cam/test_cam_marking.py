@@ -11,19 +11,16 @@ import pytest
 from reportgen.base.errors import AssignmentError
 from reportgen.base.units import Language
 from reportgen.cases import open_case
-from reportgen.classes import assess
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
-from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
-from tests.marking import demo, students
-from tests.marking.designs import named, telling_and_texts
+from tests.marking import students
+from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "cam"
-STUDENTS = 12
 DRAWN = {
     "h: 40 mm": "h: {from: 30 mm, to: 45 mm, step: 1 mm}",
     "laws: {rise: cosine, return: 3-4-5}": "laws: {rise: [cosine, sine, 3-4-5], return: [3-4-5, parabolic, 4-5-6-7]}",
@@ -34,29 +31,13 @@ DRAWN = {
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of twelve variants, by laws, strokes and limits."""
-    folder = tmp_path_factory.mktemp("cams")
-    text = (FOLDER / "roller-01.yaml").read_text(encoding="utf-8")
-    for old, new in DRAWN.items():
-        assert text.count(old) == 1
-        text = text.replace(old, new)
-    (folder / "spec.yaml").write_text(text, encoding="utf-8")
-    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
-    (folder / "roster.csv").write_text(roster, encoding="utf-8")
-    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
-    assert len(made.files) == STUDENTS
-    return folder
+    return drawn_class(tmp_path_factory.mktemp("cams"), with_ranges(FOLDER / "roller-01.yaml", DRAWN))
 
 
 @pytest.fixture(scope="module")
 def graded(drawn: Path) -> Graded:
     """Sheets of three figures; the first student takes the phase in degrees for s′ and goes on from that."""
-    (drawn / "sheets").mkdir()
-    for path in sorted((drawn / "variants").glob("S*.yaml")):
-        scheme = marking_scheme(open_case(path))
-        slip = named(scheme, "cam-degrees", "cam.ds") if path.stem == "S01" else None
-        sheet = students.written(scheme, students.worked_out(scheme, slip))
-        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
-    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+    return graded_class(drawn, "cam-degrees", "cam.ds")
 
 
 def test_variants_differ(drawn: Path) -> None:

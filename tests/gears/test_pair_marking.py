@@ -11,48 +11,33 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.cases import open_case
-from reportgen.classes import assess
 from reportgen.classes.assess import Graded
-from reportgen.classes.variants import make_variants
 from reportgen.formula import refs
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import standing_on
 from reportgen.marking.marking import compare, mark
 from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.working import Change
-from tests.marking import demo, students
-from tests.marking.designs import named, telling_and_texts
+from tests.marking import students
+from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
-STUDENTS = 12
 PARAMETERS = "parameters: {m: [3 mm, 4 mm, 5 mm], z1: {from: 12, to: 16, step: 1}, z2: {from: 28, to: 40, step: 1}}\n"
 
 
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of twelve variants, by modules and numbers of teeth."""
-    folder = tmp_path_factory.mktemp("gears")
-    (folder / "spec.yaml").write_text(f"kind: gear-pair\nreport: {{language: en}}\n{PARAMETERS}", encoding="utf-8")
-    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
-    (folder / "roster.csv").write_text(roster, encoding="utf-8")
-    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
-    assert len(made.files) == STUDENTS
-    return folder
+    text = f"kind: gear-pair\nreport: {{language: en}}\n{PARAMETERS}"
+    return drawn_class(tmp_path_factory.mktemp("gears"), text)
 
 
 @pytest.fixture(scope="module")
 def graded(drawn: Path) -> Graded:
     """Right sheets; the first student forgets the tip shortening and goes on from that."""
-    (drawn / "sheets").mkdir()
-    for path in sorted((drawn / "variants").glob("S*.yaml")):
-        scheme = marking_scheme(open_case(path))
-        slip = named(scheme, "gear-truncation", "gears.h_a.1") if path.stem == "S01" else None
-        sheet = students.written(scheme, students.worked_out(scheme, slip))
-        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
-    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+    return graded_class(drawn, "gear-truncation", "gears.h_a.1")
 
 
 @pytest.mark.proof

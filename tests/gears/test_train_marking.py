@@ -7,19 +7,15 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.classes import assess
 from reportgen.classes.assess import Graded
-from reportgen.classes.variants import make_variants
 from reportgen.gears import train_ids
 from reportgen.marking.marking import mark
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
-from tests.marking import demo, students
-from tests.marking.designs import named, telling_and_texts
+from tests.marking import students
+from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts, with_ranges
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "gears"
-STUDENTS = 12
 DRAWN = {"u: 14.5": "u: {from: 8, to: 14.5, step: 0.1}", "n_in: 1440 rpm": "n_in: [960 rpm, 1440 rpm, 2880 rpm]"}
 TEETH = tuple(train_ids.teeth(wheel) for wheel in ("1", "2", "2′", "3"))
 
@@ -27,29 +23,13 @@ TEETH = tuple(train_ids.teeth(wheel) for wheel in ("1", "2", "2′", "3"))
 @pytest.fixture(scope="module")
 def drawn(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of twelve variants, by ratios and speeds."""
-    folder = tmp_path_factory.mktemp("trains")
-    text = (FOLDER / "train-double.yaml").read_text(encoding="utf-8")
-    for old, new in DRAWN.items():
-        assert text.count(old) == 1
-        text = text.replace(old, new)
-    (folder / "spec.yaml").write_text(text, encoding="utf-8")
-    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
-    (folder / "roster.csv").write_text(roster, encoding="utf-8")
-    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
-    assert len(made.files) == STUDENTS
-    return folder
+    return drawn_class(tmp_path_factory.mktemp("trains"), with_ranges(FOLDER / "train-double.yaml", DRAWN))
 
 
 @pytest.fixture(scope="module")
 def graded(drawn: Path) -> Graded:
     """Sheets of three figures; the first student takes the ratio without the 1 and goes on from that."""
-    (drawn / "sheets").mkdir()
-    for path in sorted((drawn / "variants").glob("S*.yaml")):
-        scheme = marking_scheme(open_case(path))
-        slip = named(scheme, "train-without-one", "train.u1H") if path.stem == "S01" else None
-        sheet = students.written(scheme, students.worked_out(scheme, slip))
-        (drawn / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
-    return assess.grade([drawn / "sheets"], drawn / "variants", Policy())
+    return graded_class(drawn, "train-without-one", "train.u1H")
 
 
 def test_variants_differ(drawn: Path) -> None:

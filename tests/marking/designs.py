@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,47 @@ import pymupdf
 from reportgen import api
 from reportgen.base.units import write
 from reportgen.cases import open_case
+from reportgen.classes import assess
+from reportgen.classes.assess import Graded
+from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
 from reportgen.marking.key import key_of
 from reportgen.marking.mistakes import Mistake
-from reportgen.marking.scheme import MarkingScheme
+from reportgen.marking.policy import Policy
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
+from tests.marking import demo, students
+
+STUDENTS = 12
+
+
+def with_ranges(file: Path, drawn: Mapping[str, str]) -> str:
+    """The text of a sample with ranges in place of some of its values."""
+    text = file.read_text(encoding="utf-8")
+    for old, new in drawn.items():
+        assert text.count(old) == 1
+        text = text.replace(old, new)
+    return text
+
+
+def drawn_class(folder: Path, specification: str) -> Path:
+    """The folder of a class of twelve with a variant each."""
+    (folder / "spec.yaml").write_text(specification, encoding="utf-8")
+    roster = "id,name,class\n" + "".join(f"S{number:02d},Student {number},K1\n" for number in range(1, STUDENTS + 1))
+    (folder / "roster.csv").write_text(roster, encoding="utf-8")
+    made = make_variants(folder / "spec.yaml", folder / "roster.csv", folder / "variants", False, "en")
+    assert len(made.files) == STUDENTS
+    return folder
+
+
+def graded_class(folder: Path, mistake: str, where: str) -> Graded:
+    """Marks of right sheets of three figures; the first student makes a mistake at a place and goes on from that."""
+    (folder / "sheets").mkdir()
+    for path in sorted((folder / "variants").glob("S*.yaml")):
+        scheme = marking_scheme(open_case(path))
+        slip = named(scheme, mistake, where) if path.stem == "S01" else None
+        sheet = students.written(scheme, students.worked_out(scheme, slip))
+        (folder / "sheets" / f"{path.stem}.xlsx").write_bytes(demo.workbook(scheme.key, sheet))
+    return assess.grade([folder / "sheets"], folder / "variants", Policy())
 
 
 def named(scheme: MarkingScheme, name: str, *where: str) -> Mistake:
