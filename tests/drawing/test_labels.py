@@ -13,6 +13,9 @@ from reportgen.drawing.labels import label
 from reportgen.formula import Symbol
 from tests.drawing.overlaps import overlaps
 
+FEW = 8
+"""So many names find room wherever they stand, even all at one point."""
+
 points = st.builds(complex, st.floats(0, 120), st.floats(0, 120))
 
 
@@ -31,10 +34,10 @@ def drafts(draw: st.DrawFn) -> Canvas:
 @given(drafts())
 def test_labels_keep_clear_of_strokes_each_other_and_the_edge(draft: Canvas) -> None:
     scene = finish(draft)
-    assert overlaps(scene) == []
-    # Where there is no room for two, they stand side by side with a comma between.
-    names = [item.content for item in scene.items if isinstance(item, Label) and item.content != ", "]
-    assert len(names) == len(draft.requests)
+    # A dozen names of one point find no room in a corner: the scene says so, and its figure takes a finer scale.
+    assert scene.crowded or overlaps(scene) == []
+    assert len(draft.requests) > FEW or not overlaps(scene)
+    assert sum(isinstance(item, Label) for item in scene.items) == len(draft.requests)
 
 
 @settings(max_examples=10, deadline=None)
