@@ -7,24 +7,26 @@ What comes before the document is in a `Case`.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from reportgen import catalogue
+from reportgen.api import typesetting
+from reportgen.api.typesetting import Engine, reading_ahead
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
-from reportgen.assignment.reading import inputs, placed
+from reportgen.assignment.reading import inputs
 from reportgen.base import made
-from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
+from reportgen.base.errors import NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch, version
-from reportgen.base.source import read_source
+from reportgen.base.standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, templates_hash, word
+from reportgen.base.words import templates_hash, word
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.report.case import bounded
 
@@ -36,17 +38,19 @@ if TYPE_CHECKING:
     from reportgen.report import Document
     from reportgen.report.case import Case
     from reportgen.report.key import Key
-    from reportgen.report.layout import Letter
-    from reportgen.writers.pdflatex import Ahead
 
-Engine = Literal["typst", "latex"]
-SUFFIX = {"typst": ".typ", "latex": ".tex"}
 FORMATS = ("pdf", "html", "docx")
 """What a report can be written as."""
 
 
 load, check, examine, assess = catalogue.load, catalogue.check, catalogue.examine, catalogue.assess
 schema, sample, examples, example = catalogue.schema, catalogue.sample, catalogue.examples, catalogue.example
+letter_of, typeset, typeset_sheet, SUFFIX = (
+    typesetting.letter_of,
+    typesetting.typeset,
+    typesetting.typeset_sheet,
+    typesetting.SUFFIX,
+)
 
 
 def analyse(assignment: Assignment) -> Analysis:
@@ -116,15 +120,18 @@ def build(
     formats: Sequence[str] = ("pdf",),
     extent: Extent | None = None,
     listing: bool = False,
+    standards: Standards = STANDARDS,
 ) -> Path:
     """Write the complete report to `out`/<id>/report.pdf and return that path; of several formats that of the first.
 
     It has the language and the extent of the file unless others are given.  A `listing` adds a program of the closed
-    formulas, which also stands beside it as report.py; raises `NotOfferedError` where there are none.
-    Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`, `TypesetterError`,
-    `OutputError`.
+    formulas, which also stands beside it as report.py; raises `NotOfferedError` where there are none.  A PDF of typst
+    keeps the `standards`.  Files appear whole or not at all.  Raises `AssignmentError`, `TemplateError`,
+    `TypesetterError`, `OutputError`.
     """
-    put = build_each(path, out, engine, language, keep_source, formats, extent=extent, listing=listing)
+    put = build_each(
+        path, out, engine, language, keep_source, formats, extent=extent, listing=listing, standards=standards
+    )
     return put.paths[0]
 
 
@@ -137,6 +144,7 @@ def build_each(
     formats: Sequence[str],
     extent: Extent | None = None,
     listing: bool = False,
+    standards: Standards = STANDARDS,
 ) -> made.Put:
     """Write the complete report in some of `FORMATS`; gives their paths in that order, and what became of others."""
     from reportgen.report import Listing
@@ -148,16 +156,16 @@ def build_each(
         assignment = assignment.with_listing()
     letter = letter_of(assignment, engine) if "pdf" in formats else None
     files: dict[str, bytes] = {}
-    with reported(), scratch(Path(out)), _ahead(assignment, engine, letter) as ahead:
+    with reported(), scratch(Path(out)), reading_ahead(assignment, engine, letter) as ahead:
         step("solve")
         case = opened(assignment)
         step("compose")
         tree = case.document()
         if "pdf" in formats:
             if ahead is not None:
-                source, pdf = typeset(tree, engine, letter, ahead)
+                source, pdf = typeset(tree, engine, letter, standards, ahead)
             else:
-                source, pdf = bounded(assignment, typeset, tree, engine, letter)
+                source, pdf = bounded(assignment, typeset, tree, engine, letter, standards)
             files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
         if "html" in formats:
             files["report.html"] = _page(case, tree)
@@ -168,11 +176,14 @@ def build_each(
             files["report.py"] = "\n".join((*program.lines, "")).encode()
         elif listing:
             raise NotOfferedError(word("no_listing", assignment.language, kind=assignment.kind))
-    put = made.put_made(Path(out) / assignment.id, files, "report", made_of(path, engine, assignment.language))
+    of = made_of(path, engine, assignment.language, standards)
+    put = made.put_made(Path(out) / assignment.id, files, "report", of)
     return replace(put, paths=tuple(Path(out) / assignment.id / f"report.{name}" for name in formats))
 
 
-def made_of(path: Path | str, engine: str, language: Language | None, **more: str) -> made.MadeOf:
+def made_of(
+    path: Path | str, engine: str, language: Language | None, standards: Standards = STANDARDS, **more: str
+) -> made.MadeOf:
     """All input that decides the bytes of what is made of an assignment file now, in its own language without another.
 
     Raises `AssignmentError`, `OutputError`.
@@ -180,16 +191,8 @@ def made_of(path: Path | str, engine: str, language: Language | None, **more: st
     spoken = language or load(path).language
     with reported():
         assignment = made.assignment_hash(*inputs(Path(path)))
+    more["standards"] = other_than_usual(standards)
     return made.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
-
-
-def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> AbstractContextManager[Ahead | None]:
-    """The typesetter, if it has something to read while the report is worked out; under a school's templates later."""
-    if engine != "latex" or letter is None or assignment.school is not None:
-        return nullcontext()
-    from reportgen.writers import latex, pdflatex
-
-    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short"))
 
 
 def _page(case: Case, tree: Document) -> bytes:
@@ -229,65 +232,13 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
 
 
-def letter_of(assignment: Assignment, engine: Engine) -> Letter:
-    """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
-    from reportgen.report.layout import Letter
-
-    font = assignment.report.font or ""
-    if font and font not in (known := _fonts(engine)):
-        finding = Finding(
-            "no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)}
-        )
-        raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
-    return Letter(font, float(assignment.report.size.removesuffix(" pt")))
-
-
-def _fonts(engine: Engine) -> list[str]:
-    """The fonts whose names an engine knows."""
-    if engine == "latex":
-        from reportgen.writers import latex
-
-        return list(latex.FAMILIES)
-    from reportgen.writers import typst_fonts
-
-    return typst_fonts.families()
-
-
-def typeset(
-    tree: Document, engine: Engine, letter: Letter | None = None, ahead: Ahead | None = None
-) -> tuple[str, bytes]:
-    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`.
-
-    LaTeX may have read `ahead` what the source begins with.
-    """
-    from reportgen.report.layout import Letter
-
-    step("typeset")
-    letter = letter or Letter()
-    if engine == "latex":
-        from reportgen.writers import latex, pdflatex
-
-        compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
-        return compiled.source, compiled.pdf
-    from reportgen.writers import typst
-
-    source = typst.write(tree, letter)
-    return source, typst.compile(source, system=bool(letter.font))
-
-
-def typeset_sheet(sheet: DrawingSheet, title: str, language: Language) -> bytes:
-    """The PDF of a drawing sheet.  Raises `TypesetterError`."""
-    from reportgen.writers import typst
-
-    step("typeset")
-    return typst.compile(typst.write_sheet(sheet, title, language))
-
-
 # --- products: what a batch makes of an assignment file -----------------------------------------------
 
 
 Maker = Callable[..., Mapping[str, bytes]]
-"""Makes the files of one product, by name, from path, engine and language, and of `ASKING` also from `ask`.
+"""Makes the files of one product, by name, from path, engine and language.
+
+Those of `ASKING` take `ask`, too, those of `TYPESET` the `standards` that their PDF keeps.
 
 It depends on its arguments alone, so that it can run anywhere.
 """
@@ -295,11 +246,13 @@ It depends on its arguments alone, so that it can run anywhere.
 KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
 
 
-def report_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
+def report_files(
+    path: Path, engine: Engine, language: Language | None, standards: Standards = STANDARDS
+) -> Mapping[str, bytes]:
     """The complete report."""
     assignment = load(path, language)
     letter = letter_of(assignment, engine)
-    return {"report.pdf": bounded(assignment, typeset, document(assignment), engine, letter)[1]}
+    return {"report.pdf": bounded(assignment, typeset, document(assignment), engine, letter, standards)[1]}
 
 
 def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
@@ -314,7 +267,9 @@ def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping
     return {"report.docx": _word(case.assignment, case.document())}
 
 
-def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask | None = None) -> Mapping[str, bytes]:
+def task_files(
+    path: Path, engine: Engine, language: Language | None, ask: Ask | None = None, standards: Standards = STANDARDS
+) -> Mapping[str, bytes]:
     """The student's handout, the answer sheet of what is to be asked, and the data to check oneself by, if wanted.
 
     No answer is in them.
@@ -330,7 +285,7 @@ def task_files(path: Path, engine: Engine, language: Language | None, ask: Ask |
     key = chosen.on_paper(key_of(case))
     letter = letter_of(case.assignment, engine)
     task = task_of(case, key, chosen.by_section, chosen.self_check)
-    files = {"task.pdf": bounded(case.assignment, typeset, task, engine, letter)[1]}
+    files = {"task.pdf": bounded(case.assignment, typeset, _dated(task, case), engine, letter, standards)[1]}
     files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section, chosen.self_check))
     return files | ({"assignment.yaml": handed_out(path).encode()} if chosen.self_check else {})
 
@@ -350,6 +305,7 @@ def key_files(
     language: Language | None,
     formats: Sequence[str] = ("pdf", "xlsx"),
     ask: Ask | None = None,
+    standards: Standards = STANDARDS,
 ) -> Mapping[str, bytes]:
     """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
     from reportgen.marking import key_files as files
@@ -360,12 +316,19 @@ def key_files(
     case = open_case(path, language)
     key = (ask or Ask()).of(key_of(case))
     makers: Mapping[str, Callable[[], bytes]] = {
-        "pdf": lambda: bounded(case.assignment, typeset, files.key_document(key, case.title), engine)[1],
+        "pdf": lambda: bounded(
+            case.assignment, typeset, _dated(files.key_document(key, case.title), case), engine, None, standards
+        )[1],
         "xlsx": lambda: write_xlsx(files.key_book(key)),
         "csv": lambda: write_csv(files.key_rows(key)),
         "json": lambda: files.key_json(key).encode(),
     }
     return {f"key.{name}": makers[name]() for name in formats}
+
+
+def _dated(tree: Document, case: Case) -> Document:
+    """A document about a case with the date of its report."""
+    return replace(tree, date=case.assignment.report.date)
 
 
 SHEET_FORMATS = ("pdf", "dxf")
@@ -380,6 +343,7 @@ def sheet_files(
     formats: Sequence[str] = SHEET_FORMATS,
     block: Path | None = None,
     every: bool = False,
+    standards: Standards = STANDARDS,
 ) -> Mapping[str, bytes]:
     """The drawing sheets, `sheet-1.pdf`, `sheet-1.dxf`, …, whatever the engine of the report.
 
@@ -393,7 +357,7 @@ def sheet_files(
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: bounded(case.assignment, typeset_sheet, sheet, case.title, case.assignment.language),
+        "pdf": lambda sheet: bounded(case.assignment, typeset_sheet, sheet, case.title, case.assignment, standards),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {
@@ -424,6 +388,8 @@ USUAL = ("task", "report", "key")
 """What a batch makes unless it is told."""
 ASKING = frozenset({"task", "key", "frame"})
 """Those that depend on what the answer sheet asks for."""
+TYPESET = frozenset({"task", "report", "key", "sheet"})
+"""Those that have a PDF."""
 
 
 def policy(path: Path | None, language: Language | None) -> Policy:

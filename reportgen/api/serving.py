@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from reportgen.api import typeset
+from reportgen.api.typesetting import typeset
 from reportgen.base.units import Language
 from reportgen.cases import opener
 from reportgen.page import watch as served

@@ -187,3 +187,7 @@ class OutputError(ReportgenError):
     """The result could not be written."""
 
     exit_code = 3
+
+
+class OutputWarning(UserWarning):
+    """A file is made, but not all as it was asked for; its words are those of whoever is told."""

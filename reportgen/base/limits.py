@@ -11,6 +11,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
@@ -18,6 +19,8 @@ from functools import cache
 from pathlib import Path
 from threading import Thread, Timer
 from typing import Any, TypeVar
+
+from reportgen.base.errors import OutputWarning
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -71,7 +74,8 @@ def call_within(limits: Limits, function: Callable[[Argument], Result], argument
     """What `function`, named in a module, makes of an argument that can be pickled.
 
     Seconds are those of the processor.  All that the call starts is of its group and ends with it; a call within a
-    call is made in the same process, whose limits hold for both.  Raises what the call raises, and `LimitError`.
+    call is made in the same process, whose limits hold for both.  Raises what the call raises, and `LimitError`; warns
+    as the call does of what it made.
     """
     if _bounded:
         return function(argument)
@@ -95,7 +99,9 @@ def call_within(limits: Limits, function: Callable[[Argument], Result], argument
             late.cancel()
     if process.returncode:
         raise LimitError
-    answer, fault = pickle.loads(data)
+    answer, fault, warned = pickle.loads(data)
+    for warning in warned:
+        warnings.warn(warning, stacklevel=2)
     if fault is not None:
         raise fault
     result: Result = answer
@@ -149,22 +155,25 @@ def serve() -> None:
     """The other side of `call_within`: one call from standard input, its outcome to standard output."""
     global _bounded
     _bounded = True
-    outcome: tuple[Any, Exception | None]
+    answer: Any = None
+    fault: Exception | None = None
     stream = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
     limits, function, argument = pickle.load(sys.stdin.buffer)
     Thread(target=_end_alone, daemon=True).start()
     limit_memory(limits.megabytes)
     _limit_time(limits.seconds)
-    try:
-        outcome = function(argument), None
-    except MemoryError:
-        outcome = None, LimitError()
-    except Exception as error:
-        outcome = None, error
-    data = pickle.dumps(outcome)
+    with warnings.catch_warnings(record=True) as warned:
+        warnings.simplefilter("always", OutputWarning)
+        try:
+            answer = function(argument)
+        except MemoryError:
+            fault = LimitError()
+        except Exception as error:
+            fault = error
+    data = pickle.dumps((answer, fault, [one.message for one in warned]))
     if len(data) > LARGEST_ANSWER:
-        data = pickle.dumps((None, LimitError()))
+        data = pickle.dumps((None, LimitError(), []))
     with stream:
         stream.write(data)
 

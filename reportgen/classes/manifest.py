@@ -30,6 +30,8 @@ JOURNAL = ".manifest.journal"
 FORMAT = "reportgen-batch/1"
 ASK = "ask"
 """What the answer sheet asks for decides the bytes of a product too, where a policy says so."""
+STANDARDS = "standards"
+"""So do the standards that a PDF keeps, where they are not the usual ones."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,9 +74,10 @@ def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
 
 
 def made_of(job: Job) -> dict[str, str | None]:
-    """What a job's product is made of, what the answer sheet asks for as `ASK`."""
+    """What a job's product is made of, what the answer sheet asks for as `ASK`, what its PDF keeps as `STANDARDS`."""
     how = job.making
-    return made_of_input(job.assignment, how.engine, how.language, how.templates, how.version, **{ASK: how.ask})
+    more = {ASK: how.ask, STANDARDS: how.standards}
+    return made_of_input(job.assignment, how.engine, how.language, how.templates, how.version, **more)
 
 
 def read_manifest(out: Path) -> dict[tuple[str, str], ManifestEntry]:
@@ -134,7 +137,7 @@ def _lines(content: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 def _entry(line: dict[str, Any]) -> ManifestEntry | None:
     """The entry of a line, unless the line is not of the form that `journal` gives."""
-    made = {key: line.get(key) for key in (*MADE_OF, *((ASK,) if ASK in line else ()))}
+    made = {key: line.get(key) for key in (*MADE_OF, *(name for name in (ASK, STANDARDS) if name in line))}
     try:
         entry = _ENTRY.validate_python({**line, "made_of": made})
     except ValidationError:

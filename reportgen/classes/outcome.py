@@ -8,10 +8,11 @@ from itertools import groupby
 from pathlib import Path
 
 from reportgen import api
-from reportgen.api import Engine
+from reportgen.api.typesetting import Engine
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import SETS, overwritten, put_files, reported, scratch
 from reportgen.base.kinds import title
+from reportgen.base.standards import STANDARDS, Standards
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
 from reportgen.classes.assess import Graded
@@ -36,7 +37,12 @@ from reportgen.workbook import write_csv, write_xlsx
 
 
 def files_of(
-    graded: Graded, policy: Policy, engine: Engine, language: Language | None, out: Path | None = None
+    graded: Graded,
+    policy: Policy,
+    engine: Engine,
+    language: Language | None,
+    out: Path | None = None,
+    standards: Standards = STANDARDS,
 ) -> Iterator[tuple[Path, bytes]]:
     """Every file of a graded class with its content: three for each student, and those of the instructor.
 
@@ -44,13 +50,13 @@ def files_of(
     completed below `out`.
 
     What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
-    students.
+    students.  A PDF of typst keeps the `standards`.
     """
     returned: dict[str, bytes] = {}
     for marking in graded.markings:
         key = marking.key
         folder = _folder(key)
-        files = dict(_feedback(marking, policy, engine))
+        files = dict(_feedback(marking, policy, engine, standards))
         copies = dict(_copies(graded, marking, policy, language))
         yield from ((folder / name, content) for name, content in {**copies, **files}.items())
         if owner := graded.owners.get(key.id):
@@ -68,7 +74,7 @@ def files_of(
             yield Path("by-variant.csv"), write_csv(variant_rows(compared, spoken))
         named = title(key.kind, spoken)
         overview = class_document(graded.markings, named, spoken, graded.unmarked, policy)
-        yield Path("class.pdf"), api.typeset(overview, engine)[1]
+        yield Path("class.pdf"), api.typeset(overview, engine, None, standards)[1]
 
 
 def _folder(key: Key) -> Path:
@@ -96,19 +102,26 @@ def _readings(graded: Graded, policy: Policy, out: Path | None) -> Iterator[tupl
             yield target, reading_book(key_asked(policy, key, submission)[0], submission)
 
 
-def _feedback(marking: Marking, policy: Policy, engine: Engine) -> Iterator[tuple[str, bytes]]:
+def _feedback(marking: Marking, policy: Policy, engine: Engine, standards: Standards) -> Iterator[tuple[str, bytes]]:
     """The files of one student: the own sheet, a page, and a text to paste."""
     key = marking.key
     yield "feedback.xlsx", write_xlsx(feedback_book(marking, policy.show_answers))
     tree = feedback_document(marking, title(key.kind, key.language), policy)
-    yield "feedback.pdf", api.typeset(tree, engine)[1]
+    yield "feedback.pdf", api.typeset(tree, engine, None, standards)[1]
     yield "feedback.txt", "".join(f"{line}\n" for line in comment(marking, policy)).encode()
 
 
-def put(graded: Graded, policy: Policy, out: Path, engine: Engine, language: Language | None) -> Iterator[Path]:
+def put(
+    graded: Graded,
+    policy: Policy,
+    out: Path,
+    engine: Engine,
+    language: Language | None,
+    standards: Standards = STANDARDS,
+) -> Iterator[Path]:
     """Write every file of a graded class below `out`, those of a folder together; raises `OutputError`."""
     with reported(out), scratch(out):
-        made = files_of(graded, policy, engine, language, out)
+        made = files_of(graded, policy, engine, language, out, standards)
         for folder, files in groupby(made, key=lambda file: file[0].parent):
             yield from put_files(out / folder, {path.name: content for path, content in files})
 

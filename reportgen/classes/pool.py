@@ -17,6 +17,7 @@ import sys
 import tempfile
 import threading
 import time
+import warnings
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
@@ -29,8 +30,9 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pebble import ProcessExpired, ProcessPool, concurrent
 
-from reportgen.api import Engine, Maker
-from reportgen.base.errors import AssignmentError, Problem, ReportgenError
+from reportgen.api import Maker
+from reportgen.api.typesetting import Engine
+from reportgen.base.errors import AssignmentError, OutputWarning, Problem, ReportgenError
 from reportgen.base.files import version
 from reportgen.base.limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.made import assignment_hash
@@ -52,7 +54,8 @@ class Making:
     """What a result depends on besides the assignment.
 
     `version` is that of this package, `templates` a SHA-256 of all words and frames; `language` is
-    empty where each file's own is meant.  `ask` says what the answer sheet asks for, if a policy says so.
+    empty where each file's own is meant.  `ask` says what the answer sheet asks for, if a policy says so, `standards`
+    which ones its PDF keeps, if those are not the usual ones.
     """
 
     version: str
@@ -60,6 +63,7 @@ class Making:
     engine: Engine
     language: Language | None
     ask: str = ""
+    standards: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,9 +100,9 @@ class Outcome:
     exit_code: int = 0
 
 
-def making(engine: Engine, language: Language | None, ask: str = "") -> Making:
+def making(engine: Engine, language: Language | None, ask: str = "", standards: str = "") -> Making:
     """How this installation would make a product now."""
-    return Making(version(), templates_hash(), engine, language, ask)
+    return Making(version(), templates_hash(), engine, language, ask, standards)
 
 
 def failed(problem: str) -> Outcome:
@@ -118,7 +122,7 @@ def run_job(job: Job) -> Outcome:
         return text.replace(f"{scratch}{os.sep}", "").replace(str(templates()), "templates")
 
     try:
-        if making(engine, language, job.making.ask) != job.making:
+        if making(engine, language, job.making.ask, job.making.standards) != job.making:
             return failed(word("other_templates", language))
         with tempfile.TemporaryDirectory(prefix="reportgen-", dir=job.scratch) as scratch:
             tempfile.tempdir = scratch
@@ -282,6 +286,8 @@ def _work(job: Job) -> Outcome:
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())
     # There is a process for each core already.
     os.environ["RAYON_NUM_THREADS"] = "1"
+    warnings.simplefilter("always", OutputWarning)
+    warnings.showwarning = lambda message, *_: print(f"reportgen: {job.folder}: {message}", file=sys.stderr, flush=True)
     outcome = run_job(job)
     # Nothing is left to be tidied up.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)

@@ -9,18 +9,20 @@ from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TextIO
+from typing import TYPE_CHECKING, Any, Literal, TextIO
 
 from reportgen import api
-from reportgen.api import ASKING, MAKERS, USUAL, Engine, Maker
+from reportgen.api import ASKING, MAKERS, TYPESET, USUAL, Maker
+from reportgen.api.typesetting import Engine
 from reportgen.assignment.reading import inputs
 from reportgen.base.errors import Fault, Mark, OutputError, Problem
 from reportgen.base.files import cause, held, put_set, remove_unfinished, reported, scratch
+from reportgen.base.standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes import ready
 from reportgen.classes.manifest import ManifestEntry, entry_of, journal, read_manifest, write_manifest
-from reportgen.classes.pool import Job, Outcome, Pool, failed, local, making
+from reportgen.classes.pool import Job, Making, Outcome, Pool, failed, local, making
 from reportgen.classes.roster import Assigned, Roster, RosterEntry, match_files, read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.key import Ask
@@ -45,7 +47,8 @@ class Order:
     """What is asked for: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` processes of this machine (0: one for each core), unless a scheduler's address `cluster` is given.
-    `ask` is what the answer sheets ask for, None for the default; the spec's table may lie below a `shared` folder.
+    `ask` is what the answer sheets ask for, None for the default; the spec's table may lie below a `shared` folder.  A
+    PDF of typst keeps the `standards`.
     """
 
     roster: Path
@@ -59,6 +62,7 @@ class Order:
     cluster: str | None = None
     ask: Ask | None = None
     shared: tuple[Path, ...] = ()
+    standards: Standards = STANDARDS
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,16 +113,26 @@ def run_batch(order: Order, stream: TextIO, makers: Mapping[str, Maker] = MAKERS
     """
     roster = read_roster(order.roster, order.language)
     chosen = {
-        name: partial(makers[name], ask=order.ask) if _asked(order, name) else makers[name] for name in order.products
+        name: partial(makers[name], **special) if (special := _special(order, name)) else makers[name]
+        for name in order.products
     }
     workers = pool or _pool(order, len(roster.students))
     with locked(order.out, order.language), reported(order.out), scratch(order.out) as temporary:
         return _run(order, roster, chosen, workers, stream, None if order.cluster else temporary)
 
 
-def _asked(order: Order, product: str) -> str:
-    """What the policy asks for, in a word for the manifest; "" where there is none or it does not matter."""
-    return str(order.ask) if order.ask is not None and product in ASKING else ""
+def _special(order: Order, product: str) -> dict[str, Any]:
+    """What the maker of a product is told besides, where that is not the usual and matters."""
+    asked = {"ask": order.ask} if order.ask is not None and product in ASKING else {}
+    kept = {"standards": order.standards} if product in TYPESET and order.standards != STANDARDS else {}
+    return {**asked, **kept}
+
+
+def _how(order: Order, product: str) -> Making:
+    """How a product is made here, with what its maker is told in words for the manifest."""
+    special = _special(order, product)
+    ask = str(order.ask) if "ask" in special else ""
+    return making(order.engine, order.language, ask, other_than_usual(special.get("standards", STANDARDS)))
 
 
 def _run(
@@ -135,7 +149,7 @@ def _run(
     entries = {key: entry for key, entry in before.items() if entry.student in number}
     with reported(out):
         result = Result(write_manifest(out, entries.values()), notes)
-    how = {name: making(order.engine, order.language, _asked(order, name)) for name in makers}
+    how = {name: _how(order, name) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []
     refused: list[tuple[RosterEntry, Problem]] = []

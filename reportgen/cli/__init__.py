@@ -44,6 +44,7 @@ def main() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     import typer
 
+    from reportgen.base.errors import OutputWarning
     from reportgen.cli.common import SYSTEM, WRONG_USAGE, complain_of_program, language_of_run, misused
 
     for stream in (sys.stdout, sys.stderr):
@@ -51,6 +52,8 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     warnings.showwarning = _tell
+    # Each file is told of, not the first alone.
+    warnings.simplefilter("always", OutputWarning)
     try:
         language_of_run(sys.argv[1:])
         sys.exit(_app()(standalone_mode=False, prog_name="reportgen") or 0)

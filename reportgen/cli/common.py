@@ -17,6 +17,7 @@ from typer.core import TyperGroup
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
+from reportgen.base.standards import KNOWN, NONE, STANDARDS, Standards
 from reportgen.base.units import Language
 
 if TYPE_CHECKING:
@@ -47,6 +48,13 @@ TemplatesOption = Annotated[
     ),
 ]
 EngineOption = Annotated[Literal["typst", "latex"], typer.Option("--engine", help="Typesetter.")]
+StandardOption = Annotated[
+    str,
+    typer.Option(
+        "--standard", metavar="LIST", help="What a PDF of typst keeps: of ua-1, a-2a, …, parted by commas, or none."
+    ),
+]
+USUAL_STANDARDS = ",".join(STANDARDS)
 
 
 def _use_templates(folder: Path | None) -> Path | None:
@@ -173,6 +181,14 @@ def listed(text: str, known: Collection[str], option: str, complaint: str, lang:
 
             raise typer.BadParameter(unknown(complaint, name, list(known), lang), param_hint=option)
     return names
+
+
+def kept(standard: str, lang: Language | None) -> Standards:
+    """The standards that an option names; none of them for `none`, beside which any other is wrong usage."""
+    names = listed(standard, (NONE, *KNOWN), "--standard", "no_standard", lang)
+    if NONE in names and len(names) > 1:
+        raise typer.BadParameter(say("no_standard", lang, text=standard), param_hint="--standard")
+    return () if NONE in names else names
 
 
 def refuse_inputs(outputs: Iterable[Path], inputs: Sequence[Path | None], lang: Language | None) -> None:

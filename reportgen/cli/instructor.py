@@ -13,13 +13,16 @@ from reportgen.base.files import put_files, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
+    USUAL_STANDARDS,
     EngineOption,
     Files,
     LangOption,
+    StandardOption,
     TemplatesOption,
     complain,
     ending,
     for_each,
+    kept,
     listed,
     refuse_inputs,
     say,
@@ -114,6 +117,7 @@ def batch(
     ] = None,
     policy: PolicyOption = None,
     shared: SharedOption = None,
+    standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
@@ -124,6 +128,7 @@ def batch(
     if (spec is None) == (assignments is None):
         raise typer.BadParameter(say("one_of_spec", lang))
     products = listed(make, api.MAKERS, "--make", "no_product", lang)
+    standards = kept(standard, lang)
     with ending(lang):
         made = (path for kind in ("task", "report", "key", "sheet", "frame") for path in standing(out, kind, "*/"))
         refuse_inputs((out / NAME, *made), [roster, spec, policy], lang)
@@ -140,6 +145,7 @@ def batch(
             cluster=cluster,
             ask=ask,
             shared=tuple(shared or ()),
+            standards=standards,
         )
         try:
             result = run_batch(order, sys.stderr)
@@ -160,6 +166,7 @@ def key(
     engine: EngineOption = "typst",
     lang: LangOption = None,
     policy: PolicyOption = None,
+    standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
 ) -> None:
     """Write the answer key of each FILE. It has every value with the bands within which it is right, in DIR/<id>/."""
@@ -168,6 +175,7 @@ def key(
     from reportgen.base.made import put_made
 
     formats = listed(format, api.KEY_FORMATS, "--format", "no_format", lang)
+    standards = kept(standard, lang)
 
     with ending(lang):
         made = (path for file in files for path in standing(out / file.stem, "key"))
@@ -177,8 +185,8 @@ def key(
 
     def work(file: Path) -> None:
         with reported(out), scratch(out):
-            made = api.key_files(file, engine, lang, formats, ask)
-        of = api.made_of(file, engine, lang, ask="" if ask is None else str(ask))
+            made = api.key_files(file, engine, lang, formats, ask, standards)
+        of = api.made_of(file, engine, lang, standards, ask="" if ask is None else str(ask))
         tell(put_made(out / file.stem, made, "key", of), lang)
 
     for_each(files, lang, work)
@@ -214,6 +222,7 @@ def grade(
     column: Annotated[
         str, typer.Option("--column", metavar="NAME", help="The gradebook's assignment.", show_default=False)
     ] = "",
+    standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
 ) -> None:
     """Mark sheets, or reports, from each student's own values. Feedback, grades.csv and the class page are written."""
@@ -223,6 +232,7 @@ def grade(
     from reportgen.classes.gradebooks import read_gradebook
     from reportgen.classes.platforms import files_read
 
+    standards = kept(standard, lang)
     with ending(lang):
         made = (*standing(out, "feedback", "*/"), *standing(out, "class"))
         filled = () if gradebook is None else (outcome.filled_gradebook(gradebook, out),)
@@ -235,7 +245,7 @@ def grade(
             submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table, out=out
         )
         problems = list(graded.problems)
-        for path in outcome.put(graded, rules, out, engine, lang):
+        for path in outcome.put(graded, rules, out, engine, lang, standards):
             print(path, flush=True)
         if table is not None:
             written, unknown = outcome.put_gradebook(graded, table, rules, out, lang)

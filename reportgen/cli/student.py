@@ -16,14 +16,17 @@ from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import is_stream, put_set, reported, standing
 from reportgen.cli.common import (
     AT_FAULT,
+    USUAL_STANDARDS,
     EngineOption,
     File,
     Files,
     LangOption,
+    StandardOption,
     TemplatesOption,
     complain,
     ending,
     for_each,
+    kept,
     listed,
     refuse,
     refuse_inputs,
@@ -51,17 +54,22 @@ def build(
     listing: Annotated[
         bool, typer.Option("--listing", help="Add a Python program of the closed formulas, also as report.py.")
     ] = False,
+    standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
 ) -> None:
     """Write the complete report of each FILE. It goes to DIR/<id>/report.pdf, .html as a page, .docx for Word."""
     from reportgen import api
 
     formats = listed(format, api.FORMATS, "--format", "no_format", lang)
+    standards = kept(standard, lang)
 
     def work(file: Path) -> None:
         folder = out / file.stem
         refuse_inputs((*standing(folder, "report"), folder / f"report{api.SUFFIX[engine]}"), files, lang)
-        tell(api.build_each(file, out, engine, lang, keep_source, formats, extent=extent, listing=listing), lang)
+        made = api.build_each(
+            file, out, engine, lang, keep_source, formats, extent=extent, listing=listing, standards=standards
+        )
+        tell(made, lang)
 
     for_each(files, lang, work)
 
@@ -87,6 +95,7 @@ def sheet(
         ),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the sheets.")] = Path("out"),
+    standard: StandardOption = USUAL_STANDARDS,
     lang: LangOption = None,
     templates: TemplatesOption = None,
 ) -> None:
@@ -96,6 +105,7 @@ def sheet(
     from reportgen.base.made import hash_of, put_made
 
     formats = listed(format, api.SHEET_FORMATS, "--format", "no_format", lang)
+    standards = kept(standard, lang)
 
     def work(file: Path) -> None:
         assignment = api.load(file, lang)
@@ -114,9 +124,10 @@ def sheet(
                 formats=formats,
                 block=path,
                 every=every,
+                standards=standards,
             )
             layout = " ".join((size or "", "all" if every else "", hash_of(path) if path else "")).strip()
-            of = api.made_of(file, "typst", assignment.language, layout=layout)
+            of = api.made_of(file, "typst", assignment.language, standards, layout=layout)
             tell(put_made(out / assignment.id, made, "sheet", of), lang)
 
     for_each(files, lang, work)

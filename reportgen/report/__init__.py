@@ -10,6 +10,7 @@ base_sub^sup, numbers as printed in the document's language, drawings by their c
 
 from __future__ import annotations
 
+import datetime
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Literal, Self
@@ -284,6 +285,8 @@ class Document:
     blocks: tuple[Block, ...] = field(default=())
     close: bool = False
     """Whether it is set in smaller type with less room between lines and blocks."""
+    date: datetime.date | None = None
+    """When it was written, as far as its file says it."""
 
 
 def text_of(document: Document) -> str:

@@ -44,6 +44,7 @@ def finished(
             words=tree.Words.among(words["document"]),
             blocks=tuple(blocks),
             close=close,
+            date=case.assignment.report.date,
         )
     )
 

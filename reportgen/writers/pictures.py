@@ -30,7 +30,7 @@ def pngs(scenes: Sequence[Scene], language: Language, dpi: int = DPI) -> list[by
 
 def pdfs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
     """A PDF for each scene.  Raises `TypesetterError`."""
-    return [typst.compile(_source([scene], language)) for scene in scenes]
+    return [typst.compile(_source([scene], language), standards=()) for scene in scenes]
 
 
 def for_word(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:

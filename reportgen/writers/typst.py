@@ -7,18 +7,22 @@ to measure is told it where our own estimate is beyond doubt: that an equation h
 
 from __future__ import annotations
 
+import datetime
 import math
 import tempfile
+import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from reportgen import report as tree
-from reportgen.base.errors import TypesetterError
+from reportgen.base.errors import OutputWarning, TypesetterError
 from reportgen.base.limits import give_memory_back
+from reportgen.base.standards import STANDARDS, Standards, titled
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
+from reportgen.base.words import word
 from reportgen.drawing import Scene
 from reportgen.drawing.geometry import moved
 from reportgen.drawing.label_size import box
@@ -27,7 +31,7 @@ from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEqu
 from reportgen.formula.setting import NARROW, columns, displayed, sides, written
 from reportgen.report import layout
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_fonts import breadth, lacking, needs_system_fonts
+from reportgen.writers.typst_fonts import MissingLettersWarning, breadth, lacking, sought
 from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
@@ -42,6 +46,8 @@ CAPITAL, OUT = 2.4, 0.8
 """Height of capitals there, and how far a formula may stand out above them or below the line, mm."""
 CELL, CELL_INSET = 10.0, 3.0
 """The size of letters in tables, in points, and the white on both sides of a cell, mm."""
+UNDATED = datetime.date(1980, 1, 1)
+"""The date of a file of which none is known, as the parts of a Word file have it."""
 SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
 #show math.equation: set text(font:"New Computer Modern Math")"""
 
@@ -55,6 +61,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
         (
             f"title: {literal(document.title)}",
             f"author: {literal(document.author)}",
+            f"date: {_date(document.date)}",
             f"lang: {literal(document.language)}",
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
@@ -74,12 +81,21 @@ def _in(letter: layout.Letter) -> Iterator[str]:
         yield f"size: {letter.size:g}pt"
 
 
-def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:
+def _date(date: datetime.date | None) -> str:
+    """A date as Typst has it; archives ask for one, and the same input gives the same bytes."""
+    known = date or UNDATED
+    return f"datetime(year:{known.year},month:{known.month},day:{known.day})"
+
+
+def write_sheet(
+    sheet: DrawingSheet, title: str, language: Language, author: str = "", date: datetime.date | None = None
+) -> str:
     """The Typst source of a drawing sheet, one page of its own size; it needs no other file."""
     items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
     drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
-    return "\n".join((frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
+    opening = ",".join((*map(literal, (title, author, language)), _date(date)))
+    return "\n".join((frame(), f"#show: described.with({opening})", SHEET_LOOK, page, ""))
 
 
 def frame(close: bool = False) -> str:
@@ -375,19 +391,33 @@ def _label(key: str) -> str:
     return f"#label({literal(key)})" if key else ""
 
 
-# --- the typesetter, which runs once for each source -------------------------------------------------
+# --- the typesetter, which runs once for each source, twice where a standard refuses it -----------------
 
 
-def compile(source: str, system: bool = False) -> bytes:
+class StandardWarning(OutputWarning):
+    """A file keeps none of the `standards` that were asked for, since they refuse it for a `reason`."""
+
+    def __init__(self, standards: Standards, reason: str) -> None:
+        self.standards, self.reason = standards, reason
+        super().__init__(standards, reason)
+
+    def __str__(self) -> str:
+        return word("standards_refused", None, standards=titled(self.standards), reason=self.reason)
+
+
+def compile(source: str, system: bool = False, standards: Standards = STANDARDS) -> bytes:
     """The PDF of a Typst source, byte for byte the same from run to run; it may name fonts of the `system`.
 
-    Raises `TypesetterError` with the message's first lines.
+    It keeps the `standards`, or none of them where they do not allow what it says, which is told as a warning.  Raises
+    `TypesetterError` with the message's first lines.
     """
-    (pdf,) = compile_as(source, "pdf", system)
+    (pdf,) = compile_as(source, "pdf", system, standards=standards)
     return pdf
 
 
-def compile_as(source: str, format: Literal["pdf", "png", "svg"], system: bool = False, dpi: int = 0) -> list[bytes]:
+def compile_as(
+    source: str, format: Literal["pdf", "png", "svg"], system: bool = False, dpi: int = 0, standards: Standards = ()
+) -> list[bytes]:
     """A PDF of a Typst source, or a picture of each of its pages, of `dpi` dots an inch.
 
     Raises `TypesetterError`.
@@ -398,15 +428,41 @@ def compile_as(source: str, format: Literal["pdf", "png", "svg"], system: bool =
         raise TypesetterError("typst is not installed: pip install typst") from error
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
-    own = not needs_system_fonts(source, lacking) and not system
+    needs_system, missing = sought(source, lacking)
+    if missing:
+        warnings.warn(MissingLettersWarning(missing, standards), stacklevel=2)
+        standards = ()
+    own = not needs_system and not system
     give_memory_back()
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
+
+        def made(kept: Standards) -> Any:
+            asked: dict[str, Any] = {"pdf_standards": list(kept)} if kept else {}
+            return typst.compile(
+                str(path), root=folder, ignore_system_fonts=own, format=format, ppi=dpi or None, **asked
+            )
+
         try:
-            made = typst.compile(str(path), root=folder, ignore_system_fonts=own, format=format, ppi=dpi or None)
+            try:
+                pages = made(standards)
+            except typst.TypstError as error:
+                if not standards:
+                    raise
+                pages = made(())
+                warnings.warn(StandardWarning(standards, _refusal(error)), stacklevel=2)
         except typst.TypstError as error:
-            lines = str(getattr(error, "message", error)).splitlines()
-            raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
+            raise TypesetterError(f"typst: {_first_lines(error, 4)}") from error
     # What has one page comes alone.
-    return [made] if isinstance(made, bytes) else list(made)
+    return [pages] if isinstance(pages, bytes) else list(pages)
+
+
+def _refusal(error: Exception) -> str:
+    """Why standards refuse a source, without their names; of such as contradict each other, that they do."""
+    line = _first_lines(error, 1).partition(" error: ")[2]
+    return line.split('"')[1] if line.startswith("HintedString") else line
+
+
+def _first_lines(error: Exception, count: int) -> str:
+    return "\n".join(str(getattr(error, "message", error)).splitlines()[:count])

@@ -1,7 +1,7 @@
 """The fonts that Typst sets in, and the letters that its own ones lack: names in Chinese, Thai, Lao, emoji.
 
-Typst leaves out in silence what no font has.  So its fonts are asked first, then those of the system; what neither has
-is told as a warning.
+Typst leaves out in silence what no font has, and refuses it in a file that keeps a standard.  So its fonts are asked
+first, then those of the system; what neither has is told as a warning.
 """
 
 from __future__ import annotations
@@ -9,9 +9,12 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-import warnings
 from collections.abc import Callable
 from functools import lru_cache
+
+from reportgen.base.errors import OutputWarning
+from reportgen.base.standards import Standards, titled
+from reportgen.base.words import word
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
 """Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
@@ -69,12 +72,16 @@ def lacking(letters: str, system: bool) -> str:
     return "".join(json.loads(answer))
 
 
-class MissingLettersWarning(UserWarning):
-    """Letters of a text have no place on the page, since no font has them."""
+class MissingLettersWarning(OutputWarning):
+    """Letters of a text have no place on the page, since no font has them; so its file keeps no `standards`."""
 
-    def __init__(self, letters: str) -> None:
-        self.letters = letters
-        super().__init__(f"no font has {' '.join(letters)}: left out on the page")
+    def __init__(self, letters: str, standards: Standards = ()) -> None:
+        self.letters, self.standards = letters, standards
+        super().__init__(letters, standards)
+
+    def __str__(self) -> str:
+        key = "letters_and_standards" if self.standards else "letters"
+        return word(key, None, letters=" ".join(self.letters), standards=titled(self.standards))
 
 
 def uncommon(text: str) -> str:
@@ -89,11 +96,8 @@ def question(letters: str) -> str:
     return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
 
 
-def needs_system_fonts(text: str, lacking: Lacking) -> bool:
-    """Whether a text has letters that only the system's fonts may have; warns of those that no font has."""
+def sought(text: str, lacking: Lacking) -> tuple[bool, str]:
+    """Whether a text has letters that only the system's fonts have, and those of its letters that no font has."""
     wanted = lacking(uncommon(text), False)
-    if not wanted:
-        return False
-    if missing := lacking(wanted, True):
-        warnings.warn(MissingLettersWarning(missing), stacklevel=2)
-    return missing != wanted
+    missing = lacking(wanted, True)
+    return missing != wanted, missing

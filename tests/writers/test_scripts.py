@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import warnings
 from pathlib import Path
 
 import pytest
 
+from reportgen.base.standards import STANDARDS, titled
 from reportgen.writers import typst
-from reportgen.writers.typst_fonts import MissingLettersWarning, lacking, needs_system_fonts, uncommon
+from reportgen.writers.typst_fonts import MissingLettersWarning, lacking, sought, uncommon
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
 RARE = "\U00012000\U00014400\U00017000\U0001b170\U0001d800\U00016800\U00011a00\U000118a0"
@@ -37,14 +37,12 @@ def test_its_own_fonts_have_latin_and_no_chinese() -> None:
 def test_letters_that_no_font_has_are_named() -> None:
     missing = nowhere()
     with pytest.warns(MissingLettersWarning) as told:
-        needs_system_fonts(f"A {missing} B", lacking)
+        typst.compile(f"A {missing} B", standards=())
     assert told[0].message.letters == missing
 
 
 def test_a_text_in_the_usual_letters_is_set_with_the_fonts_it_brings() -> None:
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        assert not needs_system_fonts(VIETNAMESE, lacking)
+    assert sought(VIETNAMESE, lacking) == (False, "")
 
 
 def test_what_the_system_has_is_printed() -> None:
@@ -53,7 +51,7 @@ def test_what_the_system_has_is_printed() -> None:
     there = [letter for letter in wanted if letter not in lacking(wanted, system=True)]
     if not there:
         pytest.skip("this system has no further fonts")
-    pdf = typst.compile(f'#set text(font: "New Computer Modern")\n{"".join(there)}')
+    pdf = typst.compile(f'#set text(font: "New Computer Modern")\n{"".join(there)}', standards=())
     printed = pymupdf.open(stream=pdf, filetype="pdf")[0].get_text()
     assert set(there) <= set(printed)
 
@@ -66,4 +64,6 @@ def test_the_command_line_says_it_in_one_line(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "reportgen.cli", "build", str(file), "--out", str(tmp_path / "out")]
     done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     assert done.returncode == 0
-    assert f"reportgen: no font has {missing}: left out on the page" in done.stderr.splitlines()
+    (line,) = done.stderr.splitlines()
+    assert missing in line
+    assert titled(STANDARDS) in line

@@ -1,0 +1,94 @@
+"""A document or a drawing sheet → PDF, by one of the two typesetters."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING, Literal
+
+from reportgen.assignment import Assignment
+from reportgen.assignment.reading import placed
+from reportgen.base.errors import Finding
+from reportgen.base.source import read_source
+from reportgen.base.standards import STANDARDS, Standards
+from reportgen.base.steps import step
+from reportgen.base.words import as_error
+
+if TYPE_CHECKING:
+    from reportgen.drawing.sheet import DrawingSheet
+    from reportgen.report import Document
+    from reportgen.report.layout import Letter
+    from reportgen.writers.pdflatex import Ahead
+
+Engine = Literal["typst", "latex"]
+SUFFIX = {"typst": ".typ", "latex": ".tex"}
+
+
+def reading_ahead(
+    assignment: Assignment, engine: Engine, letter: Letter | None
+) -> AbstractContextManager[Ahead | None]:
+    """The typesetter, if it has something to read while the report is worked out; under a school's templates later."""
+    if engine != "latex" or letter is None or assignment.school is not None:
+        return nullcontext()
+    from reportgen.writers import latex, pdflatex
+
+    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short"))
+
+
+def letter_of(assignment: Assignment, engine: Engine) -> Letter:
+    """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
+    from reportgen.report.layout import Letter
+
+    font = assignment.report.font or ""
+    if font and font not in (known := _fonts(engine)):
+        finding = Finding(
+            "no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)}
+        )
+        raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
+    return Letter(font, float(assignment.report.size.removesuffix(" pt")))
+
+
+def _fonts(engine: Engine) -> list[str]:
+    """The fonts whose names an engine knows."""
+    if engine == "latex":
+        from reportgen.writers import latex
+
+        return list(latex.FAMILIES)
+    from reportgen.writers import typst_fonts
+
+    return typst_fonts.families()
+
+
+def typeset(
+    tree: Document,
+    engine: Engine,
+    letter: Letter | None = None,
+    standards: Standards = STANDARDS,
+    ahead: Ahead | None = None,
+) -> tuple[str, bytes]:
+    """The source that a writer makes of a document in a letter, and its PDF; raises `TypesetterError`.
+
+    That of typst keeps the `standards`; LaTeX may have read `ahead` what the source begins with.
+    """
+    from reportgen.report.layout import Letter
+
+    step("typeset")
+    letter = letter or Letter()
+    if engine == "latex":
+        from reportgen.writers import latex, pdflatex
+
+        compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
+        return compiled.source, compiled.pdf
+    from reportgen.writers import typst
+
+    source = typst.write(tree, letter)
+    return source, typst.compile(source, bool(letter.font), standards)
+
+
+def typeset_sheet(sheet: DrawingSheet, title: str, assignment: Assignment, standards: Standards) -> bytes:
+    """The PDF of a drawing sheet of an assignment.  Raises `TypesetterError`."""
+    from reportgen.writers import typst
+
+    step("typeset")
+    said = assignment.report
+    source = typst.write_sheet(sheet, title, assignment.language, said.student.name or "", said.date)
+    return typst.compile(source, standards=standards)

@@ -1,0 +1,28 @@
+"""The standards that a PDF keeps, by the names that the typesetter and `--standard` know them by."""
+
+from __future__ import annotations
+
+Standards = tuple[str, ...]
+"""Standards that one file keeps together; none is kept of ()."""
+
+STANDARDS: Standards = ("a-2u",)
+"""What every PDF keeps unless it is told: it can be heard (ISO 14289-1), and it can be archived (ISO 19005-2)."""
+NONE = "none"
+"""What is said in place of standards where none is wanted."""
+KNOWN: Standards = (
+    *("ua-1", "a-1a", "a-1b", "a-2a", "a-2b", "a-2u", "a-3a", "a-3b", "a-3u", "a-4", "a-4e", "a-4f"),
+    *("1.4", "1.5", "1.6", "1.7", "2.0"),
+)
+
+
+def titled(standards: Standards) -> str:
+    """Standards as people call them: PDF/UA-1, PDF/A-2a, PDF 1.7."""
+    return ", ".join(
+        f"PDF {name}" if name[0].isdigit() else f"PDF/{name.partition('-')[0].upper()}-{name.partition('-')[2]}"
+        for name in standards
+    )
+
+
+def other_than_usual(standards: Standards) -> str:
+    """What is kept in mind of standards that a file was made by: nothing where they are the usual ones."""
+    return "" if standards == STANDARDS else ",".join(standards) or NONE
