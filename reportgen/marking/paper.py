@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import groupby
 from typing import Any
@@ -144,7 +145,11 @@ def _task(case: LoadedAssignment, key: Key, by_section: bool, self_check: bool) 
     title, blocks = case.question(_asked_for(case, key, by_section, self_check))
     student = case.assignment.report.student.name or ""
     contents = (*title, *fields(student_rows(key)), *blocks)
-    return paper(case.assignment.language, case.words, case.course, contents, student, key.variant)
+    language = case.assignment.language
+    document = paper(language, case.words, case.course, contents, student, key.variant)
+    # The course heads its pages; a program that opens or reads the file names it by its own title.
+    named = next((tree.plain(block.title, language) for block in title if isinstance(block, tree.Section)), "")
+    return replace(document, title=f"{named or case.course} – {key.id}")
 
 
 def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> AskedFor:
