@@ -128,6 +128,11 @@ def lowered(text: str) -> str:
     return text.translate(_LOWERED)
 
 
+def raised(text: str) -> str:
+    """Lowered digits as digits: B₃ → B3."""
+    return text.translate(_RAISED)
+
+
 _DIGITS, _BELOW = "0123456789", "₀₁₂₃₄₅₆₇₈₉"
 _LOWERED, _RAISED = str.maketrans(_DIGITS, _BELOW), str.maketrans(_BELOW, _DIGITS)
 _RUN = re.compile(f"([^{_BELOW}]*)([{_BELOW}]*)")

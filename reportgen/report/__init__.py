@@ -13,7 +13,7 @@ from __future__ import annotations
 import datetime
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
@@ -263,11 +263,16 @@ class Words:
     """Which of several a part of a figure is, its later ones, on whatever page: part 2."""
     save: str
     """What the buttons below a figure do on a page."""
+    speech: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    """How formulas are said, units by their printed signs."""
 
     @classmethod
-    def among(cls, words: Mapping[str, str]) -> Self:
+    def among(cls, words: Mapping[str, Any]) -> Self:
         """Those of a table of words, in which a school may have more."""
-        return cls(*(words[field.name] for field in fields(cls)))
+        speech, printed = words["speech"], words["units"]
+        units = {printed.get(unit, unit): said for unit, said in speech["units"].items()}
+        own = words["document"] | {"speech": {**speech, "units": units}}
+        return cls(*(own[field.name] for field in fields(cls)))
 
 
 @dataclass(frozen=True, slots=True)

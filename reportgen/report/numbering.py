@@ -41,7 +41,7 @@ def finished(
             author=case.assignment.report.student.name or "",
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
-            words=tree.Words.among(words["document"]),
+            words=tree.Words.among(words),
             blocks=tuple(blocks),
             close=close,
             date=case.assignment.report.date,

@@ -28,8 +28,9 @@ from reportgen.drawing.geometry import moved
 from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEquation, walk
-from reportgen.formula.setting import NARROW, columns, displayed, sides, written
-from reportgen.report import layout
+from reportgen.formula.setting import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
+from reportgen.formula.speech import Speech
+from reportgen.report import layout, spoken
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_fonts import MissingLettersWarning, breadth, lacking, sought
 from reportgen.writers.typst_math import TypstFormulas, literal
@@ -68,7 +69,9 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
             *_in(letter),
         )
     )
-    body = _Blocks(document.language, document.words, letter, document.close).write(document.blocks)
+    body = _Blocks(document.language, document.words, spoken.speech(document), letter, document.close).write(
+        document.blocks
+    )
     return f"{frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
 
 
@@ -119,13 +122,14 @@ class _Blocks:
         self,
         language: Language,
         words: tree.Words,
+        speech: Speech,
         letter: layout.Letter = layout.OWN_LETTER,
         close: bool = False,
         room: float = tree.TEXT_WIDTH,
     ) -> None:
         self.language = language
         self.formulas = TypstFormulas(language)
-        self.words = words
+        self.words, self.speech = words, speech
         self.letter, self.close = letter, close
         # Of a document that is set close the letters are a point smaller, as in the frame.
         self.size = letter.size - close
@@ -231,11 +235,16 @@ class _Blocks:
         parts = expression.parts if isinstance(expression, Chain) else (expression,)
         products = any(isinstance(node, Product) for node in walk(expression))
         if any(isinstance(part, Sum) for part in parts[:2]) or not (products or len(parts) > 1):
-            return self.formulas.content(expression, slashed)
-        printed = list(map(self.formulas.part, sides(expression, self.language, slashed=slashed)))
+            return f"#{self.heard([laid(expression, self.language, slashed)])}"
+        first, *others = sides(expression, self.language, slashed=slashed)
         # What stands left of "=" never stands alone at the end of a line.
-        printed[:2] = [" = ".join(printed[:2])]
-        return " ".join(f"#box(${'= ' if index else ''}{part}$)" for index, part in enumerate(printed))
+        pieces = [[first, EQUALS, *others[:1]] if others else [first], *([EQUALS, part] for part in others[1:])]
+        return " ".join(f"#box({self.heard(piece)})" for piece in pieces)
+
+    def heard(self, parts: Sequence[Part]) -> str:
+        """A formula of parts with what is heard of it."""
+        printed = "".join(map(self.formulas.part, parts)).strip()
+        return f"M({literal(self.speech.part(MathRow(tuple(parts))))},${printed}$)"
 
     def run_in(self, section: tree.Section) -> str:
         number = f"#{literal(section.number)}#h(0.5em)" if section.number else ""
@@ -244,7 +253,7 @@ class _Blocks:
     # --- blocks -----------------------------------------------------------------------------------
 
     def items(self, block: tree.List) -> str:
-        inner = _Blocks(self.language, self.words, self.letter, self.close, self.room - LIST_INDENT)
+        inner = _Blocks(self.language, self.words, self.speech, self.letter, self.close, self.room - LIST_INDENT)
         name = f"enum(start:{block.start}," if block.ordered else "list("
         return f"#{name}{','.join(f'[{inner.write(item)}]' for item in block.items)})"
 
@@ -256,10 +265,14 @@ class _Blocks:
             number = equation.number if index == len(groups) - 1 else ""
             first = group[0]
             if isinstance(first, VectorEquation):
-                lines.append(f"#V({literal(number)},{self.room:g},{self.vector_equation(first)})")
+                heard = self.speech.equation([self.speech.vector_equation(first)], number)
+                lines.append(f"#V({literal(heard)},{literal(number)},{self.room:g},{self.vector_equation(first)})")
             else:
-                rows = ",".join(_array(self.row(row)) for row in group)
-                lines.append(f"#{self.setter(group, number)}{literal(number)},{layout.ABREAST:g},{rows})")
+                laid_out = [displayed(row, self.language, layout.fits) for row in group]
+                heard = self.speech.equation(map(self.speech.row, laid_out), number)
+                rows = ",".join(_array(self.row(sides)) for sides in laid_out)
+                arguments = f"{literal(heard)},{literal(number)},{layout.ABREAST:g}"
+                lines.append(f"#{self.setter(group, number)}{arguments},{rows})")
         return "\n".join(lines) + _label(equation.key)
 
     def setter(self, rows: Sequence[Expression], number: str) -> str:
@@ -291,12 +304,10 @@ class _Blocks:
             return 0.0
         return box(row.parts[0], self.size, displayed=True).width
 
-    def row(self, row: Expression) -> list[str]:
+    def row(self, sides: Sequence[Sequence[Part]]) -> list[str]:
         """A displayed row: the parts between "=", each in the pieces between which it may break."""
         part = self.formulas.part
-        return [
-            _array(f"${part(piece).strip()}$" for piece in side) for side in displayed(row, self.language, layout.fits)
-        ]
+        return [_array(f"${part(piece).strip()}$" for piece in side) for side in sides]
 
     def vector_equation(self, equation: VectorEquation) -> str:
         known, part = self.formulas.known, self.formulas.part

@@ -58,7 +58,7 @@ def plain(text: str) -> str:
 STRING = r'"(?:[^"\\]|\\.)*"'
 _JOINED = (
     (re.compile(r"\$,\),\(\$"), " = "),
-    (re.compile(r"\$,\$|\$\) #box\(\$"), " "),
+    (re.compile(rf"\$,\$|\$\)\) #box\(M\({STRING},\$"), " "),
     (re.compile(r'class\("punctuation", "[,;]"\)'), ";"),
     (re.compile(r'class\("(?:opening|closing)", lr\(size: #\d+%, \\([()])\)\)'), r"\1"),
 )

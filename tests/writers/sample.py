@@ -6,6 +6,8 @@ import cmath
 import math
 from dataclasses import replace
 
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene
 from reportgen.formula import (
     PI,
@@ -51,6 +53,8 @@ from reportgen.report import (
     Value,
     Words,
 )
+
+WORDS = Words.among(load_words(search_path("vi")))
 
 HOSTILE = (
     r"A_B & 100% #1 $x$ \input{…} *y* _z_ @a <b> // c /* d */ `e` [f] ~g^h - i -- j --- k ... "
@@ -341,15 +345,7 @@ def sample() -> Document:
         author="Đặng Thị Ẩn",
         header=("Bài tập lớn", "Đặng Thị Ẩn – A_B"),
         footer=("", "Trang"),
-        words=Words(
-            figure="Hình",
-            table="Bảng",
-            contents="Mục lục",
-            page="Trang",
-            continued="tiếp theo",
-            part="phần {part}",
-            save="Lưu hình",
-        ),
+        words=WORDS,
         blocks=blocks(),
     )
 

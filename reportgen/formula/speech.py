@@ -1,0 +1,245 @@
+"""A formula as it is heard: its laid parts in words of the report's language, so that it can be drawn from hearing it.
+
+What stands beside each other in print follows in speech; where a fraction, a root or a parenthesis ends is said, unless
+what it holds is one symbol or number.  The words are the section `speech` of a language's words.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import Any
+
+from reportgen.base.units import MINUS, Language
+from reportgen.formula import Expression, Symbol, VectorEquation
+from reportgen.formula.setter import Setter
+from reportgen.formula.setting import (
+    PRIMES,
+    Fence,
+    Function,
+    Grid,
+    MathRow,
+    Note,
+    Parenthesis,
+    Part,
+    Quotient,
+    Radical,
+    Raised,
+    Sign,
+    Written,
+    columns,
+    parted,
+)
+from reportgen.formula.vocabulary import raised
+
+PLAINLY, CAPITALS, INDICES = range(3)
+"""How much is said of a symbol: its letters, which of them are capitals, and which of them stand below."""
+KEPT_UNITS = 256
+SHORTEST_WORD = 3
+"""Small letters of an index that are a word (max); fewer are said one by one (cb)."""
+DOT = "\N{COMBINING DOT ABOVE}"
+
+_RUN = re.compile(r"\d+|[^\W\d_]+|.")
+_PLAIN_INDEX = re.compile(r"[\w,′″]*")
+"""An index without signs."""
+_IN_TEXT = re.compile(r"[A-Z][A-Z₀-₉]+|[Α-Ωα-ω][₀-₉]*|(?<=\w)[₀-₉]+|[^\w\s.,:;()°%-]")
+"""What is said otherwise in a text: names of several points, Greek letters, lowered digits, signs."""
+
+
+class Speech(Setter[str]):
+    """Formulas in words; of `symbols`, those of one report, no two sound alike.
+
+    `words` has what is said for each part, and `units` by the signs that are printed.
+    """
+
+    def __init__(self, language: Language, words: Mapping[str, Any], symbols: Iterable[Symbol] = ()) -> None:
+        super().__init__(language)
+        self.words = words
+        self.unit = lru_cache(KEPT_UNITS)(self._unit)
+        self._counts = [re.compile(count) for count in words["counts"].split()]
+        self._said = {node: self._symbol(node, detail) for node, detail in self._apart(symbols).items()}
+
+    # --- parts ------------------------------------------------------------------------------------
+
+    def part(self, part: Part) -> str:
+        of, words = self.part, self.words
+        match part:
+            case Symbol():
+                return self.symbol(part)
+            case Written():
+                return self.number(part)
+            case Sign():
+                return self.sign(part)
+            case MathRow(parts):
+                return " ".join(map(of, parts))
+            case Quotient(top, bottom):
+                pattern = words["ratio" if _is_single(top) and _is_single(bottom) else "fraction"]
+                return _filled(pattern, top=of(top), bottom=of(bottom))
+            case Raised(base, exponent):
+                return self.power(of(base), exponent)
+            case Radical(inner):
+                return _filled(words["root" if _is_single(inner) else "long_root"], of=of(inner))
+            case Fence():
+                return self.fence(part)
+            case Function(name, exponent, to):
+                function = words["functions"].get(name, name)
+                return _filled(
+                    words["function"], name=self.power(function, exponent) if exponent else function, of=of(to)
+                )
+            case Grid(rows):
+                return f" {words['row']} ".join(f" {words['entry']} ".join(map(of, row)) for row in rows)
+            case Note(text):
+                return f"{words['marks']['(']} {self.text(text)} {words['marks'][')']}"
+            case Parenthesis(mark):
+                return str(words["marks"][mark])
+
+    def text(self, text: str) -> str:
+        """A text with its signs in words."""
+        return " ".join(_IN_TEXT.sub(self._in_text, text).split())
+
+    def _in_text(self, match: re.Match[str]) -> str:
+        said = self.words["signs"].get(match[0])
+        return f" {self.letters(match[0], PLAINLY) if said is None else said} "
+
+    def number(self, number: Written) -> str:
+        digits = number.digits
+        said = f"{self.words['negative']} {digits[1:]}" if digits.startswith(MINUS) else digits
+        unit = self.unit(number.unit, digits.removeprefix(MINUS)) if number.unit else ""
+        return f"{said} {unit}" if said and unit else said or unit
+
+    def _unit(self, unit: str, digits: str) -> str:
+        """A unit in words, of its forms the one that goes with a count."""
+        forms = self.words["units"].get(unit, unit).split(" | ")
+        fitting = (form for count, form in zip(self._counts, forms, strict=False) if count.fullmatch(digits))
+        return str(next(fitting, forms[-1]))
+
+    def sign(self, sign: Sign) -> str:
+        if sign.role in ("prefix", "separator"):
+            return str(self.words["negative" if sign.role == "prefix" else "separator"])
+        return str(self.words["signs"][sign.of])
+
+    def power(self, base: str, exponent: Part) -> str:
+        match exponent:
+            case Written("2" | "3" as digits):
+                return _filled(self.words["squared" if digits == "2" else "cubed"], base=base)
+            case Written():
+                pattern = self.words["power"]
+            case _:
+                pattern = self.words["power" if _is_single(exponent) else "long_power"]
+        return _filled(pattern, base=base, exponent=self.part(exponent))
+
+    def fence(self, fence: Fence) -> str:
+        inner, words = self.part(fence.of), self.words
+        match fence.left:
+            case "":
+                return inner
+            case "[":
+                return _filled(words["matrix"], rows=inner)
+            case "|":
+                return _filled(words["absolute" if _is_single(fence.of) else "long_absolute"], of=inner)
+            case "(" if _is_single(fence.of, bare=True):
+                return inner
+        return f"{words['marks']['(']} {inner} {words['marks'][')']}"
+
+    # --- symbols ----------------------------------------------------------------------------------
+
+    def symbol(self, node: Symbol) -> str:
+        if (said := self._said.get(node)) is None:
+            said = self._said[node] = self._symbol(node, PLAINLY)
+        return said
+
+    def _symbol(self, node: Symbol, detail: int) -> str:
+        """The letters, those below, primes, what else stands above; what is over all of it comes first."""
+        words = self.words
+        letters, above = parted(node)
+        said = self.letters(letters, detail)
+        if node.sub:
+            index = self.letters(node.sub, detail, index=True)
+            below = detail >= INDICES or not _PLAIN_INDEX.fullmatch(node.sub)
+            said = _filled(words["below"], symbol=said, index=index) if below else f"{said} {index}"
+        marks = above.lstrip(PRIMES)
+        if primes := above.removesuffix(marks):
+            said = f"{said} {self.letters(primes, detail)}"
+        if marks:
+            said = _filled(words["above"], symbol=said, index=self.letters(marks, detail, index=True))
+        return _filled(words[node.over], symbol=said) if node.over else said
+
+    def letters(self, text: str, detail: int, index: bool = False) -> str:
+        """Letters one by one, as they are or by their names; of an index small ones may be a word."""
+        said: list[str] = []
+        for run in _RUN.findall(raised(text.replace("′′", "″"))):
+            known = self.words["letters"]
+            if run.isdigit() or (
+                index and len(run) >= SHORTEST_WORD and run.islower() and known.keys().isdisjoint(run)
+            ):
+                said.append(run)
+            else:
+                said += (self.letter(letter, detail) for letter in run)
+        return " ".join(said).replace(" ,", ",")
+
+    def letter(self, letter: str, detail: int) -> str:
+        words = self.words
+        plain = unicodedata.normalize("NFD", letter)
+        if plain[1:] == DOT:
+            return _filled(words["dotted"], letter=self.letter(plain[0], detail))
+        said = str(words["letters"].get(letter) or words["marks"].get(letter, letter))
+        return _filled(words["capital"], letter=said) if detail >= CAPITALS and letter.isupper() else said
+
+    def _apart(self, symbols: Iterable[Symbol]) -> Mapping[Symbol, int]:
+        """How much is said of each symbol, so that none sounds like another one."""
+        details = dict.fromkeys(symbols, PLAINLY)
+        for more in (CAPITALS, INDICES):
+            alike: defaultdict[str, list[Symbol]] = defaultdict(list)
+            for symbol, detail in details.items():
+                alike[sound(self._symbol(symbol, detail))].append(symbol)
+            for group in alike.values():
+                if len({(*parted(symbol), symbol.sub, symbol.over) for symbol in group}) > 1:
+                    details |= dict.fromkeys(group, more)
+        return details
+
+    # --- whole formulas ---------------------------------------------------------------------------
+
+    def row(self, sides: Sequence[Sequence[Part]]) -> str:
+        """A displayed row: its sides, each in pieces."""
+        return f" {self.words['signs']['=']} ".join(" ".join(map(self.part, side)) for side in sides)
+
+    def equation(self, rows: Iterable[str], number: str) -> str:
+        """Rows below each other, and the number beside them."""
+        said = "; ".join(rows)
+        return _filled(self.words["numbered"], number=number, formula=said) if number else said
+
+    def vector_equation(self, equation: VectorEquation) -> str:
+        """The line first, then what is known of each term."""
+        said = [self.math(equation)]
+        for column in columns(equation):
+            entries = zip(equation.rows, column.known, strict=True)
+            facts = ", ".join(f"{self.text(row)} {self.known(entry)}" for row, entry in entries if entry != "")
+            said += [f"{self.part(column.term)}: {facts}"] if facts else []
+        return ". ".join(said)
+
+    def known(self, entry: Expression | str | None) -> str:
+        return str(self.words["unknown"]) if entry is None else super().known(entry)
+
+
+def sound(said: str) -> str:
+    """What is heard of words: neither capitals nor blanks nor pauses."""
+    return re.sub(r"[\s,]", "", said).casefold()
+
+
+def _filled(pattern: str, **parts: str) -> str:
+    return pattern.format_map(parts)
+
+
+def _is_single(part: Part, bare: bool = False) -> bool:
+    """Whether a part is one symbol, or one number without sign and unit; a `bare` symbol has nothing above."""
+    match part:
+        case MathRow((inner,)) | Fence("", inner):
+            return _is_single(inner, bare)
+        case Symbol():
+            return not (bare and parted(part)[1])
+        case Written(digits, unit):
+            return not (unit or digits.startswith(MINUS))
+    return False
