@@ -275,12 +275,12 @@ def typeset(
     return source, typst.compile(source, system=bool(letter.font))
 
 
-def typeset_sheet(sheet: DrawingSheet, title: str, language: Language) -> bytes:
+def typeset_sheet(sheet: DrawingSheet, title: str, language: Language, phrases: Mapping[str, str]) -> bytes:
     """The PDF of a drawing sheet.  Raises `TypesetterError`."""
     from reportgen.writers import typst
 
     step("typeset")
-    return typst.compile(typst.write_sheet(sheet, title, language))
+    return typst.compile(typst.write_sheet(sheet, title, language, phrases))
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------
@@ -393,7 +393,9 @@ def sheet_files(
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block, every)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: bounded(case.assignment, typeset_sheet, sheet, case.title, case.assignment.language),
+        "pdf": lambda sheet: bounded(
+            case.assignment, typeset_sheet, sheet, case.title, case.assignment.language, case.words["told"]
+        ),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {

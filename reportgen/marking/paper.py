@@ -56,7 +56,7 @@ def paper(
             author=owner,
             header=header,
             footer=footer,
-            words=tree.Words.among(terms),
+            words=tree.Words.among(words),
             blocks=tuple(blocks),
         )
     )

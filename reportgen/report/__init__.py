@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
-from typing import Literal, Self
+from typing import Any, Literal, Self
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
@@ -179,6 +179,8 @@ class Figure:
     turned: bool = False
     at: str = ""
     here: bool = False
+    rest: str = ""
+    """The number of the table that has what its drawings tell and more, filled in by numbering if there is one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,7 +190,7 @@ class Plate:
     Plates stand together at the end of their chapter.
 
     With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
-    position that it shows, if it shows one.
+    position that it shows, if it shows one; `rest` is as that of a figure.
     """
 
     scene: Scene
@@ -198,6 +200,7 @@ class Plate:
     number: str = ""
     continues: bool = False
     at: str = ""
+    rest: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -262,11 +265,14 @@ class Words:
     """Which of several a part of a figure is, its later ones, on whatever page: part 2."""
     save: str
     """What the buttons below a figure do on a page."""
+    phrases: Mapping[str, str] = field(default_factory=dict)
+    """The phrases of what drawings tell, by their names."""
 
     @classmethod
-    def among(cls, words: Mapping[str, str]) -> Self:
-        """Those of a table of words, in which a school may have more."""
-        return cls(*(words[field.name] for field in fields(cls)))
+    def among(cls, words: Mapping[str, Any]) -> Self:
+        """Those of all words of a language, in which a school may have more."""
+        own = {one.name: words["document"][one.name] for one in fields(cls) if one.name != "phrases"}
+        return cls(**own, phrases=words["told"])
 
 
 @dataclass(frozen=True, slots=True)

@@ -349,6 +349,7 @@ def sample() -> Document:
             continued="tiếp theo",
             part="phần {part}",
             save="Lưu hình",
+            phrases={"rest-in-text": "phần còn lại ở trong bài", "rest-in-table": "phần còn lại ở {0} {1}"},
         ),
         blocks=blocks(),
     )
