@@ -356,8 +356,9 @@ def sheet_files(
     step("solve")
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block, every)
+    pdf_of = partial(typeset_sheet, phrases=case.words["told"], standards=standards)
     writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: bounded(case.assignment, typeset_sheet, sheet, case.title, case.assignment, standards),
+        "pdf": lambda sheet: bounded(case.assignment, pdf_of, sheet, case.title, case.assignment),
         "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
     }
     return {

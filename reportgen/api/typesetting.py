@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Literal
 
@@ -84,11 +85,18 @@ def typeset(
     return source, typst.compile(source, bool(letter.font), standards)
 
 
-def typeset_sheet(sheet: DrawingSheet, title: str, assignment: Assignment, standards: Standards) -> bytes:
-    """The PDF of a drawing sheet of an assignment.  Raises `TypesetterError`."""
+def typeset_sheet(
+    sheet: DrawingSheet, title: str, assignment: Assignment, phrases: Mapping[str, str], standards: Standards
+) -> bytes:
+    """The PDF of a drawing sheet of an assignment, which tells in `phrases` what it shows.
+
+    Raises `TypesetterError`.
+    """
     from reportgen.writers import typst
 
     step("typeset")
     said = assignment.report
-    source = typst.write_sheet(sheet, title, assignment.language, said.student.name or "", said.date)
+    source = typst.write_sheet(
+        sheet, title, assignment.language, phrases, author=said.student.name or "", date=said.date
+    )
     return typst.compile(source, standards=standards)

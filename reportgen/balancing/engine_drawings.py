@@ -15,13 +15,14 @@ from reportgen.balancing.solved_engine import SolvedEngine
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
+from reportgen.drawing.description import direction, fact
 from reportgen.drawing.geometry import bounds, corners_of
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
-from reportgen.formula import Chain, Symbol
+from reportgen.formula import Chain, Number, Symbol
 from reportgen.sheets.plates import on_sheet
 
 UP = 1j
@@ -98,7 +99,9 @@ def _from_the_end(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
         items += [Line(0j, pin, style.HEAVY), style.joint(pin)]
         requests.append(label(pin, *joined(names), gap=1.6, prefer=(cmath.phase(pin),)))
     items += style.pivot(0j)
-    return settle(Canvas(tuple(items), tuple(requests))), size.note(Symbol("μ", "r"), usual)
+    facts = [fact("crank", tuple(names), direction(UP * cmath.rect(1, turn))) for turn, names in _pins(case).items()]
+    facts += (fact("bank", direction(UP * cmath.rect(1, bank))) for bank in banks(case))
+    return settle(Canvas(tuple(items), tuple(requests), tuple(facts))), size.note(Symbol("μ", "r"), usual)
 
 
 def _pins(case: SolvedEngine) -> dict[float, list[Content]]:
@@ -129,7 +132,8 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
         requests.append(label(complex(x, up), place, gap=1.0, prefer=(math.copysign(math.pi / 2, up),)))
     items.append(Polyline((*throws, end + BEYOND + 0j), SHAFT))
     marks, numbers = ruler([*places.values()], per, -high - 8)
-    return settle(Canvas((*items, *marks), (*requests, *numbers))), size.note(Symbol("μ", "l"), usual)
+    facts = tuple(fact("station", name, Number(float(f"{at * MM:.9g}"), unit="mm")) for name, at in places.items())
+    return settle(Canvas((*items, *marks), (*requests, *numbers), facts)), size.note(Symbol("μ", "l"), usual)
 
 
 # --- stars ---------------------------------------------------------------------------------------------------

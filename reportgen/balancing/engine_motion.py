@@ -31,7 +31,6 @@ from reportgen.drawing.animation import (
 )
 from reportgen.drawing.charts import plotted
 from reportgen.formula import Chain, Symbol
-from reportgen.formula.plain import formula
 from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import KINDS
 
@@ -112,7 +111,6 @@ def _forces(case: SolvedEngine, φ: Turn) -> Pane:
 
 def _charts(case: SolvedEngine, φ: Turn) -> Iterator[Chart]:
     """The parts of the forces along x and y over a turn."""
-    language = case.assignment.language
     for axis, part in (("x", np.real), ("y", np.imag)):
         curves = [(Symbol("F", str(order)), part(force)) for order, force in _shown(case, φ).items()]
         if any(np.abs(values).max() > 0 for _, values in curves):
@@ -120,7 +118,7 @@ def _charts(case: SolvedEngine, φ: Turn) -> Iterator[Chart]:
             across = Chain((Symbol("φ"),), str(case.words["orders"]["degrees"]))
             plots = tuple(PlottedCurve(symbol, np.degrees(φ), values) for symbol, values in curves)
             shown = plotted(Diagram(plots, across, Chain((name,), KINDS["force"].unit)), half=True)
-            yield Chart(formula(name, language), shown, tuple(Curve(of, Track(values)) for of, values in curves))
+            yield Chart(shown, tuple(Curve(of, Track(values)) for of, values in curves))
 
 
 def _values(case: SolvedEngine, φ: Turn) -> Iterator[MomentValue]:

@@ -14,6 +14,7 @@ from reportgen.balancing.solved_rotor import SolvedRotor
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Circle, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
+from reportgen.drawing.description import PaperLength, direction, fact
 from reportgen.drawing.geometry import bounds
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, plan
@@ -26,7 +27,7 @@ from reportgen.sheets.plates import on_sheet
 LONG, HIGH, WIDE = 140.0, 60.0, 64.0
 """What the view along the axis, its height, and the view across the axis may fill on a page (mm)."""
 SHAFT, MASS, ARM = Pen(0.8), Pen(0.35), Pen(0.25)
-CORRECTION = Pen(0.4, style.RED)
+CORRECTION = Pen(0.4, style.RED, style.DASHED)
 DISC = 1.7
 """The radius of the sign of a mass (mm)."""
 BEYOND = 7.0
@@ -119,7 +120,10 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
         requests.append(label(at, mass.name, gap=DISC + 0.5, prefer=(away, 0.0, math.pi)))
     held = [*places.values(), *(mass.z.si for mass in case.given.masses)]
     marks, numbers = ruler(held, per, -high - 5)
-    return settle(Canvas((*items, *marks), (*requests, *numbers))), size.note(Symbol("μ", "l"), usual)
+    stood = [(mass.name, mass.station) for mass in masses] + [(name, places[name]) for name in case.planes]
+    stood += [(name, places[name]) for name in (BEARINGS if case.given.bearings else ())]
+    facts = tuple(fact("station", name, Number(float(f"{place * MM:.9g}"), unit="mm")) for name, place in stood)
+    return settle(Canvas((*items, *marks), (*requests, *numbers), facts)), size.note(Symbol("μ", "l"), usual)
 
 
 def ruler(places: Collection[float], per: float, height: float) -> tuple[list[Item], list[Request]]:
@@ -169,7 +173,8 @@ def _across_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
         items += mass_on_arm(0j, at, mass)
         requests.append(label(at, mass.name, gap=DISC + 0.5, prefer=(cmath.phase(at),)))
     items.append(style.joint(0j))
-    return settle(Canvas(tuple(items), tuple(requests))), size.note(Symbol("μ", "r"), usual)
+    facts = tuple(fact("mass", mass.name, PaperLength(abs(mass.at) * per), direction(mass.at)) for mass in masses)
+    return settle(Canvas(tuple(items), tuple(requests), facts)), size.note(Symbol("μ", "r"), usual)
 
 
 # --- plans ------------------------------------------------------------------------------------------------

@@ -42,7 +42,6 @@ from reportgen.drawing.animation import (
 )
 from reportgen.drawing.charts import plotted
 from reportgen.formula import Chain, Symbol
-from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 180
@@ -151,7 +150,7 @@ def _pane(key: str, case: SolvedRotor, items: list[MovingItem], per: float, newt
 
 def _charts(case: SolvedRotor, knots: NDArray[np.float64]) -> Iterator[Chart]:
     """What each bearing bears upwards over a turn."""
-    language, degrees = case.assignment.language, np.degrees(knots)
+    degrees = np.degrees(knots)
     for bearing_name in BEARINGS:
         curves = [
             (force_symbol(when, place), (force * np.exp(1j * knots)).imag)
@@ -163,8 +162,7 @@ def _charts(case: SolvedRotor, knots: NDArray[np.float64]) -> Iterator[Chart]:
             up = Chain((Symbol("N", f"{bearing_name}y"),), KINDS["force"].unit)
             plots = tuple(PlottedCurve(symbol, degrees, values) for symbol, values in curves)
             shown = plotted(Diagram(plots, across, up), half=True)
-            title = formula(Symbol("N", f"{bearing_name}y"), language)
-            yield Chart(title, shown, tuple(Curve(symbol, Track(values)) for symbol, values in curves))
+            yield Chart(shown, tuple(Curve(symbol, Track(values)) for symbol, values in curves))
 
 
 def _values(case: SolvedRotor, turn: Turn) -> Iterator[MomentValue]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 Standards = tuple[str, ...]
 """Standards that one file keeps together; none is kept of ()."""
 
-STANDARDS: Standards = ("a-2u",)
+STANDARDS: Standards = ("ua-1", "a-2a")
 """What every PDF keeps unless it is told: it can be heard (ISO 14289-1), and it can be archived (ISO 19005-2)."""
 NONE = "none"
 """What is said in place of standards where none is wanted."""

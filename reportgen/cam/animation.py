@@ -33,7 +33,6 @@ from reportgen.drawing.animation import (
 )
 from reportgen.drawing.charts import plotted
 from reportgen.formula import Symbol
-from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 360
@@ -150,7 +149,6 @@ def _follower(case: SolvedCam, profile: CamProfile, at: float) -> Iterator[Movin
 
 
 def _charts(case: SolvedCam, profile: CamProfile) -> Iterator[Chart]:
-    language = case.assignment.language
     sampled = case.solution.cam.sampled()
     for (symbol, unit, values), now in zip(motion_charts(case), (profile.s, profile.ds, profile.dds), strict=True):
         shown = plotted(
@@ -158,9 +156,9 @@ def _charts(case: SolvedCam, profile: CamProfile) -> Iterator[Chart]:
             half=True,
         )
         scale = np.abs(values).max() / max(float(np.abs(now).max()), NODE)
-        yield Chart(formula(symbol, language), shown, (Curve(symbol, Track(now * scale)),))
+        yield Chart(shown, (Curve(symbol, Track(now * scale)),))
     if not case.solution.cam.flat:
-        yield Chart("α", pressure_chart(case, half=True), (Curve(Symbol("α"), Track(np.degrees(profile.alpha))),))
+        yield Chart(pressure_chart(case, half=True), (Curve(Symbol("α"), Track(np.degrees(profile.alpha))),))
 
 
 def _values(case: SolvedCam, profile: CamProfile) -> Iterator[MomentValue]:

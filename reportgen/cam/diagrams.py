@@ -29,6 +29,7 @@ from reportgen.drawing import (
 )
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, plotted
+from reportgen.drawing.description import fact, of_curve
 from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
@@ -152,7 +153,10 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
                 complex((start + stop) / 2, y), case.ledger.symbol(cam_ids.phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+    facts = [fact("graph", symbol, unit) for symbol, unit, _ in motion_charts(case)]
+    for symbol, _, values in motion_charts(case):
+        facts += of_curve(PlottedCurve(symbol, np.degrees(case.solution.cam.sampled().φ), values), "°")
+    return finish(Canvas(tuple(items), tuple(requests), tuple(facts)), notes=notes, margin=2.0)
 
 
 def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Content]:

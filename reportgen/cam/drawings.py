@@ -15,18 +15,19 @@ from reportgen.cam.profile import Cam, CamProfile
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import Fact, PaperLength, arrow, direction, fact, turning
 from reportgen.drawing.geometry import HalfPlane, clipped, region, unit
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
-from reportgen.formula import Symbol
+from reportgen.formula import Number, Symbol
 
 DIAGRAM_ROOM = 118 + 128j
 """What the S–S′ diagram may fill on a page (mm)."""
 PROFILE_ROOM = 150 + 172j
 FOLLOWER = 26.0
 """The length of a translating follower that is drawn (mm)."""
-LIMIT = Pen(0.3, style.RED)
-THIN_LIMIT = Pen(0.12, style.RED)
+LIMIT = Pen(0.3, style.RED, style.DASHED)
+THIN_LIMIT = Pen(0.12, style.RED, style.DASHED)
 REGION = Pen(0.1, style.GRAY)
 PROFILE = Pen(0.5)
 PITCH = Pen(0.25, style.BLUE, style.CHAIN)
@@ -139,7 +140,15 @@ def _of_translating(case: SolvedCam, size: FigureSize) -> Scene:
     items.append(Line(0j, centre * at, style.VISIBLE))
     requests.append(label(centre * at, Symbol("O"), gap=1.6))
     requests.append(label([centre * at * share for share in (0.5, 0.4, 0.6, 0.7)], case.ledger.symbol("cam.r0")))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(size.note(SCALE, usual),), margin=2.0)
+    facts = [fact("limit-diagram", Symbol("s"), Symbol("s′")), arrow(case.ledger.symbol("cam.r0"), centre * at)]
+    facts += (
+        fact("limit", Symbol("T", "1" if side > 0 else "2"), direction(cmath.rect(1, limit)))
+        for phase, limit, side, _ in lines
+    )
+    if len(allowed) > 2 and lines:
+        facts.append(fact("region"))
+    draft = Canvas(tuple(items), tuple(requests), tuple(facts))
+    return finish(draft, notes=(size.note(SCALE, usual),), margin=2.0)
 
 
 def _within(end: complex, start: complex, left: float, right: float) -> complex:
@@ -217,7 +226,15 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
         label(start * at / 2, case.ledger.symbol("cam.r0")),
         label(pivot * at / 2, case.ledger.symbol("cam.a"), prefer=(-math.pi / 2,)),
     ]
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(size.note(SCALE, usual),), margin=2.0)
+    facts = [
+        fact("limit-lines", Number(len(shown)), Symbol("A"), PaperLength(cam.arm * at)),
+        arrow(case.ledger.symbol("cam.a"), pivot * at),
+        arrow(case.ledger.symbol("cam.r0"), start * at),
+    ]
+    if len(allowed) > 2:
+        facts.append(fact("region"))
+    draft = Canvas(tuple(items), tuple(requests), tuple(facts))
+    return finish(draft, notes=(size.note(SCALE, usual),), margin=2.0)
 
 
 def _arm(cam: Cam, ψ: float) -> complex:
@@ -264,7 +281,25 @@ def inversion(case: SolvedCam, stage: Stage = "profile by inversion", size: Figu
     begin = math.pi / 2 + 0.5
     items.append(Arc(0j, radius, begin, begin + cam.turn * 0.9, Pen(0.25), style.HEAD))
     requests.append(label(radius * np.exp(1j * (begin + cam.turn * 0.45)), Symbol("ω"), gap=0.8))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=(size.note(SCALE, usual),), margin=2.0)
+    facts = tuple(_profile_facts(case, stage, outline * at, cam.r0 * at))
+    draft = Canvas(tuple(items), tuple(requests), facts)
+    return finish(draft, notes=(size.note(SCALE, usual),), margin=2.0)
+
+
+def _profile_facts(case: SolvedCam, stage: Stage, outline: np.ndarray, base: float) -> Iterator[Fact]:
+    """What the inversion tells: its base circle, its positions, and how far (mm) the profile is from the centre."""
+    cam, distances = case.solution.cam, np.abs(outline)
+    yield turning(Symbol("ω"), cam.turn)
+    yield fact("radius", case.ledger.symbol("cam.r0"), PaperLength(base))
+    if stage != "cam":
+        yield fact("follower-positions", Number(case.count))
+    if stage != "displacements":
+        for phrase, at in (("farthest", int(distances.argmax())), ("nearest", int(distances.argmin()))):
+            yield fact(phrase, PaperLength(float(distances[at])), direction(complex(outline[at])))
+    elif cam.translating:
+        yield fact("laid-off", Symbol("s"))
+    else:
+        yield fact("laid-off", Symbol("ψ"))
 
 
 def _positions(case: SolvedCam, stage: Stage, at: float, requests: list[Request]) -> Iterator[Item]:

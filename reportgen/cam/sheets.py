@@ -18,6 +18,7 @@ from reportgen.cam.profile import Cam
 from reportgen.cam.solved import SolvedCam
 from reportgen.drawing import Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.charts import Area
+from reportgen.drawing.description import PaperLength, fact
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
@@ -95,8 +96,9 @@ def true_size(cam: Cam) -> DrawingSheet:
         Circle(shift, 1.0, Pen(0.25)),
     )
     profile = Polyline(tuple(complex(p) for p in points + shift), style.HEAVY, closed=True, smooth=True)
+    farthest = fact("profile", PaperLength(float(np.abs(points).max())))
     parts = (
         PlacedScene("axes", "axes", Scene(size.real, size.imag, axes)),
-        PlacedScene("profile", "profile", Scene(size.real, size.imag, (profile,))),
+        PlacedScene("profile", "profile", Scene(size.real, size.imag, (profile,), description=(farthest,))),
     )
     return DrawingSheet("1:1", size.real, size.imag, parts)

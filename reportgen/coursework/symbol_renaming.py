@@ -72,7 +72,7 @@ def relettered(tree: Tree, letters: Letters) -> Tree:
     def respelled_or_renamed(node: Scene | Symbol) -> Scene | Symbol:
         if isinstance(node, Symbol):
             return letters.get(node, node)
-        return replace(respelled(node, spelled), diagram=renamed(node.diagram))
+        return replace(respelled(node, spelled), diagram=renamed(node.diagram), description=renamed(node.description))
 
     return changed(tree, (Scene, Symbol), respelled_or_renamed)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from reportgen.drawing.description import Description as Description
 from reportgen.drawing.diagram import Content as Content
 from reportgen.drawing.diagram import Diagram as Diagram
 from reportgen.drawing.diagram import PlottedCurve as PlottedCurve
@@ -130,3 +131,5 @@ class Scene:
     """The position that it shows, of several scenes of a figure; it is not printed."""
     diagram: Diagram | None = field(default=None, compare=False, repr=False)
     """What it is painted of, if it is a chart."""
+    description: Description = field(default=(), compare=False, repr=False)
+    """What it tells a reader who does not see it."""

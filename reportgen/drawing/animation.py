@@ -196,7 +196,6 @@ class Chart:
     On that `of_run` the working point of the drive moves: the speed across, the torque upwards.
     """
 
-    title: str
     plotted: Plotted
     curves: tuple[Curve, ...]
     of_run: bool = False

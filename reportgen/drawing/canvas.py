@@ -1,7 +1,7 @@
 """From drafts to finished scenes.
 
-Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added.  `finish` places the
-labels, crops to the content and gives the `Scene`.
+Every figure makes a `Canvas` in mm about any origin; drafts with the same origin can be added, and so is what they
+tell.  `finish` places the labels, crops to the content and gives the `Scene`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
-from reportgen.drawing import Content, Item, Scene, style
+from reportgen.drawing import Content, Description, Item, Scene, style
+from reportgen.drawing.description import fact
 from reportgen.drawing.geometry import bounds, corners_of, moved
 from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.labels import Request, label_row, place
@@ -20,22 +21,23 @@ MARGIN = 6.0
 
 @dataclass(frozen=True, slots=True)
 class Canvas:
-    """Items in the order of painting and the labels still to be placed."""
+    """Items in the order of painting, the labels still to be placed, and what a reader who does not see it is told."""
 
     items: tuple[Item, ...] = ()
     requests: tuple[Request, ...] = ()
+    says: Description = ()
 
     def __add__(self, other: Canvas) -> Canvas:
-        return Canvas(self.items + other.items, self.requests + other.requests)
+        return Canvas(self.items + other.items, self.requests + other.requests, self.says + other.says)
 
     def moved(self, by: complex) -> Canvas:
         """The draft shifted by a vector (mm); its labels must have been placed before."""
-        return Canvas(tuple(moved(item, by) for item in self.items))
+        return Canvas(tuple(moved(item, by) for item in self.items), says=self.says)
 
 
 def settle(draft: Canvas) -> Canvas:
     """The draft with its labels placed."""
-    return Canvas(draft.items + place(draft.items, draft.requests).items)
+    return Canvas(draft.items + place(draft.items, draft.requests).items, says=draft.says)
 
 
 def finish(
@@ -46,7 +48,7 @@ def finish(
     margin: float = MARGIN,
     frame: tuple[complex, complex] | None = None,
 ) -> Scene:
-    """The scene: labels placed, `notes` (the figure's scale) below, cropped with `margin` mm around.
+    """The scene: labels placed, `notes` (the figure's scale) below, told last, cropped with `margin` mm around.
 
     `frame` (lower left, upper right) is kept even where nothing is drawn, so that several scenes get
     the same paper.
@@ -59,7 +61,8 @@ def finish(
     white = complex(margin, margin)
     size = high + white - (low - white)
     items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
-    return Scene(size.real, size.imag, items, title, margin, labels.crowded)
+    description = (*draft.says, *(fact("scale", note) for note in notes))
+    return Scene(size.real, size.imag, items, title, margin, labels.crowded, description=description)
 
 
 def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:

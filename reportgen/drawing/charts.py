@@ -26,6 +26,7 @@ from reportgen.drawing import (
     style,
 )
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import of_chart, of_hodograph
 from reportgen.drawing.diagram import Inclination
 from reportgen.drawing.geometry import clusters
 from reportgen.drawing.label_size import box
@@ -168,7 +169,8 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
     if area is not None:
         across, up = window.width * area.enlarged, window.height * area.enlarged
         notes = _scale(diagram.x, window.x, across, turn), _scale(diagram.y, window.y, up)
-    scene = replace(finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN), diagram=diagram)
+    draft = Canvas(tuple(items), tuple(requests), tuple(of_chart(diagram, window.x, window.y)))
+    scene = replace(finish(draft, notes=notes, margin=CHART_MARGIN), diagram=diagram)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
     return Plotted(scene, frame.points[0], frame.points[2], window.x, window.y)
@@ -202,7 +204,8 @@ def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = Non
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, diagram.x, diagram.y, items, area is not None)
     notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged),)
-    scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=diagram.title, margin=2.0)
+    draft = Canvas(tuple(items), tuple(requests), tuple(of_hodograph(diagram, window.x, window.y)))
+    scene = finish(draft, notes=notes, title=diagram.title, margin=2.0)
     return replace(scene, diagram=diagram)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from reportgen.drawing import Circle, Content, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import Fact, PaperLength, direction, fact
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scheme import Looks, driver_marks, mechanism, skeleton
 from reportgen.machine import GROUND, Linkage
@@ -38,6 +39,7 @@ def with_discs(
     heaviest = max(disc.mass for disc in discs)
     items: list[Item] = []
     requests: list[Request] = []
+    facts: list[Fact] = []
     for disc in discs:
         radius = max(LARGEST * float(np.sqrt(disc.mass / heaviest)), LEAST)
         centre, pivot = disc.at * scale, disc.pivot * scale
@@ -46,5 +48,7 @@ def with_discs(
         items += [Line(pivot + side, end + side, style.VISIBLE) for side in (1j * ARM * along, -1j * ARM * along)]
         items.append(Circle(centre, radius, style.VISIBLE, style.TINT))
         requests.append(label(centre, disc.label, gap=radius + 0.4))
+        arm = centre - pivot
+        facts.append(fact("counterweight", disc.label, PaperLength(abs(arm)), direction(arm)))
     whole = mechanism(bones, (GROUND, *linkage.links), looks) + driver_marks(linkage, motion, bones)
-    return finish(Canvas(tuple(items), tuple(requests)) + whole, notes=looks.notes)
+    return finish(Canvas(tuple(items), tuple(requests), tuple(facts)) + whole, notes=looks.notes)

@@ -9,6 +9,7 @@ from reportgen.base.units import nice_up
 from reportgen.drawing import Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import EDGE, GRID, TICKS, framed
+from reportgen.drawing.description import fact
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
@@ -42,7 +43,8 @@ def bars(names: Sequence[Content], counts: Sequence[int], x_label: Content) -> S
         items.append(Label(complex(-1.5, y), name, "right", style.SMALL))
     items.append(Line(0j, complex(0, height), EDGE))
     items.append(Label(complex(length / 2, -8.5), x_label))
-    return finish(Canvas(tuple(items)), margin=1.5)
+    facts = (fact("bar-count", name, Number(count)) for name, count in zip(names, counts, strict=True))
+    return finish(Canvas(tuple(items), says=(fact("bars", x_label), *facts)), margin=1.5)
 
 
 def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y_label: Content) -> Scene:
@@ -63,7 +65,9 @@ def histogram(counts: Sequence[int], edges: Sequence[float], x_label: Content, y
     items.append(Line(0j, complex(width * len(counts), 0), EDGE))
     items.append(Label(complex(width * len(counts) / 2, -8.5), x_label))
     items.append(Label(complex(-9.0, COLUMN_HEIGHT / 2), y_label, turn=90))
-    return finish(Canvas(tuple(items)), margin=1.5)
+    between = zip(edges, edges[1:], counts, strict=False)
+    facts = (fact("between", Number(low), Number(high), Number(count)) for low, high, count in between if count)
+    return finish(Canvas(tuple(items), says=(fact("histogram", y_label, x_label), *facts)), margin=1.5)
 
 
 # --- counts ---------------------------------------------------------------------------------------

@@ -14,9 +14,10 @@ from typing import Literal
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import Fact, PaperLength, direction, fact, pointing, turning
 from reportgen.drawing.geometry import clusters, on_one_line, polar, unit
 from reportgen.drawing.labels import Request, joined, label
-from reportgen.drawing.plan import CROWDED, Plan, point_names
+from reportgen.drawing.plan import CROWDED, Plan, point_names, vector_facts
 from reportgen.drawing.scheme import Looks, mechanism, skeleton
 from reportgen.formula import Symbol, constructions
 from reportgen.machine import Linkage
@@ -126,7 +127,7 @@ def lever(
     items += [Circle(point.at, 1.1, style.VISIBLE, style.PAPER) for point in rigid.points[:1]]
     groups = clusters(rigid.points, CROWDED, lambda point: point.at)
     names = tuple(label(group[0].at, *point_names(group), gap=1.3) for group in groups)
-    return finish(Canvas(tuple(items), names) + draw_forces(forces, arms), notes=notes)
+    return finish(Canvas(tuple(items), names, vector_facts(rigid.drawn())) + draw_forces(forces, arms), notes=notes)
 
 
 def coriolis(sliding: Sliding) -> Scene:
@@ -134,7 +135,8 @@ def coriolis(sliding: Sliding) -> Scene:
     along, sense = unit(sliding.velocity[1]), sliding.omega[1]
     start = cmath.phase(along)
     quarter = Arc(0j, QUARTER, start, start + sense * math.pi / 2, style.CONSTRUCTION, style.DIMENSION_HEAD)
-    guide = Canvas((Line(BESIDE * along, BEYOND * along, style.OLD), quarter))
+    right_angle = fact("quarter", sliding.velocity[0], sliding.coriolis[0])
+    guide = Canvas((Line(BESIDE * along, BEYOND * along, style.OLD), quarter), says=(right_angle,))
     ends = Canvas(
         (Circle(0j, 0.7, style.VISIBLE, style.PAPER), Circle(BESIDE * along, 0.7, style.VISIBLE, style.PAPER)),
         (label(0j, sliding.point, gap=1.4),),
@@ -177,8 +179,13 @@ def inclination() -> Scene:
     names = [label(ARM + vector, Symbol("a", "A", part, "vector")) for part, vector, _ in arrows]
     names.append(label(ARM + QUARTER / 2 * polar(inward + angle / 2), Symbol("α"), size=style.SMALL))
     names += [label(0j, Symbol("O"), gap=style.JOINT + 0.4), label(ARM, Symbol("A"), gap=1.0)]
-    turning = draw_couples((Couple(Symbol("ω, ε"), 0j, 1.0),))
-    return finish(Canvas(tuple(items), tuple(names)) + turning)
+    facts = (
+        fact("link", Symbol("O"), Symbol("A"), direction(ARM)),
+        *(pointing(Symbol("a", "A", part, "vector"), vector) for part, vector, _ in arrows),
+        fact("angle-between", Symbol("α"), Symbol("a", "A", over="vector"), Symbol("AO")),
+    )
+    couple = draw_couples((Couple(Symbol("ω, ε"), 0j, 1.0),))
+    return finish(Canvas(tuple(items), tuple(names), facts) + couple)
 
 
 def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
@@ -196,8 +203,17 @@ def link_and_plan(what: Literal["v", "a"]) -> tuple[Scene, Scene]:
         plan += [
             Line(places[one], places["E"] + 6 * unit(places["E"] - places[one]), style.CONSTRUCTION) for one in "BC"
         ]
-    letters = [label(place, Symbol(name.lower(), "", prime), gap=0.8) for name, place in places.items()]
-    return finish(Canvas(link, named)), finish(Canvas(tuple(plan), (*letters, label(0j, pole, gap=0.8))))
+    ends = {name: Symbol(name.lower(), "", prime) for name in places}
+    letters = [label(place, ends[name], gap=0.8) for name, place in places.items()]
+    corners = tuple(
+        fact("side", Symbol(start + end), direction(TRIANGLE[end] - TRIANGLE[start])) for start, end in sides
+    )
+    facts = (
+        *(pointing(Symbol(what, name, over="vector"), place) for name, place in places.items()),
+        *(fact("side", (ends[start], ends[end]), direction(places[end] - places[start])) for start, end in sides),
+    )
+    whole = Canvas(tuple(plan), (*letters, label(0j, pole, gap=0.8)), facts)
+    return finish(Canvas(link, named, corners)), finish(whole)
 
 
 # --- arrows and arcs ------------------------------------------------------------------------------
@@ -215,6 +231,7 @@ def draw_forces(
     shown = [_as_printed(force, printed.get(force.id)) for force in forces if force.direction != 0]
     items: list[Item] = []
     requests: list[Request] = []
+    facts: list[Fact] = []
     shafts: dict[str, tuple[complex, complex]] = {}
     drawn: list[tuple[complex, complex]] = []
     for force, tip in zip(shown, _tips(shown), strict=True):
@@ -229,6 +246,7 @@ def draw_forces(
         pen = style.ACTIVE if force.kind == "load" else style.REACTION
         items.append(Arrow(start + by, end + by, pen, style.HEAD, force.id))
         requests.append(_name(start + by, end + by, force, force.at + by))
+        facts.append(pointing(force.label, end - start))
     feet = {arm.force: foot(arm.about, *shafts[arm.force]) for arm in arms if arm.force in shafts}
     long = [arm for arm in arms if arm.force in feet and abs(feet[arm.force] - arm.about) >= LEAST_ARM]
     for arm in long:
@@ -244,7 +262,8 @@ def draw_forces(
             items += _dimension(arm.about, end, *shafts[arm.force], name=" ".join(["h", *(one.force for one in equal)]))
         if same[0] is arm:
             requests.append(_arm_name(arm.about, end, same))
-    return Canvas(tuple(items), tuple(requests))
+        facts.append(fact("arm", arm.label, PaperLength(abs(end - arm.about))))
+    return Canvas(tuple(items), tuple(requests), tuple(facts))
 
 
 def _as_printed(force: Force, arm: ArmOf | None) -> Force:
@@ -267,7 +286,8 @@ def draw_couples(couples: Sequence[Couple]) -> Canvas:
         arcs.append(Arc(couple.at, COUPLE_RADIUS, start * math.pi, stop * math.pi, style.ACTIVE, style.HEAD))
         places = [couple.at + COUPLE_RADIUS * polar(angle) for angle in (0.35, 0.9, 1.6, 2.4, -0.6)]
         requests.append(label(places, couple.label))
-    return Canvas(tuple(arcs), tuple(requests))
+    facts = tuple(turning(couple.label, couple.sense) for couple in couples if couple.sense)
+    return Canvas(tuple(arcs), tuple(requests), facts)
 
 
 def foot(about: complex, start: complex, end: complex) -> complex:

@@ -17,6 +17,7 @@ from typing import Generic, Literal, TypeVar
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import MARGIN, Canvas, finish, settle
+from reportgen.drawing.description import Description, arrow, direction, fact
 from reportgen.drawing.geometry import bounds, clipped, clusters, corners_of, on_one_line, unit
 from reportgen.drawing.labels import KEY, Request, label
 
@@ -66,6 +67,8 @@ class PlanVector(Generic[Corner]):
     style: Style = "known"
     label: Content | None = None
     stage: int = 0
+    lettered: bool = False
+    """Whether its label is not printed: on paper it is known by the letters of its ends."""
 
     @property
     def middle(self: PlanVector[complex]) -> complex:
@@ -124,7 +127,10 @@ class Construction(Generic[Corner]):
     def placed(self, place: Callable[[Corner], Placed]) -> Construction[Placed]:
         """The same construction with its corners elsewhere."""
         return Construction(
-            tuple(PlanVector(v.name, place(v.start), place(v.end), v.style, v.label, v.stage) for v in self.vectors),
+            tuple(
+                PlanVector(v.name, place(v.start), place(v.end), v.style, v.label, v.stage, lettered=v.lettered)
+                for v in self.vectors
+            ),
             tuple(PlanPoint(p.label, place(p.at), p.stage) for p in self.points),
             tuple(PlanLine(place(k.start), place(k.end), k.stage) for k in self.lines),
             self.scale,
@@ -147,7 +153,7 @@ class Construction(Generic[Corner]):
     @property
     def lettered(self) -> Construction[Corner]:
         """Only its points named: a vector is known by the letters of its ends."""
-        return replace(self, vectors=tuple(replace(v, label=None) for v in self.vectors))
+        return replace(self, vectors=tuple(replace(v, lettered=True) for v in self.vectors))
 
     @property
     def extent(self: Plan) -> float:
@@ -187,6 +193,7 @@ def plan(
     draft = Canvas(
         (*_lines(drawing), *_arrows(vectors), *_marks(drawing)),
         _labels(drawing, vectors, style.LABEL, CROWDED if enlarged else CLOSE_BY),
+        vector_facts(vectors),
     )
     notes = () if drawing.scale is None else (drawing.scale,)
     parts, marks = insets(drawing) if enlarged else ((), Canvas())
@@ -222,7 +229,9 @@ def stages(drawing: Plan, factor: float = 1.0, titles: Titles = lettered, begin:
         )
         before = kept[stage - 1] if stage else -1
         title = titles(range(max(before + 1, begin), kept[stage] + 1 if kept else 1), len(panels))
-        draft = Canvas(items, _labels(part, vectors, style.SMALL, CLOSE_BY))
+        new = tuple(v for v in vectors if v.stage == stage)
+        facts = (*(vector_facts(new) if new else ()), *_line_facts(part, stage))
+        draft = Canvas(items, _labels(part, vectors, style.SMALL, CLOSE_BY), facts)
         panels.append(finish(draft, title=title, margin=2.0, frame=(corner[0] - pad, corner[1] + pad)))
     width = max(panel.width for panel in panels)
     height = max(panel.height for panel in panels)
@@ -253,6 +262,22 @@ def kept_stages(drawing: Plan) -> list[int]:
         return any(s < stage and abs(start - p) + abs(end - q) < SAME_POINT for s, p, q in arrows)
 
     return sorted({piece[0] for piece in lines} | {piece[0] for piece in arrows if not repeats(*piece)})
+
+
+def vector_facts(vectors: Sequence[PlanVector[complex]]) -> Description:
+    """What vectors tell: name, length and direction of each, or that none is longer than a point."""
+    facts = (arrow(v.name if v.label is None else v.label, v.end - v.start) for v in vectors)
+    return tuple(facts) or (fact("no-vectors"),)
+
+
+def _line_facts(drawing: Plan, stage: int) -> Description:
+    """What the auxiliary directions of a stage tell: where each begins, and its direction."""
+    names = {point.at: point.label for point in drawing.points}
+    return tuple(
+        fact("direction", names.get(line.start, ""), direction(line.end - line.start))
+        for line in drawing.lines
+        if line.stage == stage and line.end != line.start
+    )
 
 
 def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
@@ -325,7 +350,7 @@ def _labels(
         requests.append(label(ends, *point_names(group), prefer=prefer, gap=gap, size=size, each=True, short=short))
     for vector, by in zip(vectors, set_apart(vectors), strict=True):
         length = vector.end - vector.start
-        if vector.label is None or abs(length) < TINY:
+        if vector.label is None or vector.lettered or abs(length) < TINY:
             continue
         across = cmath.phase(length) + math.pi / 2
         places = [vector.start + length * share for share in (0.5, 0.64, 0.36, 0.76, 0.24, 0.88, 0.12)]
@@ -461,8 +486,8 @@ def _inset(group: Sequence[PlanVector[complex]], drawing: Plan) -> Canvas:
             if names and names not in seen:
                 seen.append(names)
                 requests.append(label(enlarged(at), *names, prefer=(cmath.phase(side * arrow),), size=style.SMALL))
-        if vector.label is not None:
+        if vector.label is not None and not vector.lettered:
             across = cmath.phase(arrow) + math.pi / 2
             sides = (across, across - math.pi)
             requests.append(label(enlarged(vector.middle), vector.label, prefer=sides, size=style.SMALL))
-    return settle(Canvas(tuple(items), tuple(requests)))
+    return settle(Canvas(tuple(items), tuple(requests), (fact("inset", f"{ratio:g}"),)))

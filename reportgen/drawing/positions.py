@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,12 +15,14 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import Description, Fact, PaperLength, fact, listed, pointing, turning
+from reportgen.drawing.description import angle as angle_told
 from reportgen.drawing.geometry import Complexes, clusters, coincident, polar, unit
 from reportgen.drawing.label_size import box
 from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
 from reportgen.drawing.spots import CLEAR
-from reportgen.formula import Symbol, vocabulary
+from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
 from reportgen.machine.motion import Motion
 
@@ -116,8 +118,21 @@ def position_plan(
         items += style.pivot(reached[0].points[name])
         requests.append(label(reached[0].points[name], vocabulary.point(name), gap=style.JOINT + 0.4))
     numbers = range(count) if count <= CROWDED else [k for k in (shows.emphasised,) if k is not None]
-    draft = Canvas(tuple(items), tuple(requests)) + _numbers(every, numbers, shows)
+    facts = _position_facts(linkage, motion, shows, len(reached))
+    draft = Canvas(tuple(items), tuple(requests), facts) + _numbers(every, numbers, shows)
     return finish(draft + beside if beside else draft, notes=notes)
+
+
+def _position_facts(linkage: Linkage, motion: Motion, shows: PositionPlan, count: int) -> Description:
+    """What a position plan tells: how many positions, what is numbered at them, which curves, what is drawn heavy."""
+    facts = [fact("positions", Number(count), listed(map(vocabulary.point, shows.numbered)))]
+    if shows.paths:
+        facts.append(fact("paths", listed(map(vocabulary.point, shows.paths))))
+    if shows.emphasised is not None:
+        facts.append(fact("emphasised", shows.label(shows.emphasised)))
+    if isinstance(linkage.driver, Crank):
+        facts.append(turning(Symbol("ω", "1"), float(motion.rate[0])))
+    return tuple(facts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,7 +179,12 @@ def centre_plan(
                 normals.append(Line(start, centre.at + normal / abs(normal) * BEYOND, style.NORMAL))
         marks.append(Circle(centre.at, DOT, Pen(0.2, style.RED), style.PAPER))
         names.append(label(centre.at, centre.name, gap=DOT + 0.5))
-    whole = Canvas((*normals, *draft.items, *marks), (*draft.requests, *names))
+    facts = tuple(
+        fact("centre", centre.name, vocabulary.point(name), PaperLength(abs(centre.at - bones.points[name])))
+        for centre in centres
+        for name in centre.points
+    )
+    whole = Canvas((*normals, *draft.items, *marks), (*draft.requests, *names), (*facts, *draft.says))
     return finish(whole + _inclined(bones, moving), notes=looks.notes)
 
 
@@ -172,6 +192,7 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
     """Velocities at their points and their angles with the links, counted from the way from base to point."""
     items: list[Item] = []
     requests: list[Request] = []
+    facts: list[Fact] = []
     drawn: list[str] = []
     for moved_rod in moving:
         base, end = (bones.points[name] for name in moved_rod.points)
@@ -188,12 +209,14 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
                 drawn.append(name)
                 items.append(Arrow(at, at + VELOCITY * along, style.ACTIVE, style.HEAD))
                 requests.append(label(at + VELOCITY * along, letter, prefer=(float(np.angle(along)),)))
+                facts.append(pointing(letter, v))
             start, turn = float(np.angle(rod)), float(np.angle(along / rod))
             if abs(turn) > LEAST_ANGLE:
                 items.append(Arc(at, ANGLE, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
             middle = at + ANGLE * polar(start + turn / 2)
             requests.append(label(middle, angle, prefer=(start + turn / 2,), size=style.SMALL))
-    return Canvas(tuple(items), tuple(requests))
+            facts.append(angle_told(angle, turn))
+    return Canvas(tuple(items), tuple(requests), tuple(facts))
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,6 +240,7 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
     ends = [end * scale for end in marks.ends]
     items: list[Item] = []
     requests: list[Request] = []
+    facts: list[Fact] = []
     for end in ends:
         middle, radius = cmath.phase(end - centre), abs(end - centre)
         half = ARC_OVER / radius
@@ -228,13 +252,14 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
         items.append(Arc(at, radius, start, start + turn, style.DIMENSION, style.DIMENSION_HEAD))
         middle = start + turn / 2
         requests.append(label(at + radius * polar(middle), name, prefer=(middle,), size=style.SMALL))
+        facts.append(angle_told(name, turn))
     if marks.circle is not None:
         at, radius = marks.circle[0] * scale, abs(ends[0] - marks.circle[0] * scale)
         turns = sorted(cmath.phase((one - at) / (ends[0] - at)) for one in (*ends, centre))
         start, over = cmath.phase(ends[0] - at), ARC_OVER / radius
         items.append(Arc(at, radius, start + turns[0] - over, start + turns[-1] + over, style.NORMAL))
         requests.append(label(at + radius * polar(start + turns[0] - over), marks.circle[1], size=style.SMALL))
-    return Canvas(tuple(items), tuple(requests))
+    return Canvas(tuple(items), tuple(requests), tuple(facts))
 
 
 def _covers(curve: Complexes, covered: Complexes) -> bool:
@@ -326,6 +351,8 @@ AWAY = 0.94
 """How far beside the cylinder it stands, in its widths."""
 AXIS_PEN = Pen(0.2)
 TICK = 1.0
+READ = 4
+"""Digits of a pressure that is read from the diagram."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -401,7 +428,18 @@ def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Readi
     if frame.note:
         middle = frame.at(1.0, (highest + lowest) / 2)
         requests.append(label(middle, frame.note, prefer=(-math.pi / 2,), gap=8))
-    return Canvas(tuple(items), tuple(requests))
+    return Canvas(tuple(items), tuple(requests), tuple(_branch_facts(frame, branches)))
+
+
+def _branch_facts(frame: Frame, branches: Sequence[Branch]) -> Iterator[Fact]:
+    """What the diagram tells: its axis and scale, and where the pressure of each branch begins and ends."""
+    if frame.axis:
+        yield fact("pressure", frame.axis)
+    for branch in branches:
+        ends = (Number(float(f"{branch.pressure[end]:.{READ}g}")) for end in (0, -1))
+        yield fact("branch", branch.label, *ends)
+    if frame.note:
+        yield fact("scale", frame.note)
 
 
 def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import combinations
 
@@ -13,6 +13,7 @@ import numpy as np
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
+from reportgen.drawing.description import Fact, PaperLength, direction, fact, listed, turning
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.springs import springs
@@ -215,7 +216,8 @@ def thumbnail(linkage: Linkage, motion: Motion, index: int) -> Canvas:
     items += [item for name in bones.pivots for item in style.small_pivot(bones.points[name])]
     joints = [name for name in bones.joints if name not in bones.pivots]
     items += [Circle(bones.points[name], style.POINT, style.THIN, style.PAPER) for name in joints]
-    return settle(Canvas(tuple(items), tuple(_names([*bones.pivots, *joints], bones, style.SMALL, style.POINT))))
+    names = tuple(_names([*bones.pivots, *joints], bones, style.SMALL, style.POINT))
+    return settle(Canvas(tuple(items), names, (fact("beside"),)))
 
 
 def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
@@ -257,7 +259,26 @@ def mechanism(bones: Skeleton, shown: Sequence[int], looks: Looks) -> Canvas:
     marks = [item for name in centres for item in style.mass_centre(bones.points[name])]
     marks += [style.point(bones.points[name]) for name in marked]
     requests += _names([*names, *centres, *marked], bones)
-    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests))
+    return Canvas((*rails, *bars, *blocks, *pins, *marks), tuple(requests), tuple(link_facts(bones, shown)))
+
+
+def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
+    """What the shown links tell: their bars from joint to joint, their blocks and ways, the pivots on the ground."""
+    for link in shown:
+        first, *others = bones.bars.get(link, ()) or ("",)
+        for name in others:
+            bar = bones.points[name] - bones.points[first]
+            ends = vocabulary.point(first), vocabulary.point(name)
+            yield fact("bar", str(link), *ends, PaperLength(abs(bar)), direction(bar))
+        for slide in (slide for slide in bones.slides if slide.link == link):
+            along = direction(polar(slide.angle % math.pi))
+            if slide.on == GROUND:
+                yield fact("slider", str(link), vocabulary.point(slide.name), along)
+            else:
+                yield fact("slider-on", str(link), vocabulary.point(slide.name), str(slide.on), along)
+    standing = listed(vocabulary.point(name) for name in bones.pivots if GROUND in shown)
+    if standing:
+        yield fact("pivots", standing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -321,8 +342,9 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     stop = start + sense * 0.9
     arrow = Arc(centre, reach, start, stop, Pen(0.25), style.HEAD)
     places = [centre + reach * polar(start + share * (stop - start)) for share in (0.6, 0.3, 0.9)]
-    omega = label(places, Symbol("ω", "1"), prefer=((start + stop) / 2,))
-    return Canvas((arrow,), (omega,))
+    name = Symbol("ω", "1")
+    omega = label(places, name, prefer=((start + stop) / 2,))
+    return Canvas((arrow,), (omega,), (turning(name, sense),))
 
 
 def _bars(bones: Skeleton, shown: Sequence[int], looks: Looks) -> list[tuple[complex, complex]]:
@@ -434,10 +456,17 @@ SAMPLE, COLUMN, ROW, GAP = 18.0, 76.0, 6.5, 2.5
 def line_styles(words: Mapping[str, str]) -> Scene:
     """Two columns of samples, lines and arrows; `words` has the text of each that is shown by its name."""
     items: list[Item] = []
+    facts: list[Fact] = []
     for column, pens in enumerate((LINES, ARROWS)):
         for row, (name, pen) in enumerate((name, pen) for name, pen in pens if name in words):
             start = complex(column * COLUMN, -row * ROW)
             end = start + SAMPLE
             items.append(Arrow(start, end, pen, style.HEAD) if pens is ARROWS else Line(start, end, pen))
             items.append(Label(end + GAP, words[name], "left", style.LABEL))
-    return finish(Canvas(tuple(items)), margin=2.0)
+            facts.append(fact(_dashes(pen), words[name], PaperLength(pen.width)))
+    return finish(Canvas(tuple(items), says=tuple(facts)), margin=2.0)
+
+
+def _dashes(pen: Pen) -> str:
+    """The phrase that says what a stroke looks like without its colour."""
+    return "solid" if not pen.dash else "dashed" if len(pen.dash) == 2 else "chain"

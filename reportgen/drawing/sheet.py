@@ -10,9 +10,25 @@ from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import TypeVar
 
-from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import (
+    Arc,
+    Arrow,
+    Circle,
+    Content,
+    Hatch,
+    Item,
+    Label,
+    Line,
+    Pen,
+    Polyline,
+    Scene,
+    description,
+    style,
+)
+from reportgen.drawing.description import Fact, fact
 from reportgen.drawing.geometry import enlarged, moved
 from reportgen.drawing.label_size import POINT, SCRIPT, box
+from reportgen.formula import Number
 
 GAP = 5.0
 """White between plates, and between them and the frame, mm."""
@@ -105,14 +121,15 @@ LETTERS = ENLARGED * style.SMALL
 def lettered(scene: Scene) -> Scene:
     """A figure of a report, drawn small, as a sheet shows it, `ENLARGED` times as large; its title stands below it."""
     items = [_standard(enlarged(item, ENLARGED)) for item in scene.items]
+    facts = description.enlarged(scene.description, ENLARGED)
     width, height = ENLARGED * scene.width, ENLARGED * scene.height
     if not scene.title:
-        return Scene(width, height, tuple(items))
+        return Scene(width, height, tuple(items), description=facts)
     title = box(scene.title, LETTERS)
     by, below = max(title.width - width, 0.0) / 2, title.height + title.depth + LINE_GAP / 2
     items = [moved(item, complex(by, below)) for item in items]
     items.append(Label(complex(by + width / 2, 0), scene.title, "bottom", LETTERS))
-    return Scene(width + 2 * by, height + below, tuple(items))
+    return Scene(width + 2 * by, height + below, tuple(items), description=(fact("part", scene.title), *facts))
 
 
 def _standard(item: Item) -> Item:
@@ -144,7 +161,8 @@ def headed(name: str, *lines: Content) -> Scene:
         base -= tall.height
         items.append(Label(complex(widest / 2, base - extent.depth), content, "bottom", size))
         base -= tall.depth + LINE_GAP
-    return Scene(widest, -base, tuple(moved(item, -1j * base) for item in items))
+    facts = (fact("plate", name), *(fact("line", line) for line in lines))
+    return Scene(widest, -base, tuple(moved(item, -1j * base) for item in items), description=facts)
 
 
 # --- a ruled table as a drawing, for sheets on which everything is drawn --------------------------
@@ -179,7 +197,8 @@ def grid(head: Sequence[Sequence[Content]], rows: Sequence[Sequence[Content]]) -
     for left in (sum(across[:n]) for n in range(1, len(across))):
         items.append(Line(complex(left, 0), complex(left, height), RULE))
     items.append(Polyline((0j, complex(width, 0), complex(width, height), complex(0, height)), EDGE, closed=True))
-    return Scene(width, height, tuple(items))
+    facts = (fact("table", Number(len(rows)), Number(len(across))),)
+    return Scene(width, height, tuple(items), description=facts)
 
 
 # --- scenes of one scale together -----------------------------------------------------------------
@@ -214,18 +233,22 @@ def sheets(
         across = max(width, *(sum(map(wide, row)) for row in rows))
         top = full = foot + sum(map(high, rows))
         items: list[Item] = []
+        facts: list[Fact] = []
         for row in rows:
             top -= high(row)
             x = space = (across - sum(map(wide, row))) / (len(row) + 1)
             for scene in row:
                 corner = complex(x - trim, top + TITLE_HEIGHT - trim)
                 items += [moved(item, corner) for item in scene.items]
+                facts += [fact("part", scene.title)] if scene.title else []
+                facts += scene.description
                 if scene.title:
                     items.append(Label(complex(x + wide(scene) / 2, top + TITLE_HEIGHT / 2), scene.title))
                 x += wide(scene) + space
         if note is not None:
             items.append(Label(complex(across / 2, NOTE_HEIGHT / 3), note))
-        return Scene(across, full, tuple(items))
+            facts.append(fact("scale", note))
+        return Scene(across, full, tuple(items), description=tuple(facts))
 
     rows = _filled(scenes, wide, width)
     return tuple(map(sheet, _filled(rows, high, height - foot)))

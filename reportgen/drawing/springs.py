@@ -9,6 +9,7 @@ import numpy as np
 
 from reportgen.drawing import Circle, Item, Polyline, style
 from reportgen.drawing.canvas import Canvas
+from reportgen.drawing.description import Fact, PaperLength, direction, fact
 from reportgen.drawing.geometry import Complexes, polar, unit
 from reportgen.drawing.labels import Request, label
 from reportgen.formula import Symbol
@@ -64,6 +65,7 @@ def springs(
     """All springs at position `index`, `scale` mm of paper per m, with what they are called."""
     items: list[Item] = []
     requests: list[Request] = []
+    facts: list[Fact] = []
     for coil in coils:
         start, end = (complex(place[index]) * scale for place in coil.at(motion))
         if coil.wound:
@@ -72,6 +74,7 @@ def springs(
             items.append(Polyline(tuple(start + point * towards for point in wound.points), style.VISIBLE))
             places = [start + OUTER * towards * polar(turn) for turn in (math.pi, 2.2, -2.2, 1.2, -1.2)]
             requests.append(label(places, named(coil)))
+            facts.append(fact("torsion-spring", named(coil)))
             continue
         items += mounts(coil, linkage, start, end, pivots)
         corners = zigzag(np.array(start), np.array(end))
@@ -79,4 +82,5 @@ def springs(
         places = [start + share * (end - start) for share in (0.5, 0.4, 0.6, 0.3, 0.7)]
         across = float(np.angle(end - start)) + math.pi / 2
         requests.append(label(places, named(coil), prefer=(across, across + math.pi), gap=SIDE + 0.5))
-    return Canvas(tuple(items), tuple(requests))
+        facts.append(fact("spring", named(coil), PaperLength(abs(end - start)), direction(end - start)))
+    return Canvas(tuple(items), tuple(requests), tuple(facts))

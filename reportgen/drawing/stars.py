@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from reportgen.drawing import Arrow, Circle, Content, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import arrow, fact, pointing
 from reportgen.drawing.geometry import clusters
 from reportgen.drawing.labels import Request, joined, label
 
@@ -31,8 +32,10 @@ def star(vectors: Sequence[complex], names: Sequence[Content], total: Content, t
         for group in clusters(ends, SAME, lambda end: end[0])
     ]
     whole = sum(vectors)
+    facts = [pointing(name, vector) for name, vector in zip(names, vectors, strict=True)]
+    facts.append(arrow(total, RAY * whole) if abs(whole) > CLOSED else fact("closed", total))
     if abs(whole) > CLOSED:
         items.append(Arrow(0j, RAY * whole, style.FOUND))
         requests.append(label([RAY * whole, RAY * whole / 2], total, size=style.SMALL))
     items.append(Circle(0j, 0.6, style.KNOWN, style.PAPER))
-    return finish(Canvas(tuple(items), tuple(requests)), title=title, margin=2.0)
+    return finish(Canvas(tuple(items), tuple(requests), tuple(facts)), title=title, margin=2.0)

@@ -8,6 +8,7 @@ from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Scene, st
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import EDGE, GRID
 from reportgen.drawing.counts import COUNT_WIDTH, LENGTH, ROW
+from reportgen.drawing.description import fact
 from reportgen.drawing.label_size import box
 from reportgen.formula import Number
 
@@ -43,7 +44,13 @@ def scatter(
     items += [Circle(at(x, y), DOT, None, style.BLUE) for x, y in zip(xs, ys, strict=True)]
     items.append(Label(complex(WIDTH / 2, -8.5), x_label))
     items.append(Label(complex(-11.0, HEIGHT / 2), y_label, turn=90))
-    return finish(Canvas(tuple(items)), margin=1.5)
+    facts = [
+        fact(phrase, name, Number(ticks[0]), Number(ticks[-1]))
+        for phrase, name, ticks in (("across", x_label, x_ticks), ("up", y_label, y_ticks))
+    ]
+    facts.append(fact("points", Number(len(xs))))
+    facts += (fact("place", Number(x), Number(y)) for x, y in zip(xs, ys, strict=True))
+    return finish(Canvas(tuple(items), says=tuple(facts)), margin=1.5)
 
 
 def intervals(
@@ -72,4 +79,8 @@ def intervals(
         items.append(Label(complex(-1.5, y), name, "right", style.SMALL))
     items.append(Line(0j, complex(0, height), EDGE))
     items.append(Label(complex(length / 2, -8.5), x_label))
-    return finish(Canvas(tuple(items)), margin=1.5)
+    rows = zip(names, means, spreads, strict=True)
+    facts = (
+        fact("mean", name, Number(float(f"{mean:.3g}")), Number(float(f"{spread:.3g}"))) for name, mean, spread in rows
+    )
+    return finish(Canvas(tuple(items), says=(fact("means", x_label), *facts)), margin=1.5)

@@ -12,6 +12,7 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
+from reportgen.drawing.description import Fact, PaperLength, arrow, direction, fact, listed, turning
 from reportgen.drawing.geometry import bounds, clusters
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.exercise import file
@@ -152,10 +153,31 @@ def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:
         items.append(Arc(rotation.at, radius, start, stop, Pen(0.25), style.HEAD))
         ends = [rotation.at + radius * cmath.exp(1j * (start + (stop - start) * share)) for share in (0.5, 0.8, 0.2)]
         requests.append(label(ends, rotation.symbol, prefer=((start + stop) / 2,)))
-    draft = settle(Canvas(tuple(items), tuple(requests)))
+    draft = settle(Canvas(tuple(items), tuple(requests), tuple(system_facts(drawn))))
     if drawn.coordinates:
         draft += _coordinates(draft)
     return finish(draft, notes=notes)
+
+
+def system_facts(drawn: DrawnSystem) -> Iterator[Fact]:
+    """What a system tells: bodies from point to point, discs, pivots and guides, vectors, senses of rotation."""
+    names = {at: vocabulary.point(name) for name, at in drawn.points.items()}
+    for number, points in drawn.bodies.items():
+        for end in points[1:]:
+            bar = end - points[0]
+            called = (names.get(at, "") for at in (points[0], end))
+            yield fact("bar", str(number), *called, PaperLength(abs(bar)), direction(bar))
+    for disc in drawn.discs:
+        yield fact("disc", names.get(disc.centre, ""), PaperLength(disc.radius))
+    for rail in drawn.rails:
+        phrase = "guide" if rail.on_ground else "block"
+        yield fact(phrase, names.get(rail.at, ""), direction(rail.direction))
+    if drawn.pivots:
+        yield fact("pivots", listed(map(vocabulary.point, drawn.pivots)))
+    for start, end, symbol in drawn.vectors:
+        yield arrow(symbol, end - start)
+    for rotation in drawn.rotations:
+        yield turning(rotation.symbol, rotation.sense)
 
 
 def _coordinates(draft: Canvas) -> Canvas:

@@ -6,6 +6,7 @@ import math
 
 from reportgen.drawing import Arc, Arrow, Circle, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
+from reportgen.drawing.description import PaperLength, fact, turning
 from reportgen.drawing.geometry import bounds, polar, rectangle
 from reportgen.drawing.labels import Request, label
 from reportgen.exercise.friction_drawings import FORCE, angle_mark, force
@@ -34,7 +35,7 @@ def drum(θ: float, sense: int, name: Symbol) -> Canvas:
     inner = RADIUS * 0.55
     start, stop = (-0.6, 0.6) if sense > 0 else (0.6, -0.6)
     items.append(Arc(0j, inner, start, stop, style.VISIBLE, style.HEAD))
-    draft = Canvas(tuple(items), (label(inner * polar(stop), name, prefer=(0.0,), gap=1.0),))
+    draft = Canvas(tuple(items), (label(inner * polar(stop), name, prefer=(0.0,), gap=1.0),), (turning(name, sense),))
     draft += angle_mark(0j, right, left, Symbol("θ"), RADIUS * 0.35)
     for at, along, number in ((right, right - math.pi / 2, "1"), (left, left + math.pi / 2, "2")):
         leaves = (RADIUS + 0.4) * polar(at)
@@ -76,7 +77,8 @@ def across(start: complex, length: float, name: Symbol) -> Canvas:
         Arrow((start + end) / 2, to, style.DIMENSION, min(style.DIMENSION_HEAD, abs(length) / 3)) for to in (start, end)
     )
     marks = tuple(Line(at - 1.2j, at + 1.2j, style.DIMENSION) for at in (start, end))
-    return Canvas((*arrows, *marks), (label((start + end) / 2, name, prefer=(math.pi / 2,), gap=0.6),))
+    named = label((start + end) / 2, name, prefer=(math.pi / 2,), gap=0.6)
+    return Canvas((*arrows, *marks), (named,), (fact("dimension", name, PaperLength(abs(length))),))
 
 
 def shoe_scheme(case: DesignCase) -> Scene:
@@ -99,7 +101,7 @@ def shoe_scheme(case: DesignCase) -> Scene:
         Arc(0j, R * 0.5, -0.6, 0.6, style.VISIBLE, style.HEAD),
     ]
     requests: list[Request] = [label(R * 0.5 * polar(0.6), Symbol("ω"), prefer=(0.0,), gap=1.0)]
-    draft = Canvas(tuple(items), tuple(requests))
+    draft = Canvas(tuple(items), tuple(requests), (turning(Symbol("ω"), 1.0),))
     draft += force(complex(end, bar), -math.pi / 2, Symbol("P"), length=FORCE - 6)
     draft += force(1j * R, math.pi / 2, Symbol("N"), reaction=True, length=bar - R + FORCE - 6)
     draft += force(1j * R - block, math.pi, Symbol("F"), reaction=True, length=FORCE - 6)
@@ -111,5 +113,6 @@ def shoe_scheme(case: DesignCase) -> Scene:
         items.append(Line(complex(at, R), complex(at, pivot.imag), style.DIMENSION))
         items.append(Line(complex(at - 2, R), complex(-block, R), style.CONSTRUCTION))
         middle = complex(at, (R + pivot.imag) / 2)
-        draft += Canvas(tuple(items), (label(middle, Symbol("c"), prefer=(math.pi,), gap=0.8),))
+        height = fact("dimension", Symbol("c"), PaperLength(c * per))
+        draft += Canvas(tuple(items), (label(middle, Symbol("c"), prefer=(math.pi,), gap=0.8),), (height,))
     return finish(draft)

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from reportgen.drawing import Arc, Arrow, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import angle, names_of, pointing
 from reportgen.drawing.geometry import polar, rectangle
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plan import Plan, PlanPoint, PlanVector, Style, plan
@@ -32,14 +33,14 @@ def force(
     start, tip = (at - along, at) if pushes else (at, at + along)
     arrow = Arrow(start, tip, style.REACTION if reaction else style.ACTIVE, style.HEAD)
     free, outward = (start, angle + math.pi) if pushes else (tip, angle)
-    return Canvas((arrow,), (label(free, *name, prefer=(outward,), gap=0.8),))
+    return Canvas((arrow,), (label(free, *name, prefer=(outward,), gap=0.8),), (pointing(names_of(name), along),))
 
 
 def angle_mark(at: complex, start: float, stop: float, name: Content, radius: float = ARC) -> Canvas:
     """The arc of an angle about a place (mm), its name outside."""
     middle = at + radius * polar((start + stop) / 2)
     arc = Arc(at, radius, start, stop, style.DIMENSION)
-    return Canvas((arc,), (label(middle, name, prefer=((start + stop) / 2,), gap=0.8),))
+    return Canvas((arc,), (label(middle, name, prefer=((start + stop) / 2,), gap=0.8),), (angle(name, stop - start),))
 
 
 def slope_base(α: float) -> float:

@@ -25,6 +25,7 @@ from reportgen.drawing.animation import (
     extent,
 )
 from reportgen.drawing.charts import Area
+from reportgen.drawing.description import PaperLength, fact
 from reportgen.drawing.plates import MOST_STEPS, DrawingPlate, enlargeable
 from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, lettered
@@ -219,8 +220,9 @@ def _true_size(case: PairCase, number: int) -> DrawingSheet:
     middle, size = half * (1 + 1j), 2.0 * half
     axes = (Line(1j * half, size + 1j * half, AXES), Line(half + 0j, half + 1j * size, AXES))
     profile = Polyline(tuple(outline + middle), style.HEAVY, closed=True, smooth=True)
+    farthest = fact("profile", PaperLength(float(np.abs(outline).max())))
     parts = (
         PlacedScene("axes", "axes", Scene(size, size, axes)),
-        PlacedScene("profile", "profile", Scene(size, size, (profile,))),
+        PlacedScene("profile", "profile", Scene(size, size, (profile,), description=(farthest,))),
     )
     return DrawingSheet(f"1:1 ({WHEELS[number]})", size, size, parts)

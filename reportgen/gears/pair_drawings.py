@@ -25,6 +25,7 @@ from reportgen.drawing import (
 )
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.charts import Area, Plotted, plotted
+from reportgen.drawing.description import Fact, PaperLength, angle, arrow, fact
 from reportgen.drawing.geometry import clipped
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.scales import IN_REPORT, FigureSize
@@ -44,7 +45,8 @@ SHOWN = (-1, 0, 1)
 """The teeth of each wheel that are drawn, from the one whose flank touches at the pitch point."""
 STEPS = 4
 """The involutes are constructed by so many points."""
-FLANK, LINE_OF_ACTION, ACTIVE = Pen(0.45), Pen(0.18, style.RED), Pen(0.7, style.RED)
+FLANK = Pen(0.45)
+LINE_OF_ACTION, ACTIVE = Pen(0.18, style.RED, style.DASHED), Pen(0.7, style.RED, style.DASHED)
 WORKING = Pen(0.9, style.BLUE)
 INVOLUTE = Pen(0.12, style.GRAY)
 TOWARDS = 14.0
@@ -141,7 +143,20 @@ def mesh(case: SolvedPair, size: FigureSize = IN_REPORT) -> Scene:
     note = size.note(Symbol("μ", "l"), usual)
     a_w = Chain((case.printed.symbol("gears.a_w"), case.printed.result("gears.a_w")))
     notes: list[Content] = [note, a_w]
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+    facts = tuple(_mesh_facts(pair, at))
+    return finish(Canvas(tuple(items), tuple(requests), facts), notes=notes, margin=2.0)
+
+
+def _mesh_facts(pair: GearPair, at: float) -> Iterator[Fact]:
+    """What the mesh tells: numbers of teeth, radii of the circles (mm), the line of action and its active part."""
+    yield fact("mesh", *(Number(int(z)) for z in pair.teeth), Symbol("P"))
+    yield angle(Symbol("α", "w"), float(pair["alpha_w"]))
+    ends = (on_line(pair, float(rho)) * at for rho in (pair["rho_p"][0], pair["rho_a"][0]))
+    start, stop = ends
+    yield arrow((Symbol("B", "2"), Symbol("B", "1")), stop - start)
+    for number in (0, 1):
+        for name, letter in LETTERS.items():
+            yield fact("radius", Symbol("r", f"{letter}{number + 1}"), PaperLength(float(pair[name][number]) / 2 * at))
 
 
 def _corners(points: Complexes) -> tuple[complex, complex]:
@@ -330,7 +345,14 @@ def region(case: SolvedPair, area: Area | None = None) -> Scene:
     requests.append(label(chosen, "(", Symbol("x", "1"), "; ", Symbol("x", "2"), ")", gap=1.2))
     items.append(Label(complex(frame.real, -6), Symbol("x", "1"), "top-right"))
     items.append(Label(complex(-9, frame.imag), Symbol("x", "2"), "top-right"))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+    shifts = [Number(round(float(x), 3)) for x in pair.x]
+    facts = [fact("chosen", Symbol("x", "1"), shifts[0], Symbol("x", "2"), shifts[1])]
+    facts += (
+        fact(phrase, Symbol("x", str(side + 1)), *(Number(round(ends[side], 2)) for ends in (low, high)))
+        for side, phrase in enumerate(("across", "up"))
+    )
+    facts.append(fact("shift-limits", Symbol("ε", "α"), Symbol("λ", "1"), Symbol("λ", "2")))
+    return finish(Canvas(tuple(items), tuple(requests), tuple(facts)), notes=notes, margin=2.0)
 
 
 def level_lines(x: Floats, y: Floats, values: Floats, level: float) -> list[Complexes]:

@@ -25,11 +25,12 @@ from reportgen.drawing.animation import (
     extent,
 )
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import PaperLength, arrow, direction, fact
 from reportgen.drawing.labels import Request, label
 from reportgen.drawing.plates import DrawingPlate, enlargeable
 from reportgen.drawing.scales import IN_REPORT, FigureSize
 from reportgen.drawing.sheet import lettered
-from reportgen.formula import Ref, Symbol
+from reportgen.formula import Number, Ref, Symbol
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS
 from reportgen.gears import train_ids
@@ -41,8 +42,8 @@ from reportgen.sheets.plates import on_sheet
 FRONT = 80.0
 """What the scheme seen along its axis may fill on a page (mm)."""
 WHEEL = Pen(0.4)
-SATELLITE = Pen(0.4, style.BLUE)
-CARRIER = Pen(0.5, style.RED)
+SATELLITE = Pen(0.25, style.BLUE)
+CARRIER = Pen(0.5, style.RED, style.DASHED)
 RIM, BESIDE = 2.6, 0.45
 """Half the width of a rim in the view from the side, and from a reference line to the rim that stands for it (mm)."""
 STEP = 13.0
@@ -82,7 +83,14 @@ def scheme_views(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene:
     r = {wheel: radius * MM * size.per_unit(usual) for wheel, radius in radii(case).items()}
     front, named = _along(case, r)
     side, beside = _from_side(case, r, complex(outermost(r) + 36.0, 0))
-    return finish(Canvas((*front, *side), (*named, *beside)), notes=(size.note(Symbol("μ", "l"), usual),), margin=2.0)
+    wheels = [("1", r["1"]), ("2", r["2"]), *(() if case.scheme.single else (("2′", r[OTHER]),)), ("3", r["3"])]
+    facts = (
+        *(fact("wheel", wheel, PaperLength(radius)) for wheel, radius in wheels),
+        fact("carrier", "H", PaperLength(r["H"]), Number(case.given.k)),
+        fact("held", "3"),
+    )
+    draft = Canvas((*front, *side), (*named, *beside), facts)
+    return finish(draft, notes=(size.note(Symbol("μ", "l"), usual),), margin=2.0)
 
 
 def _along(case: SolvedTrain, r: dict[str, float]) -> tuple[list[Item], list[Request]]:
@@ -238,7 +246,11 @@ def velocity_triangles(case: SolvedTrain, size: FigureSize = IN_REPORT) -> Scene
     notes = [size.note(symbols[of], usual[of].value, usual[of].unit) for of in ("l", "v")]
     rates = replace(usual["omega"], value=float(f"{μ_ω:.6g}"), decimals=None)
     notes.append(size.told(symbols["omega"], rates, usual["omega"]))
-    return finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=2.0)
+    facts = [arrow(Symbol("Aa"), a - A), arrow(Symbol("Bb"), b - B)]
+    facts += (
+        fact("ray", Symbol("K"), wheel, PaperLength(abs(tip - K)), direction(tip - K)) for wheel, tip in tips.items()
+    )
+    return finish(Canvas(tuple(items), tuple(requests), tuple(facts)), notes=notes, margin=2.0)
 
 
 # --- wheels that turn ---------------------------------------------------------------------------------------

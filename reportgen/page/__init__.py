@@ -15,7 +15,7 @@ def panels(case: Case) -> tuple[Panel, ...]:
         return ()
     from reportgen.page.panel import panel
 
-    return tuple(panel(animation, case.assignment.language, case.words["page"]) for animation in animations)
+    return tuple(panel(animation, case.assignment.language, case.words) for animation in animations)
 
 
 def page(case: Case, document: Document | None = None, live: Live | None = None) -> str:

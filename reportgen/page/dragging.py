@@ -33,7 +33,7 @@ class Resident:
         self.case, self.number = case, number
         self.samples = Samples(case)
         animation = self.samples.animation()
-        writer = PanelWriter(animation, case.assignment.language, case.words["page"])
+        writer = PanelWriter(animation, case.assignment.language, case.words)
         writer.panel()
         lengths = writer.tracks.lengths
         self.values = writer.tracks.values

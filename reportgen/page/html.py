@@ -25,6 +25,7 @@ from reportgen.formula.setting import NARROW, written
 from reportgen.page.elements import MathmlFormulas, Painter, Pens, escape
 from reportgen.report import layout
 from reportgen.report.named_figures import figure_name, safe
+from reportgen.report.telling import figure_text
 
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
@@ -445,8 +446,7 @@ class Blocks:
         return f'<figure{_id(block.key)}{_class(name)}><div class="scroll">{drawings}</div>{shown}</figure>'
 
     def scene(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
-        caption = tree.plain(block.caption, self.language)
-        name = f"{self.words.figure} {block.number}. {caption} {scene.title}".strip()
+        name = figure_text(block, scene, self.words, self.language)
         title = f"<p>{escape(scene.title)}</p>" if scene.title else ""
         file = figure_name(block)
         if isinstance(block, tree.Figure) and len(block.scenes) > 1:

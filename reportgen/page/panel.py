@@ -38,6 +38,7 @@ from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
 from reportgen.page.elements import MathmlFormulas, Painter, Pens
 from reportgen.page.html import Panel, data, save_buttons, template
+from reportgen.report.telling import sentences, within
 
 SPEEDS = (0.1, 0.25, 0.5, 1.0, 2.0)
 """Of the motion shown: shares of its usual one."""
@@ -50,7 +51,7 @@ HEADS = ("x (m)", "y (m)", "v_x (m/s)", "v_y (m/s)", "v (m/s)", "a_x (m/s²)", "
 
 
 def panel(animation: Animation, language: Language, words: Mapping[str, Any]) -> Panel:
-    """The panel of a machine or a part; `words` are those of pages (`page` in `words.yaml`)."""
+    """The panel of a machine or a part; `words` are all that `words.yaml` has."""
     return PanelWriter(animation, language, words).panel()
 
 
@@ -104,7 +105,8 @@ class _Drawn:
 class _Charted:
     """A chart as the frame prints it."""
 
-    title: str
+    text: str
+    """What a reader who does not see it hears."""
     width: str
     height: str
     body: str
@@ -113,7 +115,9 @@ class _Charted:
 
 class PanelWriter:
     def __init__(self, animation: Animation, language: Language, words: Mapping[str, Any]) -> None:
-        self.animation, self.language, self.words = animation, language, words
+        self.animation, self.language, self.words = animation, language, words["page"]
+        self.phrases: Mapping[str, str] = words["told"]
+        """What drawings tell."""
         self.own = f"{animation.name}-" if animation.name else ""
         self.pens, self.tracks = Pens(f"{self.own}m"), Tracks()
         self.painter, self.formulas = Painter(language, self.pens), MathmlFormulas(language)
@@ -300,7 +304,7 @@ class PanelWriter:
     def chart(self, chart: Chart) -> _Charted:
         scene = chart.plotted.scene
         return _Charted(
-            chart.title,
+            within(self.words["curves"], sentences(scene.description, self.phrases, self.language)),
             decimal(scene.width),
             decimal(scene.height),
             self.painter.items(scene.items, scene.height),

@@ -5,13 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.units import significant_decimals
-from reportgen.drawing import Content
-from reportgen.drawing.animation import PANEL, Chart, Curve, Fitted, MomentValue, MovingItem, Pane, Track
-from reportgen.drawing.charts import Plotted
-from reportgen.formula import Chain, Symbol
-from reportgen.formula.plain import formula
+from reportgen.drawing.animation import PANEL, Fitted, MomentValue, MovingItem, Pane, Track
+from reportgen.formula import Symbol
 from reportgen.formula.vocabulary import KINDS
-from reportgen.report.report import Report
 
 DIGITS, MOST_DECIMALS = 5, 5
 """Figures of the greatest of its values, decimals at most."""
@@ -19,14 +15,6 @@ DIGITS, MOST_DECIMALS = 5, 5
 
 def plan(key: str, title: str, items: list[MovingItem], plan_fitted: Fitted) -> Pane:
     return Pane(key, title, tuple(items), -PANEL / 2, PANEL / 2, plan_fitted.scales, finer=plan_fitted.finer)
-
-
-def chart(report: Report, plotted: Plotted, curves: tuple[Curve, ...], title: Chain) -> Chart:
-    return Chart(", ".join(told(report, curve.label) for curve in curves), plotted, curves)
-
-
-def told(report: Report, shown: Content) -> str:
-    return shown if isinstance(shown, str) else formula(shown, report.assignment.language)
 
 
 def value(symbol: Symbol, kind: str, values: np.ndarray) -> MomentValue:

@@ -39,7 +39,6 @@ def working_point(report: Report) -> Iterator[Chart]:
     """The characteristic, on which the working point of the drive moves; none of a constant torque."""
     motion = report.case.true_motion
     if motion is not None and motion.drive.governs:
-        title = report.words["captions"]["run-characteristic"]
         symbol = report.ledger.symbol("run.Md")
         plotted = characteristic_chart(report, half=True)
-        yield Chart(title, plotted, (Curve(symbol, Track(np.zeros(1))),), of_run=True)
+        yield Chart(plotted, (Curve(symbol, Track(np.zeros(1))),), of_run=True)

@@ -405,18 +405,18 @@ class Samples:
         report = self.report
         for curves, title in curves_of_motion(report):
             tracks = tuple(Curve(symbol, self.turn(values)) for symbol, values in curves)
-            yield panes.chart(report, over_a_turn(report, curves, title, half=True), tracks, title)
+            yield Chart(over_a_turn(report, curves, title, half=True), tracks)
         if not report.has_forces:
             return
         torque = torque_chart(report, half=True)
         shown = report.balance_symbol()
-        yield Chart(panes.told(report, shown), torque, (Curve(shown, Track(self.analysis.torque)),))
+        yield Chart(torque, (Curve(shown, Track(self.analysis.torque)),))
         if gases := self.analysis.gas:
             unit = KINDS["pressure"].scale
             pressures = [(Symbol("p", str(gas.piston.link)), gas.pressure / unit) for gas in gases.values()]
             title = axis(Symbol("p"), "pressure")
             tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
-            yield panes.chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
+            yield Chart(over_the_cycle(report, pressures, title, half=True), tracks)
         yield from working_point(report)
 
     def values(self) -> Iterator[MomentValue]:

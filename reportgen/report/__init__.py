@@ -180,6 +180,8 @@ class Figure:
     turned: bool = False
     at: str = ""
     here: bool = False
+    rest: str = ""
+    """The number of the table that has what its drawings tell and more, filled in by numbering if there is one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,7 +191,7 @@ class Plate:
     Plates stand together at the end of their chapter.
 
     With `continues` it is a further page of the figure before it, whose number it shares.  `at` is the label of the
-    position that it shows, if it shows one.
+    position that it shows, if it shows one; `rest` is as that of a figure.
     """
 
     scene: Scene
@@ -199,6 +201,7 @@ class Plate:
     number: str = ""
     continues: bool = False
     at: str = ""
+    rest: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -265,13 +268,15 @@ class Words:
     """What the buttons below a figure do on a page."""
     speech: Mapping[str, Any] = field(default_factory=dict, repr=False)
     """How formulas are said, units by their printed signs."""
+    phrases: Mapping[str, str] = field(default_factory=dict, repr=False)
+    """The phrases of what drawings tell, by their names."""
 
     @classmethod
     def among(cls, words: Mapping[str, Any]) -> Self:
-        """Those of a table of words, in which a school may have more."""
+        """Those of all words of a language, in which a school may have more."""
         speech, printed = words["speech"], words["units"]
         units = {printed.get(unit, unit): said for unit, said in speech["units"].items()}
-        own = words["document"] | {"speech": {**speech, "units": units}}
+        own = words["document"] | {"speech": {**speech, "units": units}, "phrases": words["told"]}
         return cls(*(own[field.name] for field in fields(cls)))
 
 

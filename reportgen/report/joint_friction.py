@@ -12,12 +12,13 @@ from reportgen.base.shown import view
 from reportgen.base.units import MM
 from reportgen.drawing import Arc, Arrow, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
+from reportgen.drawing.description import PaperLength, arrow, direction, fact, turning
 from reportgen.drawing.forces import Force, draw_forces
 from reportgen.drawing.geometry import polar
 from reportgen.drawing.labels import label
 from reportgen.drawing.plan import SAME_POINT, Plan, PlanPoint, PlanVector, plan
 from reportgen.drawing.scheme import mechanism, skeleton
-from reportgen.formula import Number, Symbol, friction_ids, ids
+from reportgen.formula import Number, Symbol, friction_ids, ids, vocabulary
 from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.machine.joint_friction import FrictionForces, relative_sense
@@ -228,7 +229,10 @@ def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
         forces.append(
             Force(_named(report, carried.each), (carried.at + carried.offset) * scale, carried.force, "reaction")
         )
-    return finish(draft + Canvas(tuple(marks)) + draw_forces(forces), notes=look.notes)
+    facts = tuple(
+        fact("friction-circle", vocabulary.point(point), PaperLength(radius)) for point, radius in circles.items()
+    )
+    return finish(Canvas(says=facts) + draft + Canvas(tuple(marks)) + draw_forces(forces), notes=look.notes)
 
 
 def _line(carried: JointForce, shown: Sequence[JointForce], scale: float) -> Iterator[Item]:
@@ -283,13 +287,12 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
     ]
     # The link that the force acts on turns against the other; of a pin on the frame it does so by itself.
     ω = Symbol("ω", str(loaded) if acting == GROUND else ids.joint(loaded, acting))
-    names = [
-        label(foot / 2, report.ledger.symbol(friction_ids.circle(carried.each.point))),
-        label((radius + 3.0) * polar(turn), ω),
-    ]
+    ρ = report.ledger.symbol(friction_ids.circle(carried.each.point))
+    names = [label(foot / 2, ρ), label((radius + 3.0) * polar(turn), ω)]
     forces = draw_forces((Force(_named(report, carried.each), foot, carried.force, "reaction"),))
     title = f"{subscripted(carried.each.point)} ({factor:g} : 1)"
-    return finish(Canvas(tuple(items), tuple(names)) + forces, title=title)
+    facts = fact("radius", ρ, PaperLength(radius)), turning(ω, sense)
+    return finish(Canvas(tuple(items), tuple(names), facts) + forces, title=title)
 
 
 def _guide_detail(report: Report, carried: JointForce) -> Scene:
@@ -309,13 +312,21 @@ def _guide_detail(report: Report, carried: JointForce) -> Scene:
         Arc(0j, DETAIL / 2, *angles, style.DIMENSION, style.DIMENSION_HEAD),
     )
     digits = carried.each.digits
+    normal, rubbing = (report.named(Symbol(*of, "", "vector")) for of in (("N", digits), ("F", f"fr{digits}")))
+    whole, φ = _named(report, carried.each), report.ledger.symbol(friction_ids.angle(carried.each.link))
     names = (
-        label((N, N * 0.8), report.named(Symbol("N", digits, "", "vector"))),
-        label(N + F / 2, report.named(Symbol("F", f"fr{digits}", "", "vector"))),
-        label((R, R * 0.8), _named(report, carried.each)),
-        label(DETAIL / 2 * polar(sum(angles) / 2), report.ledger.symbol(friction_ids.angle(carried.each.link))),
+        label((N, N * 0.8), normal),
+        label(N + F / 2, rubbing),
+        label((R, R * 0.8), whole),
+        label(DETAIL / 2 * polar(sum(angles) / 2), φ),
     )
-    return finish(Canvas(items, names), title=f"{report.words['figure']['link']} {carried.each.link}")
+    facts = (
+        arrow(normal, N),
+        arrow(rubbing, F),
+        arrow(whole, R),
+        fact("angle", φ, direction(polar(abs(angles[1] - angles[0])))),
+    )
+    return finish(Canvas(items, names, facts), title=f"{report.words['figure']['link']} {carried.each.link}")
 
 
 # --- force plans ----------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ document, which no number of a counted part can equal, as those have two members
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
@@ -69,7 +69,8 @@ def number(document: tree.Document) -> tree.Document:
         raise DocumentError(faults)
     named = {key: plain(_filled(title, count.shown), document.language) for key, title in count.titles.items()}
     shown = count.shown | named
-    return replace(document, blocks=_each(numbered, lambda line: _filled(line, shown)))
+    filled = _each(numbered, lambda line: _filled(line, shown))
+    return replace(document, blocks=tuple(_with_rest(block, count.shown) for block in filled))
 
 
 def unreferenced(document: tree.Document) -> tuple[str, ...]:
@@ -155,6 +156,18 @@ class _Count:
 
 def _dotted(numbers: tuple[int, ...]) -> str:
     return ".".join(map(str, numbers))
+
+
+def _with_rest(block: tree.Block, shown: Mapping[str, str]) -> tree.Block:
+    """A figure with the number of the table of its name, or of the longest beginning of its name that has one.
+
+    The values of fig.v.stages.23.4 stand in tab.v.
+    """
+    if not isinstance(block, tree.Figure | tree.Plate) or not block.key:
+        return block
+    names = block.key.replace("fig.", "tab.", 1).split(".")
+    keys = (".".join(names[:count]) for count in range(len(names), names.index("tab") + 1, -1) if "tab" in names)
+    return replace(block, rest=next((shown[key] for key in keys if key in shown), ""))
 
 
 # --- walking --------------------------------------------------------------------------------------

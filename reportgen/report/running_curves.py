@@ -211,7 +211,8 @@ def _one_below_another(plots: Sequence[charts.Plotted]) -> Scene:
     for plot in plots:
         top -= plot.scene.height
         items += [moved(item, complex(left - plot.low.real, top)) for item in plot.scene.items]
-    return Scene(width, height, tuple(items), margin=plots[0].scene.margin)
+    description = tuple(said for plot in plots for said in plot.scene.description)
+    return Scene(width, height, tuple(items), margin=plots[0].scene.margin, description=description)
 
 
 FIGURES: Mapping[str, tuple[str, Callable[..., FigureScenes]]] = {

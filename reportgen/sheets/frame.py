@@ -20,7 +20,8 @@ from reportgen.base.source import read_source
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known
-from reportgen.drawing import Anchor, Item, Label, Line, Pen, Polyline, Scene
+from reportgen.drawing import Anchor, Description, Item, Label, Line, Pen, Polyline, Scene
+from reportgen.drawing.description import fact
 from reportgen.drawing.label_size import box
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, Room, font_size
 from reportgen.report.case import Case
@@ -116,13 +117,19 @@ def frame_scene(size: str, block: TitleBlock, fields: Mapping[str, str]) -> Scen
         *_cells(beside),
         *([Label(complex(high.real, low.imag / 2), note, "right", font_size(HEIGHTS[-2]))] if note else []),
     )
-    return Scene(width, height, items)
+    return Scene(width, height, items, description=_said(items))
 
 
 def title_block(cells: Sequence[BlockCell], size: tuple[float, float]) -> Scene:
     """The title block of a size (mm) with its cells filled in; the texts keep inside their cells."""
     outline = Polyline(_corners(0j, complex(*size)), HEAVY, closed=True)
-    return Scene(*size, (*_cells(cells), outline))
+    items = tuple(_cells(cells))
+    return Scene(*size, (*items, outline), description=_said(items))
+
+
+def _said(items: Iterable[Item]) -> Description:
+    """The texts of a frame, in the order of its cells."""
+    return tuple(fact("line", item.content) for item in items if isinstance(item, Label))
 
 
 def _cells(cells: Sequence[BlockCell]) -> Iterator[Item]:

@@ -11,8 +11,8 @@ import datetime
 import math
 import tempfile
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby, pairwise
 from pathlib import Path
 from typing import Any, Literal
 
@@ -31,6 +31,7 @@ from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEqu
 from reportgen.formula.setting import EQUALS, NARROW, MathRow, Part, columns, displayed, laid, sides, written
 from reportgen.formula.speech import Speech
 from reportgen.report import layout, spoken
+from reportgen.report.telling import figure_text, sentences, within
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_fonts import MissingLettersWarning, breadth, lacking, sought
 from reportgen.writers.typst_math import TypstFormulas, literal
@@ -91,12 +92,27 @@ def _date(date: datetime.date | None) -> str:
 
 
 def write_sheet(
-    sheet: DrawingSheet, title: str, language: Language, author: str = "", date: datetime.date | None = None
+    sheet: DrawingSheet,
+    title: str,
+    language: Language,
+    phrases: Mapping[str, str],
+    author: str = "",
+    date: datetime.date | None = None,
 ) -> str:
-    """The Typst source of a drawing sheet, one page of its own size; it needs no other file."""
-    items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
-    drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
-    page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
+    """The Typst source of a drawing sheet, one page of its own size; it needs no other file.
+
+    Each of its plates is a figure that tells, in `phrases`, what it shows; what says nothing is decoration.
+    """
+    formulas, figures = TypstFormulas(language), []
+    for _, parts in groupby(sheet.parts, key=lambda part: part.name.partition(".")[0]):
+        plate = list(parts)
+        items = tuple(moved(item, part.at) for part in plate for item in part.scene.items)
+        drawing = paint_typst(Scene(sheet.width, sheet.height, items), formulas)
+        facts = [said for part in plate for said in sentences(part.scene.description, phrases, language)]
+        text = literal(within("", facts, phrases["rest-in-report"]))
+        shown = f"D({text},{drawing})" if facts else f"pdf.artifact({drawing})"
+        figures.append(f"#place(top+left,{shown})")
+    page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[{''.join(figures)}]"
     opening = ",".join((*map(literal, (title, author, language)), _date(date)))
     return "\n".join((frame(), f"#show: described.with({opening})", SHEET_LOOK, page, ""))
 
@@ -173,19 +189,19 @@ class _Blocks:
             case tree.Figure(scenes, _, key, turned=turned):
                 label = self.caption(self.words.figure, block)
                 if turned:
-                    return f"#Q({literal(key)},{label},\n{paint_typst(scenes[0], self.formulas)})"
+                    return f"#Q({literal(key)},{label},\n{self.drawing(scenes[0], block)})"
                 first, *others = layout.in_parts(block)
                 place = "#standing" if block.here else "#W"
-                figures = [f"{place}({literal(key)},{label},\n{self.rows(first)})"]
+                figures = [f"{place}({literal(key)},{label},\n{self.rows(first, block)})"]
                 for part, rows in enumerate(others, 2):
                     again = literal(f"{self.words.figure} {block.number} ({self.words.part.format(part=part)})")
-                    figures.append(f'{place}("",{again},[],\n{self.rows(rows)})')
+                    figures.append(f'{place}("",{again},[],\n{self.rows(rows, block)})')
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
                 again = f"{self.again(self.words.figure, block)},[]"
                 label = again if continues else self.caption(self.words.figure, block)
                 across = f"{width:g},{height:g},{scene.height:g},{label}"
-                return f"#plate({across},\n{paint_typst(scene, self.formulas)})" + _label(key)
+                return f"#plate({across},\n{self.drawing(scene, block)})" + _label(key)
             case tree.Cover(institution, title, subtitle, fields, foot):
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
@@ -360,11 +376,14 @@ class _Blocks:
         body = self.content(cell.inlines)
         return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
 
-    def rows(self, rows: Sequence[Sequence[Scene]]) -> str:
-        return ",".join(_array(map(self.scene, row)) for row in rows)
+    def rows(self, rows: Sequence[Sequence[Scene]], block: tree.Figure) -> str:
+        return ",".join(
+            _array(f"({self.drawing(scene, block)},{literal(scene.title)})" for scene in row) for row in rows
+        )
 
-    def scene(self, scene: Scene) -> str:
-        return f"({paint_typst(scene, self.formulas)},{literal(scene.title)})"
+    def drawing(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
+        """A scene with what it tells a reader who does not see it."""
+        return f"D({literal(figure_text(block, scene, self.words, self.language))},{paint_typst(scene, self.formulas)})"
 
     def caption(self, word: str, block: tree.Table | tree.Figure | tree.Plate) -> str:
         """The two arguments of a caption: its label, and what it says."""

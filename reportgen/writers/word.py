@@ -14,6 +14,7 @@ from reportgen import report as tree
 from reportgen.drawing import Scene
 from reportgen.formula.setting import NARROW, written
 from reportgen.report import layout
+from reportgen.report.telling import figure_text
 from reportgen.writers.word_elements import (
     A4,
     BOLD,
@@ -421,8 +422,7 @@ class _Blocks:
         return grid_table(GRID, widths, CENTRE, body) + paragraph("Gap", "", KEPT)
 
     def picture(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
-        """A scene in its true size; who does not see it is told its caption."""
+        """A scene in its true size with what it tells a reader who does not see it."""
         self.scenes.append(scene)
         number = len(self.scenes)
-        description = f"{self.words.figure} {block.number}. {tree.plain(block.caption, self.language)} {scene.title}"
-        return drawing(number, scene.width, scene.height, " ".join(description.split()))
+        return drawing(number, scene.width, scene.height, figure_text(block, scene, self.words, self.language))

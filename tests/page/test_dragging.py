@@ -77,7 +77,7 @@ def test_samples_are_those_of_a_whole_animation(name: str, where: tuple[str | in
     other = getattr(whole, "machine", whole)
     assert isinstance(other, MachineAnalysis)
     animation = Samples(other, resident.samples.kept).animation()
-    writer = PanelWriter(animation, "en", other.words["page"])
+    writer = PanelWriter(animation, "en", other.words)
     writer.panel()
     starts = np.concatenate(([0], np.cumsum(writer.tracks.lengths)))
     for number, track in zip(resident.numbers, tracks(animation.panes, animation.values), strict=True):

@@ -17,6 +17,8 @@ from typing import Any
 
 import pytest
 
+from reportgen.base.template_folders import search_path
+from reportgen.base.words import load_words
 from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
@@ -36,6 +38,7 @@ TELLING = ("shaper-02", "linkage-slide")
 """A crank with a sliding block and a rod, and a sliding driver; the others are for `make proof`."""
 FORCED = tuple(name for name in MACHINES if name not in ("slotted-lever-01", "four-bar-02"))
 """Machines that forces act on."""
+PHRASES = load_words(search_path("vi"))["told"]
 PRINTED = 0.01
 """What is measured differs from what is printed by less, mm."""
 CAD = 1e-4
@@ -228,7 +231,7 @@ def test_distances_of_instant_centres_are_those_printed(name: str) -> None:
 @pytest.mark.parametrize("name", matrix(MACHINES, TELLING[:1]))
 def test_all_arrows_are_as_long_on_paper_as_in_cad(name: str) -> None:
     for number, sheet in enumerate(laid(name, "A1").sheets):
-        with pymupdf.open(stream=typst.compile(typst.write_sheet(sheet, "", "vi")), filetype="pdf") as pdf:
+        with pymupdf.open(stream=typst.compile(typst.write_sheet(sheet, "", "vi", PHRASES)), filetype="pdf") as pdf:
             assert pdf.page_count == 1
             size = pdf[0].rect
             assert abs(size.width / pages.MM - sheet.width) < 0.1
@@ -285,7 +288,9 @@ def test_the_file_is_sound_and_shows_the_whole_sheet(name: str) -> None:
 def test_the_same_sheet_gives_the_same_bytes() -> None:
     sheet = laid("four-bar-01", "A1").sheets[0]
     assert dxf.write_sheet(sheet, "vi") == dxf.write_sheet(sheet, "vi")
-    assert typst.compile(typst.write_sheet(sheet, "", "vi")) == typst.compile(typst.write_sheet(sheet, "", "vi"))
+    assert typst.compile(typst.write_sheet(sheet, "", "vi", PHRASES)) == typst.compile(
+        typst.write_sheet(sheet, "", "vi", PHRASES)
+    )
 
 
 @proof

@@ -294,7 +294,7 @@ def test_pictures_have_their_size_their_svg_and_words_in_their_place() -> None:
         assert told is not None
         size = [int(extent.get(name, "0")) / EMU for name in ("cx", "cy")]
         assert size == pytest.approx([scene.width, scene.height], abs=1e-4)
-        assert re.match(r"\S+ [\d.]+\. ", told.get("descr", ""))
+        assert re.match(r"\S+ [\d.]+[.,:]", told.get("descr", ""))
         blip = next(inline.iter(f"{A}blip"))
         png = file.parts[targets[blip.get(f"{R}embed")]]
         pixels = struct.unpack(">II", png[16:24])

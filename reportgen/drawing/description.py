@@ -1,0 +1,170 @@
+"""What a drawing tells a reader who does not see it, as data: names of phrases and what stands in them.
+
+Whoever draws something says it; the phrases are the language's words, and the report puts them together.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from reportgen.drawing.diagram import Content, Diagram, PlottedCurve
+from reportgen.formula import Number
+
+SAME = 1e-9
+"""A share of the largest value of a curve that counts as none."""
+FIGURES = 4
+"""Digits of values that are read from a curve."""
+MOST_ZEROS = 6
+"""A curve that crosses zero more often is only told to swing about it."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaperLength:
+    """A length on the paper of the drawing (mm)."""
+
+    value: float
+
+
+Told = Content | PaperLength | tuple[Content, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """One thing that a drawing tells: the name of a phrase, and what stands in its places, several contents listed."""
+
+    phrase: str
+    values: tuple[Told, ...] = ()
+
+
+Description = tuple[Fact, ...]
+
+
+def fact(phrase: str, *values: Told) -> Fact:
+    """A fact with its values one by one."""
+    return Fact(phrase, values)
+
+
+def enlarged(description: Description, by: float) -> Description:
+    """What a drawing tells that is drawn so many times as large."""
+    return tuple(
+        replace(one, values=tuple(PaperLength(v.value * by) if isinstance(v, PaperLength) else v for v in one.values))
+        for one in description
+    )
+
+
+def direction(vector: complex) -> Number:
+    """The direction of a vector, in degrees from the x-axis anticlockwise: 0 to 360, to a tenth."""
+    tenths = round(10 * math.degrees(cmath.phase(vector))) % 3600
+    return Number(tenths / 10, 1 if tenths % 10 else 0, "°")
+
+
+def arrow(name: Told, vector: complex) -> Fact:
+    """An arrow true to scale (mm): what it is called, its length and direction."""
+    return Fact("arrow", (name, PaperLength(abs(vector)), direction(vector)))
+
+
+def pointing(name: Told, vector: complex) -> Fact:
+    """An arrow whose length says nothing: what it is called, and its direction."""
+    return Fact("pointing", (name, direction(vector)))
+
+
+def turning(name: Told, sense: float) -> Fact:
+    """Something that turns, anticlockwise if its sense is positive."""
+    return Fact("anticlockwise" if sense > 0 else "clockwise", (name,))
+
+
+def angle(name: Told, size: float) -> Fact:
+    """An angle (rad) that is drawn and named."""
+    return Fact("angle", (name, direction(cmath.rect(1.0, abs(size)))))
+
+
+# --- charts ---------------------------------------------------------------------------------------
+
+
+def of_chart(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -> Iterator[Fact]:
+    """What a chart tells whose axes show these ranges: axes, extremes of each curve and where, zeros, levels."""
+    unit = "°" if diagram.turn else ""
+    for phrase, name, ends, of in (("across", diagram.x, x, unit), ("up", diagram.y, y, "")):
+        yield fact(phrase, name, *(_read(end, of) for end in ends))
+    for curve in diagram.curves:
+        yield from of_curve(curve, unit)
+    for level, name in diagram.levels:
+        yield fact("level", name, _read(level))
+
+
+def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float]) -> Iterator[Fact]:
+    """What curves of vectors about a pole tell: the axes, and of each curve the longest and the shortest vector."""
+    for phrase, name, ends in (("across", diagram.x, x), ("up", diagram.y, y)):
+        yield fact(phrase, name, *map(_read, ends))
+    for curve in diagram.curves:
+        vectors = np.asarray(curve.x, dtype=np.float64) + 1j * np.asarray(curve.y, dtype=np.float64)
+        vectors = vectors[np.isfinite(vectors)]
+        if vectors.size:
+            longest, shortest = (complex(vectors[int(of(np.abs(vectors)))]) for of in (np.argmax, np.argmin))
+            phrase = "hodograph" if curve.label else "only-hodograph"
+            read = (one for vector in (longest, shortest) for one in (_read(abs(vector)), direction(vector)))
+            yield Fact(phrase, (*_label(curve), *read))
+
+
+def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
+    """What a curve tells over an axis of a unit: its extremes and where they are, its zeros if they are few."""
+    x, y = np.asarray(curve.x, dtype=np.float64), np.asarray(curve.y, dtype=np.float64)
+    kept = np.isfinite(x) & np.isfinite(y)
+    x, y = x[kept], y[kept]
+    if not y.size:
+        return
+    only, name = "" if curve.label else "only-", _label(curve)
+    if curve.dots:
+        yield Fact(only + "dots", (*name, Number(y.size)))
+    high, low = int(y.argmax()), int(y.argmin())
+    if np.ptp(y) <= SAME * np.abs(y).max(initial=0.0):
+        yield Fact(only + "constant", (*name, _read(float(y[0]))))
+        return
+    ends = (_read(float(y[high])), _read(float(x[high]), unit), _read(float(y[low])), _read(float(x[low]), unit))
+    yield Fact(only + "curve", (*name, *ends))
+    zeros = [] if curve.dots else crossings(x, y)
+    if 0 < len(zeros) <= MOST_ZEROS:
+        yield fact("zeros", tuple(_read(zero, unit) for zero in zeros))
+
+
+def _label(curve: PlottedCurve) -> tuple[Content, ...]:
+    return (curve.label,) if curve.label else ()
+
+
+def crossings(x: ArrayLike, y: ArrayLike) -> list[float]:
+    """Where a broken line through points x, y [K] meets zero, each place once."""
+    x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+    places: NDArray[np.float64] = np.where(np.abs(y) <= SAME * np.abs(y).max(initial=0.0), 0.0, y)
+    places_of_zero = [float(at) for at, value in zip(x, places, strict=True) if value == 0.0]
+    signs = places[:-1] * places[1:]
+    for n in np.flatnonzero(signs < 0.0):
+        share = places[n] / (places[n] - places[n + 1])
+        places_of_zero.append(float(x[n] + share * (x[n + 1] - x[n])))
+    return sorted(set(places_of_zero))
+
+
+def _read(value: float, unit: str = "") -> Number:
+    """A value as one reads it from a curve."""
+    if unit == "°":
+        whole = round(value)
+        return Number(float(whole), 0, unit) if abs(value - whole) < 0.05 else Number(round(value, 1), 1, unit)
+    return Number(float(f"{value:.{FIGURES}g}"), unit=unit)
+
+
+# --- lists ----------------------------------------------------------------------------------------
+
+
+def listed(contents: Iterable[Content]) -> tuple[Content, ...]:
+    """Contents each once, in order."""
+    return tuple(dict.fromkeys(contents))
+
+
+def names_of(contents: Sequence[Content]) -> Told:
+    """One content by itself, several as a list."""
+    return contents[0] if len(contents) == 1 else tuple(contents)

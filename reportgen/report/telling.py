@@ -1,0 +1,99 @@
+"""Figures told: what a reader who does not see a drawing hears of it, from its data and the words of a language.
+
+PDF, page and Word file take the same text: number and caption, then what the drawing says of itself, `MOST` characters
+at most; where that is not all, the table that has the rest is named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from reportgen.base.units import Language
+from reportgen.drawing import Content, Description, Scene
+from reportgen.drawing.description import Fact, PaperLength, Told
+from reportgen.formula import Number, Symbol
+from reportgen.formula.plain import Plain
+from reportgen.formula.setting import PRIMES, parted
+from reportgen.report import Figure, InlineMath, Inlines, Plate, Words, plain
+
+MOST = 600
+"""Characters of the text of a drawing."""
+DECIMALS = 2
+"""Of a length that is measured on paper (mm)."""
+
+
+class Spoken(Plain):
+    """Formulas in a line to be heard: what stands above or below a letter follows it after a space."""
+
+    def symbol(self, node: Symbol) -> str:
+        letters, above = parted(node)
+        behind = above.lstrip(PRIMES)
+        primes = above[: len(above) - len(behind)]
+        return " ".join(filter(None, (letters + primes, node.sub, behind)))
+
+
+def figure_text(block: Figure | Plate, scene: Scene, words: Words, language: Language) -> str:
+    """The text of one drawing of a figure; those after the first do not repeat its caption."""
+    first = not block.continues if isinstance(block, Plate) else scene is block.scenes[0]
+    name = f"{words.figure} {block.number}".strip() if block.number else ""
+    caption = _heard(block.caption, language) if first else words.continued if isinstance(block, Plate) else ""
+    head = ". ".join(filter(None, (name, caption)))
+    titled = ", ".join(filter(None, (head, scene.title)))
+    phrase = words.phrases["rest-in-table" if block.rest else "rest-in-text"]
+    rest = phrase.format(words.table, block.rest)
+    return within(titled, sentences(scene.description, words.phrases, language), rest)
+
+
+def sentences(description: Description, words: Mapping[str, str], language: Language) -> Iterator[str]:
+    """What a drawing says of itself, one thing after the other.
+
+    Raises `KeyError` for a phrase without words.
+    """
+    spoken = Spoken(language)
+    for fact in description:
+        yield _phrase(fact, words, spoken)
+
+
+def within(head: str, facts: Iterable[str], rest: str = "") -> str:
+    """Head and facts as one text of `MOST` characters; what is left out is told by the `rest`."""
+    kept, facts = [], list(facts)
+    room = MOST - len(head) - 3
+    whole = "; ".join(facts)
+    if len(whole) <= room:
+        kept = facts
+    else:
+        room -= len(rest) + 2
+        for fact in facts:
+            room -= len(fact) + 2
+            if room < 0:
+                break
+            kept.append(fact)
+        kept += [rest] if rest else []
+    text = "; ".join(kept)
+    joined = ": ".join(filter(None, (head, text)))
+    return joined if len(joined) < MOST else joined[: MOST - 1] + "…"
+
+
+def _heard(inlines: Inlines, language: Language) -> str:
+    spoken = Spoken(language)
+    return "".join(
+        spoken.math(inline.expression) if isinstance(inline, InlineMath) else plain((inline,), language)
+        for inline in inlines
+    )
+
+
+def _phrase(fact: Fact, words: Mapping[str, str], spoken: Spoken) -> str:
+    return " ".join(words[fact.phrase].format(*(_value(value, words, spoken) for value in fact.values)).split())
+
+
+def _value(value: Told, words: Mapping[str, str], spoken: Spoken) -> str:
+    match value:
+        case PaperLength(length):
+            return _content(Number(length, DECIMALS, "mm"), spoken)
+        case tuple():
+            return ", ".join(_content(one, spoken) for one in value)
+    return _content(value, spoken)
+
+
+def _content(content: Content, spoken: Spoken) -> str:
+    return content if isinstance(content, str) else spoken.math(content)
