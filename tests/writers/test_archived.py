@@ -19,7 +19,8 @@ from reportgen.base.errors import OutputWarning, TypesetterError
 from reportgen.base.limits import TEMPLATES, call_within
 from reportgen.base.standards import KNOWN, STANDARDS, other_than_usual, titled
 from reportgen.base.units import Language
-from reportgen.report import Block, Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
+from reportgen.formula import Symbol
+from reportgen.report import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
 from reportgen.writers import typst
 from tests.lanes import matrix
 from tests.marking.test_papers import PAPERS
@@ -48,7 +49,9 @@ def nothing_told() -> Iterator[None]:
 
 def sheet(language: Language) -> bytes:
     case = built.case(built.SAMPLE, language)
-    return api.typeset_sheet(laid("slotted-lever-01", "A2").sheets[0], case.title, case.assignment, STANDARDS)
+    return api.typeset_sheet(
+        laid("slotted-lever-01", "A2").sheets[0], case.title, case.assignment, case.words["told"], STANDARDS
+    )
 
 
 def on_paper(document: Document) -> bytes:
@@ -154,26 +157,21 @@ def test_a_task_is_called_by_its_own_title(tmp_path: Path) -> None:
 # --- what is read, and in which order ----------------------------------------------------------------
 
 
-def math(base: str) -> Paragraph:
-    from reportgen.formula import Symbol
-
-    return Paragraph((Text("x "), InlineMath(Symbol(base))))
+def line(words: str, base: str) -> Paragraph:
+    return Paragraph((Text(f"{words} "), InlineMath(Symbol(base))))
 
 
 def test_a_float_is_read_where_it_is_called() -> None:
-    """It goes to another page than its call: here to the next, and back in the order of reading."""
-    scene = replace(sample.scene(), height=150.0)
-    blocks: list[Block] = [Section(1, (Text("A"),)), math("a"), *([math("b")] * 25)]
-    blocks += [Figure((scene,), (Text("C"),), "fig.c"), math("d"), *([math("e")] * 40)]
-    pdf = on_paper(document(*blocks))
-    read = [tag for tag in tags.read(pdf).of("Formula", "Figure")]
-    names = ["figure" if tag.name == "Figure" else tag.alt for tag in read]
-    at = names.index("figure")
-    assert names[:at] == ["a", *["b"] * 25]
-    assert names[at + 1] == "d"
-    # On paper it stands elsewhere: what follows it in reading is printed before it.
+    """Its page has no room left for it, so what is read behind it is printed before it."""
+    above, below = [line("above", "a")] * 25, [line("below", "b")] * 40
+    figure = Figure((sample.star(150.0),), (Text("The star"),), "fig.star")
+    pdf = on_paper(document(Section(1, (Text("Stars"),)), *above, figure, *below))
+    read = ["star" if tag.name == "Figure" else tag.alt for tag in tags.read(pdf).of("Formula", "Figure")]
+    assert read == [*["a"] * 25, "star", *["b"] * 40]
     pages = [page.get_text() for page in opened(pdf)]
-    assert ["150" in page or "C" in page for page in pages].index(True) > 0
+    assert "below" in pages[0]
+    assert "The star" not in pages[0]
+    assert "The star" in pages[1]
 
 
 def table(rows: int) -> Table:
