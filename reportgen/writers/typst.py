@@ -288,16 +288,16 @@ class _Blocks:
                 heard = self.speech.equation(map(self.speech.row, laid_out), number)
                 rows = ",".join(_array(self.row(sides)) for sides in laid_out)
                 arguments = f"{literal(heard)},{literal(number)},{layout.ABREAST:g}"
-                lines.append(f"#{self.setter(group, number)}{arguments},{rows})")
+                lines.append(f"#{self.setter(group, laid_out, number)}{arguments},{rows})")
         return "\n".join(lines) + _label(equation.key)
 
-    def setter(self, rows: Sequence[Expression], number: str) -> str:
+    def setter(self, rows: Sequence[Expression], laid_out: Sequence[Sequence[object]], number: str) -> str:
         """Which function of the frame sets rows alike: `F` below each other, `A` two abreast, `E` by measuring.
 
         Rows without a number stand two abreast where they have room so.
         """
         own = [box(row, self.size, displayed=True).width for row in rows]
-        heads = [self.head(row) for row in rows]
+        heads = [self.head(row, len(parts)) for row, parts in zip(rows, laid_out, strict=True)]
 
         def aligned(start: int, step: int) -> float:
             """What rows take (mm) whose relations stand below each other."""
@@ -314,9 +314,9 @@ class _Blocks:
         short = len(rows) == 1 or max(heads) + _doubt(max(heads)) <= LONG_HEAD * room
         return "F(" if short and two - _doubt(two) > room >= below + _doubt(below) else f"E({self.room:g},"
 
-    def head(self, row: Expression) -> float:
-        """What a displayed row takes before its first relation (mm)."""
-        if not isinstance(row, Chain) or len(displayed(row, self.language, layout.fits)) == 1:
+    def head(self, row: Expression, parts: int) -> float:
+        """What a row that is displayed in so many parts takes before its first relation (mm)."""
+        if not isinstance(row, Chain) or parts == 1:
             return 0.0
         return box(row.parts[0], self.size, displayed=True).width
 
