@@ -30,8 +30,9 @@ from reportgen.formula.setting import (
     Raised,
     Sign,
     Written,
-    columns,
+    known_of,
     parted,
+    terms,
 )
 from reportgen.formula.vocabulary import raised
 
@@ -214,10 +215,10 @@ class Speech(Setter[str]):
     def vector_equation(self, equation: VectorEquation) -> str:
         """The line first, then what is known of each term."""
         said = [self.math(equation)]
-        for column in columns(equation):
-            entries = zip(equation.rows, column.known, strict=True)
+        for _, term in terms(equation):
+            entries = zip(equation.rows, known_of(term, equation), strict=True)
             facts = ", ".join(f"{self.text(row)} {self.known(entry)}" for row, entry in entries if entry != "")
-            said += [f"{self.part(column.term)}: {facts}"] if facts else []
+            said += [f"{self.symbol(term.symbol)}: {facts}"] if facts else []
         return ". ".join(said)
 
     def known(self, entry: Expression | str | None) -> str:
