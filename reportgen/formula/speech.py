@@ -227,7 +227,7 @@ class Speech(Setter[str]):
 
 def sound(said: str) -> str:
     """What is heard of words: neither capitals nor blanks nor pauses."""
-    return re.sub(r"[\s,]", "", said).casefold()
+    return re.sub(r"[\s,-]", "", said).casefold()
 
 
 def _filled(pattern: str, **parts: str) -> str:

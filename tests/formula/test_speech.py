@@ -136,7 +136,7 @@ def test_ends_are_said_where_they_could_be_missed() -> None:
     assert said(Fraction(Sum((A, B)), C)) == "fraction a plus b all over c end fraction"
     assert said(Root(A)) == "the square root of a"
     assert said(Sum((Root(Sum((A, B))), C))) == "the square root of all a plus b end root plus c"
-    assert said(cos(Sum((A, B))), "vi") == "cô sin của mở ngoặc a cộng b đóng ngoặc"
+    assert said(cos(Sum((A, B))), "vi") == "cô-sin của mở ngoặc a cộng b đóng ngoặc"
     assert said(Fraction(Negative(A), B), "vi") == "phân số tử âm a mẫu b hết phân số"
     assert said(Negative(Fraction(A, B)), "vi") == "âm a trên b"
 

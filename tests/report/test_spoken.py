@@ -246,7 +246,7 @@ def test_no_two_symbols_of_a_report_sound_alike(path: Path, language: Language) 
         for symbol in {
             symbol for formulas in printed(document.blocks) for row, _ in formulas for symbol in symbols(row)
         }:
-            prints[re.sub(r"[\s,]", "", speech.symbol(symbol)).casefold()].add(print_of(symbol))
+            prints[re.sub(r"[\s,-]", "", speech.symbol(symbol)).casefold()].add(print_of(symbol))
         assert {said: marks for said, marks in prints.items() if len(marks) > 1} == {}
 
 
