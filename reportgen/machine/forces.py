@@ -257,12 +257,12 @@ class _Group:
             for wrench in carried[link]:
                 known[row : row + 3] += _components(wrench, self.pole, self.length, -1.0)
         known[:, ~valid] = np.nan
-        found = np.linalg.solve(self.matrix, known.T[:, :, None])[:, :, 0].T
+        shares = np.linalg.solve(self.matrix, known.T[:, :, None])[:, :, 0].T
         return [
             _Wrench(
-                first.force * found[2 * k] + second.force * found[2 * k + 1],
+                first.force * shares[2 * k] + second.force * shares[2 * k + 1],
                 first.point,
-                first.couple * found[2 * k] + second.couple * found[2 * k + 1],
+                first.couple * shares[2 * k] + second.couple * shares[2 * k + 1],
             )
             for k, (first, second) in enumerate(zip(self.columns[::2], self.columns[1::2], strict=True))
         ]
