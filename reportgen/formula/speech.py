@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
+from reportgen.base.errors import TemplateError
 from reportgen.base.units import MINUS, Language
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setter import Setter
@@ -53,14 +54,15 @@ _IN_TEXT = re.compile(r"[A-Z][A-Z₀-₉]+|[Α-Ωα-ω][₀-₉]*|(?<=\w)[₀-�
 class Speech(Setter[str]):
     """Formulas in words; of `symbols`, those of one report, no two sound alike.
 
-    `words` has what is said for each part, and `units` by the signs that are printed.
+    `words` has what is said for each part, and `units` by the signs that are printed.  Raises `TemplateError` for
+    counts that are no patterns.
     """
 
     def __init__(self, language: Language, words: Mapping[str, Any], symbols: Iterable[Symbol] = ()) -> None:
         super().__init__(language)
         self.words = words
         self.unit = lru_cache(KEPT_UNITS)(self._unit)
-        self._counts = [re.compile(count) for count in words["counts"].split()]
+        self._counts = list(map(_pattern, words["counts"].split()))
         self._said = {node: self._symbol(node, detail) for node, detail in self._apart(symbols).items()}
 
     # --- parts ------------------------------------------------------------------------------------
@@ -230,8 +232,15 @@ def sound(said: str) -> str:
     return re.sub(r"[\s,-]", "", said).casefold()
 
 
+def _pattern(count: str) -> re.Pattern[str]:
+    try:
+        return re.compile(count)
+    except re.error as error:
+        raise TemplateError(f"counts: {count}: {error}") from error
+
+
 def _filled(pattern: str, **parts: str) -> str:
-    return pattern.format_map(parts)
+    return pattern.format(**parts)
 
 
 def _is_single(part: Part, bare: bool = False) -> bool:

@@ -6,6 +6,7 @@ from typing import Any, get_args
 
 import pytest
 
+from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import PLAIN, Language, write
 from reportgen.base.words import load_words
@@ -185,6 +186,11 @@ def test_forms_of_a_unit_follow_the_counts_of_a_language() -> None:
     speech = Speech("en", three)
     heard = {count: speech.math(Number(float(count), None, "N"))[-1] for count in (1, 2, 4, 5, 11, 12, 20, 21, 33, 100)}
     assert heard == {1: "a", 2: "b", 4: "b", 5: "c", 11: "c", 12: "c", 20: "c", 21: "a", 33: "b", 100: "c"}
+
+
+def test_counts_of_a_school_that_are_no_patterns_are_a_fault_of_its_template() -> None:
+    with pytest.raises(TemplateError, match="counts"):
+        Speech("en", words("en") | {"counts": "(1"})
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
