@@ -13,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
+from reportgen.base.errors import TemplateError
 from reportgen.base.units import MINUS, Language
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setter import Setter
@@ -30,8 +31,9 @@ from reportgen.formula.setting import (
     Raised,
     Sign,
     Written,
-    columns,
+    known_of,
     parted,
+    terms,
 )
 from reportgen.formula.vocabulary import raised
 
@@ -52,14 +54,15 @@ _IN_TEXT = re.compile(r"[A-Z][A-Z₀-₉]+|[Α-Ωα-ω][₀-₉]*|(?<=\w)[₀-�
 class Speech(Setter[str]):
     """Formulas in words; of `symbols`, those of one report, no two sound alike.
 
-    `words` has what is said for each part, and `units` by the signs that are printed.
+    `words` has what is said for each part, and `units` by the signs that are printed.  Raises `TemplateError` for
+    counts that are no patterns.
     """
 
     def __init__(self, language: Language, words: Mapping[str, Any], symbols: Iterable[Symbol] = ()) -> None:
         super().__init__(language)
         self.words = words
         self.unit = lru_cache(KEPT_UNITS)(self._unit)
-        self._counts = [re.compile(count) for count in words["counts"].split()]
+        self._counts = list(map(_pattern, words["counts"].split()))
         self._said = {node: self._symbol(node, detail) for node, detail in self._apart(symbols).items()}
 
     # --- parts ------------------------------------------------------------------------------------
@@ -214,10 +217,10 @@ class Speech(Setter[str]):
     def vector_equation(self, equation: VectorEquation) -> str:
         """The line first, then what is known of each term."""
         said = [self.math(equation)]
-        for column in columns(equation):
-            entries = zip(equation.rows, column.known, strict=True)
+        for _, term in terms(equation):
+            entries = zip(equation.rows, known_of(term, equation), strict=True)
             facts = ", ".join(f"{self.text(row)} {self.known(entry)}" for row, entry in entries if entry != "")
-            said += [f"{self.part(column.term)}: {facts}"] if facts else []
+            said += [f"{self.symbol(term.symbol)}: {facts}"] if facts else []
         return ". ".join(said)
 
     def known(self, entry: Expression | str | None) -> str:
@@ -226,11 +229,18 @@ class Speech(Setter[str]):
 
 def sound(said: str) -> str:
     """What is heard of words: neither capitals nor blanks nor pauses."""
-    return re.sub(r"[\s,]", "", said).casefold()
+    return re.sub(r"[\s,-]", "", said).casefold()
+
+
+def _pattern(count: str) -> re.Pattern[str]:
+    try:
+        return re.compile(count)
+    except re.error as error:
+        raise TemplateError(f"counts: {count}: {error}") from error
 
 
 def _filled(pattern: str, **parts: str) -> str:
-    return pattern.format_map(parts)
+    return pattern.format(**parts)
 
 
 def _is_single(part: Part, bare: bool = False) -> bool:
