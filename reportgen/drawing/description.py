@@ -119,15 +119,15 @@ def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
     x, y = x[kept], y[kept]
     if not y.size:
         return
-    only, name = "" if curve.label else "only-", _label(curve)
+    name = _label(curve)
     if curve.dots:
-        yield Fact(only + "dots", (*name, Number(y.size)))
+        yield Fact("dots" if name else "only-dots", (*name, Number(y.size)))
     high, low = int(y.argmax()), int(y.argmin())
     if np.ptp(y) <= SAME * np.abs(y).max(initial=0.0):
-        yield Fact(only + "constant", (*name, _read(float(y[0]))))
+        yield Fact("constant" if name else "only-constant", (*name, _read(float(y[0]))))
         return
     ends = (_read(float(y[high])), _read(float(x[high]), unit), _read(float(y[low])), _read(float(x[low]), unit))
-    yield Fact(only + "curve", (*name, *ends))
+    yield Fact("curve" if name else "only-curve", (*name, *ends))
     zeros = [] if curve.dots else crossings(x, y)
     if 0 < len(zeros) <= MOST_ZEROS:
         yield fact("zeros", tuple(_read(zero, unit) for zero in zeros))
