@@ -153,7 +153,7 @@ def law_diagrams(case: SolvedCam, size: FigureSize = IN_REPORT) -> Scene:
                 complex((start + stop) / 2, y), case.ledger.symbol(cam_ids.phase(name)), gap=0.8, prefer=(math.pi / 2,)
             )
         )
-    facts = [fact("graph", symbol, unit) for symbol, unit, _ in motion_charts(case)]
+    facts = [fact("graph", axis(symbol, unit)) for symbol, unit, _ in motion_charts(case)]
     for symbol, _, values in motion_charts(case):
         facts += of_curve(PlottedCurve(symbol, np.degrees(case.solution.cam.sampled().φ), values), "°")
     return finish(Canvas(tuple(items), tuple(requests), tuple(facts)), notes=notes, margin=2.0)

@@ -15,6 +15,7 @@ from reportgen.drawing.description import fact
 from reportgen.drawing.geometry import bounds, corners_of, moved
 from reportgen.drawing.label_size import Box, box
 from reportgen.drawing.labels import Request, label_row, place
+from reportgen.formula import Chain, Symbol
 
 MARGIN = 6.0
 
@@ -61,8 +62,14 @@ def finish(
     white = complex(margin, margin)
     size = high + white - (low - white)
     items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
-    description = (*draft.says, *(fact("scale", note) for note in notes))
+    description = (*draft.says, *(fact("scale" if _is_scale(note) else "line", note) for note in notes))
     return Scene(size.real, size.imag, items, title, margin, labels.crowded, description=description)
+
+
+def _is_scale(note: Content) -> bool:
+    """Whether a note says a scale, μ of something, and no other quantity."""
+    first = note.parts[0] if isinstance(note, Chain) else note
+    return isinstance(first, Symbol) and first.base == "μ"
 
 
 def _notes(notes: Iterable[Sequence[Content]], x: float, y: float) -> tuple[Item, ...]:

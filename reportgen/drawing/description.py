@@ -64,6 +64,12 @@ def direction(vector: complex) -> Number:
     return Number(tenths / 10, 1 if tenths % 10 else 0, "°")
 
 
+def alignment(along: complex) -> Number:
+    """The direction of a line that has two, in degrees from the x-axis: 0 to 180, to a tenth."""
+    degrees = direction(along)
+    return replace(degrees, value=round(degrees.value % 180, 1))
+
+
 def arrow(name: Told, vector: complex) -> Fact:
     """An arrow true to scale (mm): what it is called, its length and direction."""
     return Fact("arrow", (name, PaperLength(abs(vector)), direction(vector)))
@@ -115,20 +121,21 @@ def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float
 def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
     """What a curve tells over an axis of a unit: its extremes and where they are, its zeros if they are few."""
     x, y = np.asarray(curve.x, dtype=np.float64), np.asarray(curve.y, dtype=np.float64)
+    # Across a gap, as of a radius that goes through infinity, a curve meets no zero.
+    zeros = [] if curve.dots else crossings(x, y)
     kept = np.isfinite(x) & np.isfinite(y)
     x, y = x[kept], y[kept]
     if not y.size:
         return
-    only, name = "" if curve.label else "only-", _label(curve)
+    name = _label(curve)
     if curve.dots:
-        yield Fact(only + "dots", (*name, Number(y.size)))
+        yield Fact("dots" if name else "only-dots", (*name, Number(y.size)))
     high, low = int(y.argmax()), int(y.argmin())
     if np.ptp(y) <= SAME * np.abs(y).max(initial=0.0):
-        yield Fact(only + "constant", (*name, _read(float(y[0]))))
+        yield Fact("constant" if name else "only-constant", (*name, _read(float(y[0]))))
         return
     ends = (_read(float(y[high])), _read(float(x[high]), unit), _read(float(y[low])), _read(float(x[low]), unit))
-    yield Fact(only + "curve", (*name, *ends))
-    zeros = [] if curve.dots else crossings(x, y)
+    yield Fact("curve" if name else "only-curve", (*name, *ends))
     if 0 < len(zeros) <= MOST_ZEROS:
         yield fact("zeros", tuple(_read(zero, unit) for zero in zeros))
 
@@ -138,9 +145,10 @@ def _label(curve: PlottedCurve) -> tuple[Content, ...]:
 
 
 def crossings(x: ArrayLike, y: ArrayLike) -> list[float]:
-    """Where a broken line through points x, y [K] meets zero, each place once."""
+    """Where a broken line through points x, y [K] meets zero, each place once; a point that is nan is a gap."""
     x, y = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
-    places: NDArray[np.float64] = np.where(np.abs(y) <= SAME * np.abs(y).max(initial=0.0), 0.0, y)
+    greatest = float(np.abs(y[np.isfinite(y)]).max(initial=0.0))
+    places: NDArray[np.float64] = np.where(np.abs(y) <= SAME * greatest, 0.0, y)
     places_of_zero = [float(at) for at, value in zip(x, places, strict=True) if value == 0.0]
     signs = places[:-1] * places[1:]
     for n in np.flatnonzero(signs < 0.0):

@@ -13,7 +13,7 @@ import numpy as np
 
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.description import Fact, PaperLength, direction, fact, listed, turning
+from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.springs import springs
@@ -271,7 +271,7 @@ def link_facts(bones: Skeleton, shown: Sequence[int]) -> Iterator[Fact]:
             ends = vocabulary.point(first), vocabulary.point(name)
             yield fact("bar", str(link), *ends, PaperLength(abs(bar)), direction(bar))
         for slide in (slide for slide in bones.slides if slide.link == link):
-            along = direction(polar(slide.angle % math.pi))
+            along = alignment(polar(slide.angle))
             if slide.on == GROUND:
                 yield fact("slider", str(link), vocabulary.point(slide.name), along)
             else:

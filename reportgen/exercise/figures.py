@@ -12,7 +12,7 @@ import numpy as np
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
-from reportgen.drawing.description import Fact, PaperLength, arrow, direction, fact, listed, turning
+from reportgen.drawing.description import Fact, PaperLength, alignment, arrow, direction, fact, listed, turning
 from reportgen.drawing.geometry import bounds, clusters
 from reportgen.drawing.labels import Request, joined, label
 from reportgen.exercise import file
@@ -171,7 +171,7 @@ def system_facts(drawn: DrawnSystem) -> Iterator[Fact]:
         yield fact("disc", names.get(disc.centre, ""), PaperLength(disc.radius))
     for rail in drawn.rails:
         phrase = "guide" if rail.on_ground else "block"
-        yield fact(phrase, names.get(rail.at, ""), direction(rail.direction))
+        yield fact(phrase, names.get(rail.at, ""), alignment(rail.direction))
     if drawn.pivots:
         yield fact("pivots", listed(map(vocabulary.point, drawn.pivots)))
     for start, end, symbol in drawn.vectors:

@@ -372,8 +372,11 @@ def force_plan_with_friction(report: Report, polygon: Polygon, k: int) -> Plan:
             end = at + corners[edge.end] - corners[edge.start]
         if abs(at - corners[edge.start]) > SAME_POINT or abs(end - corners[edge.end]) > SAME_POINT:
             digits = edge.name.removeprefix("R")
-            symbol = report.named(Symbol("R", digits, "fr", "vector")) if edge.is_reaction else None
-            moved.append(PlanVector(f"{edge.start}{edge.end}.fr", at, end, "relative", symbol))
+            symbol = report.named(Symbol("R", digits, "fr", "vector"))
+            # A load that stands elsewhere than without friction has its name there.
+            shown = symbol if edge.is_reaction else report.force_vector(edge.name)
+            name = f"{edge.start}{edge.end}.fr"
+            moved.append(PlanVector(name, at, end, "relative", shown, lettered=not edge.is_reaction))
             if end != first:
                 points.append(PlanPoint(Symbol(edge.end, sup="′"), end))
         at = end

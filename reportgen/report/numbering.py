@@ -163,10 +163,11 @@ def _with_rest(block: tree.Block, shown: Mapping[str, str]) -> tree.Block:
 
     The values of fig.v.stages.23.4 stand in tab.v.
     """
-    if not isinstance(block, tree.Figure | tree.Plate) or not block.key:
+    if not isinstance(block, tree.Figure | tree.Plate):
         return block
     names = block.key.replace("fig.", "tab.", 1).split(".")
-    keys = (".".join(names[:count]) for count in range(len(names), names.index("tab") + 1, -1) if "tab" in names)
+    least = names.index("tab") + 2 if "tab" in names else len(names) + 1
+    keys = (".".join(names[:count]) for count in range(len(names), least - 1, -1))
     return replace(block, rest=next((shown[key] for key in keys if key in shown), ""))
 
 

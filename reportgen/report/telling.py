@@ -7,6 +7,7 @@ at most; where that is not all, the table that has the rest is named.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from itertools import groupby
 
 from reportgen.base.units import Language
 from reportgen.drawing import Content, Description, Scene
@@ -45,12 +46,12 @@ def figure_text(block: Figure | Plate, scene: Scene, words: Words, language: Lan
 
 
 def sentences(description: Description, words: Mapping[str, str], language: Language) -> Iterator[str]:
-    """What a drawing says of itself, one thing after the other.
+    """What a drawing says of itself, one thing after the other; what it would say twice in a row, once.
 
     Raises `KeyError` for a phrase without words.
     """
     spoken = Spoken(language)
-    for fact in description:
+    for fact, _ in groupby(description):
         yield _phrase(fact, words, spoken)
 
 

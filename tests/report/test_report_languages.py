@@ -229,7 +229,7 @@ def test_every_word_is_used() -> None:
     called = [section.text for file in TEMPLATES.rglob("*.md") for section in called_sections(file).values()]
     code = "\n".join([*(path.read_text(encoding="utf-8") for path in sources), *called])
     words = load_words(search_path("en"))
-    assert words["document"].keys() | {"speech"} == {field.name for field in fields(Words)}
+    assert words["document"].keys() | {"speech", "phrases"} == {field.name for field in fields(Words)}
     assert words["groups"].keys() == set(get_args(DyadKind))
     assert words["joints"].keys() == {"R", "P"}
     computed = {"document", "groups", "joints", "zero", "meanings", "main_figures", "symbols", "quantities", "positive"}

@@ -145,6 +145,8 @@ def test_zeros_lie_between_points() -> None:
     assert crossings([-2, -1, 0, 1, 2], [2, -1, -2, -1, 2]) == pytest.approx([-4 / 3, 4 / 3])
     assert crossings([-1, 0, 1], [-1, 0, 1]) == [0.0]
     assert crossings([0, 1], [1, 2]) == []
+    # A radius of curvature that goes through infinity changes its sign, but is never nothing.
+    assert crossings([0, 1, 2], [1, math.nan, -1]) == []
 
 
 def test_what_has_no_room_is_told_by_the_table() -> None:
