@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from reportgen.base.errors import Problem
+from reportgen.base.errors import Fault, Problem
 from reportgen.base.template_folders import languages, templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
@@ -28,9 +28,11 @@ def compared(folder: Path, language: Language) -> list[Problem]:
 
     Raises `TemplateError` for what cannot be read.
     """
-    return [
-        as_problem(one, language, "warning" if one.code in WARNINGS else "error") for one in faults(folder, _lacking)
-    ]
+    return [_problem(fault, language) for fault in faults(folder, _lacking)]
+
+
+def _problem(fault: Fault, language: Language) -> Problem:
+    return as_problem(fault, language, "warning" if fault.code in WARNINGS else "error")
 
 
 def _lacking(letters: str) -> str:
