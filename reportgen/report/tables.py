@@ -228,7 +228,9 @@ def _as_typed(report: Report, id: str) -> Inlines:
         if len(ends) == 2:
             return Value(ends[0]), Text("/"), Value(ends[1])
     typed = report.machine.sheet.typed.get(id)
-    return (Value(report.ledger.number(id) if typed is None or typed.unit not in PRINTED else typed),)
+    if typed is None or typed.unit not in PRINTED:
+        return (Value(report.ledger.number(id)),)
+    return (Value(replace(typed, unit=report.ledger.units.get(typed.unit, typed.unit))),)
 
 
 def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
