@@ -302,7 +302,9 @@ def functions(report: Report, quantities: Sequence[str]) -> Equation:
     )
 
 
-MOBILITY = {"moving links": "n", "lower pairs": "t", "higher pairs": "c", "passive constraints": "r", "local freedoms": "s"}
+MOBILITY = dict(
+    zip(("moving links", "lower pairs", "higher pairs", "passive constraints", "local freedoms"), "ntcrs", strict=True)
+)
 """The letters of the degree of freedom; the `symbols` of a language may have others under these names."""
 
 
