@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.gaps import NO_LETTER
+from reportgen.base.languages import setting_of
 from reportgen.formula import (
     Chain,
     Expression,
@@ -302,30 +303,24 @@ def functions(report: Report, quantities: Sequence[str]) -> Equation:
     )
 
 
-MOBILITY = dict(
-    zip(("moving links", "lower pairs", "higher pairs", "passive constraints", "local freedoms"), "ntcrs", strict=True)
-)
-"""The letters of the degree of freedom; the `symbols` of a language may have others under these names."""
-
-
 def mobility_line(report: Report) -> Equation:
-    """W = 3n − (2t + c) + r − s with the numbers put in.
-
-    A language without letters for r and s writes W = 3n − 2t − c for a mechanism that has neither.
-    """
+    """W = 3n − (2t + c) + r − s, or as the language writes it, with the numbers put in."""
     counted = mobility(report.machine.linkage)
     sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
-    letters = [report.words["symbols"].get(name, letter) for name, letter in MOBILITY.items()]
-    short = not any((*letters[3:], counted.passive, counted.redundant))
-    printed = [letter or usual for letter, usual in zip(letters, MOBILITY.values(), strict=True)]
-    symbols = [Symbol(letter[0], letter[1:]) for letter in printed]
+
+    notation = setting_of(report.assignment.language).mobility
 
     def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
-        return 3 * n - 2 * t - c if short else 3 * n - (2 * t + c) + r - s
+        if not notation.apart:
+            return 3 * n - (2 * t + c) + r - s
+        line = 3 * n - 2 * t - c
+        line = line + r if counted.passive else line
+        return line - s if counted.redundant else line
 
-    formula, numbers = freedom(*symbols), freedom(*map(Number, sizes))
+    W, *letters = (Symbol(*letter.partition("_")[::2]) for letter in notation.letters)
+    formula, numbers = freedom(*letters), freedom(*map(Number, sizes))
     # A chain within a chain stays on one line: it is not broken at its equals signs.
-    return Equation((Chain((Chain((Symbol("W"), formula, numbers, Number(counted.W))),)),))
+    return Equation((Chain((Chain((W, formula, numbers, Number(counted.W))),)),))
 
 
 # --- vector equations of motion
