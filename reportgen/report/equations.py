@@ -302,15 +302,28 @@ def functions(report: Report, quantities: Sequence[str]) -> Equation:
     )
 
 
+MOBILITY = dict(
+    zip(("moving links", "lower pairs", "higher pairs", "passive constraints", "local freedoms"), "ntcrs", strict=True)
+)
+"""The letters of the degree of freedom; the `symbols` of a language may have others under these names."""
+
+
 def mobility_line(report: Report) -> Equation:
-    """W = 3n − (2t + c) + r − s with the numbers put in."""
+    """W = 3n − (2t + c) + r − s with the numbers put in.
+
+    A language without letters for r and s writes W = 3n − 2t − c for a mechanism that has neither.
+    """
     counted = mobility(report.machine.linkage)
     sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
+    letters = [report.words["symbols"].get(name, letter) for name, letter in MOBILITY.items()]
+    short = not any((*letters[3:], counted.passive, counted.redundant))
+    printed = [letter or usual for letter, usual in zip(letters, MOBILITY.values(), strict=True)]
+    symbols = [Symbol(letter[0], letter[1:]) for letter in printed]
 
     def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
-        return 3 * n - (2 * t + c) + r - s
+        return 3 * n - 2 * t - c if short else 3 * n - (2 * t + c) + r - s
 
-    formula, numbers = freedom(*map(Symbol, "ntcrs")), freedom(*map(Number, sizes))
+    formula, numbers = freedom(*symbols), freedom(*map(Number, sizes))
     # A chain within a chain stays on one line: it is not broken at its equals signs.
     return Equation((Chain((Chain((Symbol("W"), formula, numbers, Number(counted.W))),)),))
 
