@@ -264,7 +264,7 @@ def wittenbauer(report: Report) -> FigureScenes:
     curve = PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
     scales = ledger.number("mu.J").value, ledger.number("mu.A").value
-    area = replace(report.paper, scales=scales)
+    area = replace(report.area or charts.Area(mm=ledger.printed_unit("mm")), scales=scales)
     diagram = Diagram((curve, *lines), across, up, turn=False, inclinations=tuple(angles))
     return FigureScenes((charts.chart(diagram, area=area),))
 

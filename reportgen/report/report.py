@@ -95,12 +95,7 @@ class Report:
     @property
     def area(self) -> Area | None:
         """The room that curves have on a drawing sheet, where their scales are round and printed."""
-        return None if self.enlarged == 1.0 else self.paper
-
-    @property
-    def paper(self) -> Area:
-        """The room of curves to scale, with the units of the language."""
-        return Area(enlarged=self.enlarged, mm=self.ledger.printed_unit("mm"))
+        return None if self.enlarged == 1.0 else Area(enlarged=self.enlarged, mm=self.ledger.printed_unit("mm"))
 
     @cached_property
     def dense_cycle(self) -> Analysis:
