@@ -13,8 +13,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from reportgen.base.languages import Language as Language
+from reportgen.base.languages import decimal_mark
 from reportgen.base.shown import shown
 
 if TYPE_CHECKING:
@@ -264,8 +266,6 @@ def _cleaned(text: str) -> str:
 # --- rounding and writing of numbers --------------------------------------------------------------
 # Decimal comma or point, no negative zero, no rounding dust.
 
-Language = Literal["vi", "en"]
-
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -284,7 +284,7 @@ def rounded(values: Numbers, decimals: int) -> Numbers:
 def write(value: float, decimals: int | None, language: Language) -> str:
     """The text of a number: fixed `decimals`, or the shortest exact form when None.
 
-    The Vietnamese text has a decimal comma; both use a true minus sign and no thousands mark.  What is very large or
+    Its decimal mark is that of the language; it has a true minus sign and no thousands mark.  What is very large or
     very small is written with a power of ten.
     """
     if not math.isfinite(value):
@@ -294,7 +294,7 @@ def write(value: float, decimals: int | None, language: Language) -> str:
     number = Decimal(repr(float(value if decimals is None else rounded(value, decimals)))) + 0
     text = f"{number.normalize():f}" if decimals is None else f"{number:.{max(decimals, 0)}f}"
     text = text.replace("-", MINUS)
-    return text.replace(".", ",") if language == "vi" else text
+    return text.replace(".", decimal_mark(language))
 
 
 LARGE = 1e7

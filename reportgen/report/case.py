@@ -12,15 +12,14 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.kinds import title as kind_title
-from reportgen.base.template_folders import search_path
-from reportgen.base.units import Language
-from reportgen.base.words import load_words, word
+from reportgen.base.template_folders import languages, search_path
+from reportgen.base.words import common_words, load_words, word
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
@@ -319,7 +318,7 @@ class LoadedAssignment(Case):
     def course(self) -> str:
         """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
         standard: str = self.words["cover"]["course"]
-        names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
+        names = {common_words(language)["cover"]["course"] for language in languages()}
         given = self.assignment.report.course
         return given if given and given not in names else standard
 

@@ -1,0 +1,157 @@
+"""What a language is beside its words: its numbers, its page, its fonts, as `language.yaml` of its folder says.
+
+A folder of templates with such a file is a language; no other place of the program names one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal
+
+from reportgen.base.errors import TemplateError
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, read_own, text_in
+from reportgen.base.template_folders import LANGUAGE_FILE, Language, languages, templates
+
+DecimalMark = Literal[".", ","]
+KINDS = "kinds"
+"""Under `draft`: all that no native speaker has read, or the kinds of work of which that holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class TypstSetting:
+    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters."""
+
+    lang: str = ""
+    region: str = ""
+    hyphenate: bool = False
+    fonts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class WordSetting:
+    """The letters of a Word file: size in points, font, and the one of letters of East Asia."""
+
+    size: float = 12.0
+    font: str = "Times New Roman"
+    east_asian: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PageMargins:
+    """What stays white around the text of a page (mm)."""
+
+    left: float = 30.0
+    right: float = 20.0
+    top: float = 22.0
+    bottom: float = 20.0
+
+
+@dataclass(frozen=True, slots=True)
+class LanguageSetting:
+    """All that `language.yaml` says; what it leaves out is as here.
+
+    `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
+    title block of its drawing sheets; `spaced` says whether it sets blanks between words, and so before a unit.
+    """
+
+    name: str
+    code: str
+    decimal: DecimalMark
+    typst: TypstSetting = TypstSetting()
+    latex: tuple[str, ...] = ()
+    word: WordSetting = WordSetting()
+    page: PageMargins = PageMargins()
+    block: str = "iso"
+    spaced: bool = True
+    draft: bool | tuple[str, ...] = False
+
+    @property
+    def separator(self) -> str:
+        """What stands between the arguments of a function and the items of a list of numbers."""
+        return ";" if self.decimal == "," else ","
+
+    def is_draft(self, kind: str = "") -> bool:
+        """Whether no native speaker has read the words, those of a kind of work if one is named."""
+        return kind in self.draft if isinstance(self.draft, tuple) else self.draft
+
+
+@cache
+def setting_of(language: Language) -> LanguageSetting:
+    """What the language's own file says.  Raises `TemplateError` with file and line."""
+    return read_setting(templates() / language / LANGUAGE_FILE)
+
+
+def decimal_mark(language: Language) -> DecimalMark:
+    """The mark before the decimals of a number."""
+    return setting_of(language).decimal
+
+
+def read_setting(file: Path) -> LanguageSetting:
+    """A file `language.yaml`.  Raises `TemplateError` with file and line for what does not belong there."""
+    text = text_in(file)
+    if not isinstance(text, str):
+        raise TemplateError(f"{file}: {text.wordless}")
+    source = read_own(text, str(file))
+    if source.faults:
+        raise TemplateError("\n".join(f"{fault.mark}: {fault.wordless}" for fault in source.faults))
+    setting: LanguageSetting = _table(LanguageSetting, source.top, str(file))
+    return setting
+
+
+_PARTS: Mapping[str, type[Any]] = {"typst": TypstSetting, "word": WordSetting, "page": PageMargins}
+
+
+def _table(form: type[Any], node: Node | None, place: str) -> Any:
+    if not isinstance(node, MappingNode):
+        raise TemplateError(f"{node.mark if node else place}: a table is wanted here")
+    known = {field.name: field for field in fields(form)}
+    values: dict[str, Any] = {}
+    for key, value in node.entries:
+        if key.text not in known:
+            raise TemplateError(f"{key.mark}: {key.text} is no key here; those are {', '.join(known)}")
+        part = _PARTS.get(key.text) if form is LanguageSetting else None
+        values[key.text] = _table(part, value, place) if part else _value(str(known[key.text].type), value)
+    try:
+        return form(**values)
+    except TypeError:
+        missing = ", ".join(name for name in ("name", "code", "decimal") if name in known and name not in values)
+        raise TemplateError(f"{node.mark}: missing: {missing}") from None
+
+
+def _value(kind: str, node: Node) -> Any:
+    """A value of the type that a field has."""
+    if kind.endswith("tuple[str, ...]") and isinstance(node, SequenceNode):
+        if all(isinstance(item, Scalar) for item in node.items):
+            return tuple(item.text for item in node.items if isinstance(item, Scalar))
+    elif isinstance(node, Scalar):
+        match kind:
+            case "str":
+                return node.text
+            case "float":
+                try:
+                    return float(node.text)
+                except ValueError:
+                    pass
+            case "DecimalMark":
+                if node.text in (".", ","):
+                    return node.text
+            case "tuple[str, ...]":
+                if node.text == "none":
+                    return ()
+            case _:
+                if node.text in ("true", "false"):
+                    return node.text == "true"
+    wanted = {
+        "str": "a text",
+        "float": "a number",
+        "DecimalMark": "a point or a comma in quotation marks",
+        "bool": "true or false",
+        "tuple[str, ...]": "a list, or none",
+    }
+    raise TemplateError(f"{node.mark}: {wanted.get(kind, 'true, false or a list')} is wanted here")
+
+
+__all__ = ["DecimalMark", "Language", "LanguageSetting", "decimal_mark", "languages", "read_setting", "setting_of"]
