@@ -220,6 +220,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     from reportgen.writers import word as writer
     from reportgen.writers.word_elements import Own
 
+    letters_of(assignment)
     given = assignment.report
     usual = setting_of(tree.language).word
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else usual.size
@@ -232,9 +233,11 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
 
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
-    """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
+    """The letter of a file; raises `AssignmentError` where the engine does not have its font, or its language's."""
     from reportgen.report.layout import Letter
 
+    if engine == "typst":
+        letters_of(assignment)
     font = assignment.report.font or ""
     if font and font not in (known := _fonts(engine)):
         finding = Finding(
@@ -242,6 +245,18 @@ def letter_of(assignment: Assignment, engine: Engine) -> Letter:
         )
         raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
     return Letter(font, float(assignment.report.size.removesuffix(" pt")))
+
+
+def letters_of(assignment: Assignment) -> None:
+    """Raises `AssignmentError`, at the language, where no font that Typst knows has the letters it is written in."""
+    wanted = setting_of(assignment.language).typst.fonts
+    if not wanted:
+        return
+    from reportgen.writers import typst_fonts
+
+    if not typst_fonts.there_is_one_of(wanted):
+        finding = Finding("no-letters", ("report", "language"), {"text": assignment.language, "known": ", ".join(wanted)})
+        raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
 
 
 def _fonts(engine: Engine) -> list[str]:

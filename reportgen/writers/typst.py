@@ -29,7 +29,7 @@ from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEqu
 from reportgen.formula.setting import NARROW, columns, displayed, sides, written
 from reportgen.report import layout
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_fonts import FONT, breadth, lacking, needs_system_fonts
+from reportgen.writers.typst_fonts import FONT, breadth, fonts_for
 from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
@@ -421,13 +421,14 @@ def compile_as(source: str, format: Literal["pdf", "png", "svg"], system: bool =
         raise TypesetterError("typst is not installed: pip install typst") from error
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
-    own = not needs_system_fonts(source, lacking) and not system
+    folders, needed = fonts_for(source)
+    fonts = {"font_paths": [*folders], "ignore_system_fonts": not (needed or system)}
     give_memory_back()
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
         try:
-            made = typst.compile(str(path), root=folder, ignore_system_fonts=own, format=format, ppi=dpi or None)
+            made = typst.compile(str(path), root=folder, format=format, ppi=dpi or None, **fonts)
         except typst.TypstError as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error
