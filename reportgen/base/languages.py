@@ -22,12 +22,16 @@ KINDS = "kinds"
 
 @dataclass(frozen=True, slots=True)
 class TypstSetting:
-    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters."""
+    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters.
+
+    `strong` are those that do so in headings and wherever letters are bold, if they are others.
+    """
 
     lang: str = ""
     region: str = ""
     hyphenate: bool = False
     fonts: tuple[str, ...] = ()
+    strong: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +76,20 @@ class LanguageSetting:
     def separator(self) -> str:
         """What stands between the arguments of a function and the items of a list of numbers."""
         return ";" if self.decimal == "," else ","
+
+    @property
+    def colon(self) -> str:
+        """What stands between a label and what it labels."""
+        return ": " if self.spaced else "："
+
+    @property
+    def stop(self) -> str:
+        """What stands behind the number of a caption, before its words."""
+        return "." if self.spaced else ""
+
+    def aside(self, text: str) -> str:
+        """A remark in parentheses as it follows a word."""
+        return f" ({text})" if self.spaced else f"（{text}）"
 
     def is_draft(self, kind: str = "") -> bool:
         """Whether no native speaker has read the words, those of a kind of work if one is named."""

@@ -18,6 +18,7 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.kinds import title as kind_title
+from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.words import common_words, load_words, word
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
@@ -351,10 +352,11 @@ class LoadedAssignment(Case):
             (labels["email"], student.email),
             (labels["supervisor"], given.supervisor),
         )
+        colon = setting_of(self.assignment.language).colon
         return Cover(
             tuple(part for part in (given.university, given.faculty, given.department) if part),
             (labels["title"], self.course),
-            (*((f"{labels['variant']}: {variant}",) if variant else ()), f"{labels['machine']}: {self.title}"),
+            tuple(f"{labels[key]}{colon}{text}" for key, text in (("variant", variant), ("machine", self.title)) if text),
             tuple((label, value or "") for label, value in fields),
             self.place_and_date,
         )

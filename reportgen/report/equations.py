@@ -310,9 +310,10 @@ def mobility_line(report: Report) -> Equation:
     def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
         return 3 * n - (2 * t + c) + r - s
 
-    formula, numbers = freedom(*map(Symbol, "ntcrs")), freedom(*map(Number, sizes))
+    *letters, W = (Symbol(*str(name).split("_")) for name in report.words.get("mobility", "ntcrsW"))
+    formula, numbers = freedom(*letters), freedom(*map(Number, sizes))
     # A chain within a chain stays on one line: it is not broken at its equals signs.
-    return Equation((Chain((Chain((Symbol("W"), formula, numbers, Number(counted.W))),)),))
+    return Equation((Chain((Chain((W, formula, numbers, Number(counted.W))),)),))
 
 
 # --- vector equations of motion

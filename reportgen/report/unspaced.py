@@ -2,6 +2,8 @@
 
 What code puts between inlines, blanks, commas, parentheses, is written as in English; a line that has letters of such
 a language gets its marks here, once for all writers: full-width, and no blank on either side of them or of its letters.
+Only a formula or a value has one on the side of a letter, as typesetters leave a gap there between letters of two
+scripts; between letters they do so themselves.
 """
 
 from __future__ import annotations
@@ -12,16 +14,19 @@ from collections.abc import Mapping
 from reportgen import report as tree
 from reportgen.formula import Symbol
 
-_NARROW, _WIDE = 0xF0000, 0x100000
+_NARROW, _FORMULAS, _WIDE = 0xF0000, 0xF8000, 0x100000
 """Where the private characters begin that stand for inlines other than text, by what they begin and end with."""
 _W = "\u2e80-\u303f\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\uff01-\uff5e\U00100000-\U0010fffd"
 """Han letters, and marks as wide as these."""
-_HELD = "\U000f0000-\U000ffffd"
+_HELD = "\U000f0000-\U000fffef"
+_HAN = "\u3400-\u4dbf\u4e00-\u9fff"
+_MATH = "\U000f8000-\U000fffef"
 _WIDE_LETTER = re.compile(f"[{_W}]")
 _MARKS: Mapping[str, str] = {",": "，", ";": "；", ":": "：", ".": "。", "?": "？", "!": "！"}
 _PARENTHESES = re.compile(r" *\(([^()]*)\)")
 _MARK = re.compile(f"(?<=[{_W}]) *[,;:?!] *|(?<=[{_W}]) *\\.(?= |$) *|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$")
 _BETWEEN = re.compile(f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])")
+_FORMULA = re.compile(f"(?<=[{_HAN}])(?=[{_MATH}])|(?<=[{_MATH}])(?=[{_HAN}])")
 _BLANK = re.compile(f"(?<=[{_W}]) +(?![=<>≥≤≈±×·→≡−+–])|(?<![=<>≥≤≈±×·→≡−+–]) +(?=[{_W}])")
 
 
@@ -31,7 +36,7 @@ def unspaced(inlines: tree.Inlines) -> tree.Inlines:
     line = "".join(_letters(inline, held) for inline in inlines)
     if not _WIDE_LETTER.search(line):
         return inlines
-    symbols = {chr(_NARROW + n) for n, one in enumerate(held) if _is_symbol(one)}
+    symbols = {chr(_FORMULAS + n) for n, one in enumerate(held) if _is_symbol(one)}
     return tuple(_inlines(_set(line, symbols), held))
 
 
@@ -50,14 +55,14 @@ def _set(line: str, symbols: set[str]) -> str:
 
     line = _PARENTHESES.sub(parenthesis, line)
     line = _MARK.sub(lambda match: _MARKS[match[0].strip()[0]], line)
-    return _BLANK.sub("", _BETWEEN.sub(between, line))
+    return _FORMULA.sub(" ", _BLANK.sub("", _BETWEEN.sub(between, line)))
 
 
 def _letters(inline: tree.Inline, held: list[tree.Inline]) -> str:
     """What stands for an inline in the text of its line: its letters, or one private character."""
     if isinstance(inline, tree.Text):
         return inline.text
-    begins = _NARROW
+    begins = _FORMULAS if isinstance(inline, (tree.InlineMath, tree.Value)) else _NARROW
     if isinstance(inline, (tree.Emph, tree.Strong)):
         inner = "".join(one.text for one in inline.of if isinstance(one, tree.Text))
         begins = _WIDE if _WIDE_LETTER.search(inner) else _NARROW
@@ -75,7 +80,7 @@ def _inlines(line: str, held: list[tree.Inline]) -> list[tree.Inline]:
     parts: list[tree.Inline] = []
     for piece in re.split(f"([{_HELD}\U00100000-\U0010fffd])", line):
         if len(piece) == 1 and ord(piece) >= _NARROW:
-            parts.append(held[ord(piece) - (_WIDE if ord(piece) >= _WIDE else _NARROW)])
+            parts.append(held[ord(piece) - max(one for one in (_NARROW, _FORMULAS, _WIDE) if one <= ord(piece))])
         elif piece:
             parts.append(tree.Text(piece))
     return parts
