@@ -352,11 +352,13 @@ class LoadedAssignment(Case):
             (labels["email"], student.email),
             (labels["supervisor"], given.supervisor),
         )
-        colon = setting_of(self.assignment.language).colon
+        setting = setting_of(self.assignment.language)
+        title = labels["title"], self.course
         return Cover(
             tuple(part for part in (given.university, given.faculty, given.department) if part),
-            (labels["title"], self.course),
-            tuple(f"{labels[key]}{colon}{text}" for key, text in (("variant", variant), ("machine", self.title)) if text),
+            # Chinese names the course before what was made in it.
+            title if setting.spaced else title[::-1],
+            tuple(f"{labels[key]}{setting.colon}{text}" for key, text in (("variant", variant), ("machine", self.title)) if text),
             tuple((label, value or "") for label, value in fields),
             self.place_and_date,
         )

@@ -215,7 +215,12 @@ class _Blocks:
     # --- inlines ----------------------------------------------------------------------------------
 
     def inlines(self, inlines: Sequence[tree.Inline]) -> str:
-        return "".join(map(self.inline, inlines))
+        written = [self.inline(inline) for inline in inlines]
+        for place, (before, inline) in enumerate(pairwise(inlines), 1):
+            # No line begins with these marks of Chinese, though Typst would break before them behind a formula.
+            if isinstance(inline, tree.Text) and inline.text[:1] in ("；", "：") and not isinstance(before, tree.Text):
+                written[place] = f"#sym.wj{written[place]}"
+        return "".join(written)
 
     def content(self, inlines: Sequence[tree.Inline]) -> str:
         return f"[{self.inlines(inlines)}]"
@@ -223,8 +228,7 @@ class _Blocks:
     def inline(self, inline: tree.Inline) -> str:
         match inline:
             case tree.Text(text):
-                # No line begins with these marks of Chinese, though Typst would break before them behind a formula.
-                return _text(f"\N{WORD JOINER}{text}" if text.startswith(("；", "：")) else text)
+                return _text(text)
             case tree.Emph(of):
                 return f"#emph{self.content(of)}"
             case tree.Strong(of):
