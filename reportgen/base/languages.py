@@ -44,6 +44,14 @@ class WordSetting:
 
 
 @dataclass(frozen=True, slots=True)
+class DrawingSetting:
+    """The letters of DXF files: the style's name, which is a stroke font to LibreCAD, and the font to all others."""
+
+    style: str = "lc_opengost-ar"
+    font: str = "arial.ttf"
+
+
+@dataclass(frozen=True, slots=True)
 class PageMargins:
     """What stays white around the text of a page (mm)."""
 
@@ -67,6 +75,7 @@ class LanguageSetting:
     typst: TypstSetting = TypstSetting()
     latex: tuple[str, ...] = ()
     word: WordSetting = WordSetting()
+    drawing: DrawingSetting = DrawingSetting()
     page: PageMargins = PageMargins()
     block: str = "iso"
     spaced: bool = True
@@ -119,7 +128,12 @@ def read_setting(file: Path) -> LanguageSetting:
     return setting
 
 
-_PARTS: Mapping[str, type[Any]] = {"typst": TypstSetting, "word": WordSetting, "page": PageMargins}
+_PARTS: Mapping[str, type[Any]] = {
+    "typst": TypstSetting,
+    "word": WordSetting,
+    "drawing": DrawingSetting,
+    "page": PageMargins,
+}
 
 
 def _table(form: type[Any], node: Node | None, place: str) -> Any:

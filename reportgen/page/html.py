@@ -464,7 +464,8 @@ class Blocks:
 
     def again(self, block: tree.Plate) -> str:
         """The number of a figure that goes on from the plate before."""
-        return f"<b>{escape(self.words.figure)} {escape(block.number)}</b>{self.setting.aside(escape(self.words.continued))}"
+        where = self.setting.aside(escape(self.words.continued))
+        return f"<b>{escape(self.words.figure)} {escape(block.number)}</b>{where}"
 
 
 def save_buttons(file: str, told: str) -> str:

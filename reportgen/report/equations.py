@@ -310,7 +310,8 @@ def mobility_line(report: Report) -> Equation:
     def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
         return 3 * n - (2 * t + c) + r - s
 
-    *letters, W = (Symbol(*str(name).split("_")) for name in report.words.get("mobility", "ntcrsW"))
+    names = (str(name).partition("_") for name in report.words.get("mobility", "ntcrsW"))
+    *letters, W = (Symbol(base, sub) for base, _, sub in names)
     formula, numbers = freedom(*letters), freedom(*map(Number, sizes))
     # A chain within a chain stays on one line: it is not broken at its equals signs.
     return Equation((Chain((Chain((W, formula, numbers, Number(counted.W))),)),))

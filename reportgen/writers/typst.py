@@ -436,13 +436,15 @@ def compile_as(source: str, format: Literal["pdf", "png", "svg"], system: bool =
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
     folders, needed = fonts_for(source)
-    fonts = {"font_paths": [*folders], "ignore_system_fonts": not (needed or system)}
+    own = not (needed or system)
     give_memory_back()
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
         try:
-            made = typst.compile(str(path), root=folder, format=format, ppi=dpi or None, **fonts)
+            made = typst.compile(
+                str(path), root=folder, font_paths=[*folders], ignore_system_fonts=own, format=format, ppi=dpi or None
+            )
         except typst.TypstError as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error

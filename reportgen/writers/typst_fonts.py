@@ -13,6 +13,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from pathlib import Path
+from typing import Any
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
 """Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
@@ -81,9 +82,10 @@ def lacking(letters: str, system: bool, folders: Folders = ()) -> str:
 
     if not letters:
         return ""
-    asked = question(letters).encode()
-    there = {"font_paths": [*folders], "ignore_system_fonts": not system}
-    answer = typst.query(asked, "<lacking>", field="value", one=True, **there)
+    # A source is bytes and a path is a text, though both have one type in the typesetter's annotations.
+    asked: Any = question(letters).encode()
+    paths = [*folders]
+    answer = typst.query(asked, "<lacking>", field="value", one=True, font_paths=paths, ignore_system_fonts=not system)
     return "".join(json.loads(answer))
 
 
