@@ -18,8 +18,9 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs, placed
 from reportgen.base import made
-from reportgen.base.errors import Finding, NotOfferedError, ReportgenError
+from reportgen.base.errors import Finding, NotOfferedError, ReportgenError, TypesetterError
 from reportgen.base.files import put_files, reported, scratch, version
+from reportgen.base.languages import setting_of
 from reportgen.base.source import read_source
 from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
@@ -189,7 +190,7 @@ def _ahead(assignment: Assignment, engine: Engine, letter: Letter | None) -> Abs
         return nullcontext()
     from reportgen.writers import latex, pdflatex
 
-    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short"))
+    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short", assignment.language))
 
 
 def _page(case: Case, tree: Document) -> bytes:
@@ -220,13 +221,14 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     from reportgen.writers.word_elements import Own
 
     given = assignment.report
-    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
+    usual = setting_of(tree.language).word
+    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else usual.size
     own = None
     if look is not None and look.exists():
         letterhead = read_letterhead(look, tree.language)
         own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
     drawn = partial(pictures.for_word, language=tree.language)
-    return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
+    return writer.write(tree, drawn, Letter(given.font or usual.font, size), own)
 
 
 def letter_of(assignment: Assignment, engine: Engine) -> Letter:
@@ -267,6 +269,8 @@ def typeset(
     if engine == "latex":
         from reportgen.writers import latex, pdflatex
 
+        if not setting_of(tree.language).latex:
+            raise TypesetterError(word("typst_alone", tree.language, language=tree.language))
         compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
         return compiled.source, compiled.pdf
     from reportgen.writers import typst

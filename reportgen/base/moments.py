@@ -11,9 +11,8 @@ import re
 import unicodedata
 from collections.abc import Mapping
 from functools import cache
-from typing import get_args
 
-from reportgen.base.units import Language
+from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
 
 _TIME = re.compile(r"(?<!\d)(\d{1,2})(?::(\d{2})(?::(\d{2})(?:\.\d+)?)?|h(\d{2})?(?![^\W\d_]))")
@@ -80,7 +79,7 @@ def _months() -> Mapping[str, int]:
     """The number of a month by each of its names."""
     return {
         name: number
-        for language in get_args(Language)
+        for language in languages()
         for number, names in enumerate(messages(language)["dates"]["months"], start=1)
         for name in names
     }
@@ -89,5 +88,5 @@ def _months() -> Mapping[str, int]:
 @cache
 def _halves() -> Mapping[str, Mapping[str, int]]:
     """What the halves of the day are called, by `morning` and `afternoon`."""
-    tables = [messages(language)["dates"] for language in get_args(Language)]
+    tables = [messages(language)["dates"] for language in languages()]
     return {half: {word: 0 for table in tables for word in table[half]} for half in ("morning", "afternoon")}

@@ -17,7 +17,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
@@ -29,6 +28,7 @@ from reportgen.base.files import contents
 from reportgen.base.kinds import kinds
 from reportgen.base.source import Scalar, read_source
 from reportgen.base.source_text import at
+from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
 from reportgen.workbook import Page, SheetCell, read
@@ -67,7 +67,7 @@ def _known_columns() -> Mapping[str, str]:
     """The name of a column by any heading it may have, in every language, folded."""
     return {
         folded(heading): name
-        for language in get_args(Language)
+        for language in languages()
         for name, headings in messages(language)["columns"].items()
         for heading in (name, *headings)
     }

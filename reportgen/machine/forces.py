@@ -17,7 +17,7 @@ import numpy as np
 
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Dyad, Joint, Linkage, joints
-from reportgen.machine.motion import Complexes, Floats, Motion, cross, dot, solve2
+from reportgen.machine.motion import Complexes, Flags, Floats, Motion, cross, dot, solve2
 
 
 @dataclass(frozen=True, slots=True)
@@ -164,62 +164,108 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
 
     Raises `KeyError` for a load on a link that does not move.
     """
-    carried: dict[int, list[_Wrench]] = {link: [] for link in linkage.links}
-    for load in loads:
-        carried[load.link].append(_Wrench(load.force, load.point, load.couple))
-    reactions: dict[str, Reaction] = {}
-    listed = joints(linkage)
-    for dyad in reversed(linkage.dyads):
-        own = tuple(joint for joint in listed if joint.group == dyad.links)
-        wrenches = _balance(dyad, own, motion, carried)
-        largest = max(float(np.max(np.abs(wrench.force), initial=0.0, where=motion.reachable)) for wrench in wrenches)
-        for joint, wrench in zip(own, wrenches, strict=True):
-            _enter(reactions, joint, wrench, motion, NO_FORCE * largest)
-            source = joint.links[0]
-            if source not in dyad.links and source != GROUND:
-                carried[source].append(_Wrench(-wrench.force, wrench.point, -wrench.couple))
-    ground, torque = _drive(listed[0], motion, carried[DRIVER])
-    _enter(reactions, listed[0], ground, motion, 0.0)
-    return Forces(reactions, torque)
+    return Equilibrium.of(linkage, motion).under(loads)
 
 
-def _balance(dyad: Dyad, own: tuple[Joint, ...], motion: Motion, carried: Mapping[int, list[_Wrench]]) -> list[_Wrench]:
-    """The wrenches of a group's joints on their second links.
+@dataclass(frozen=True, slots=True)
+class Equilibrium:
+    """The equations of equilibrium of a linkage at the positions of a motion, which any loads may enter."""
+
+    motion: Motion
+    links: tuple[int, ...]
+    driving: Joint
+    """The driver's joint with the ground."""
+    groups: tuple[_Group, ...]
+    """Outermost first: what a group's joints hold is a load on the links that it hangs on."""
+
+    @classmethod
+    def of(cls, linkage: Linkage, motion: Motion) -> Equilibrium:
+        """The equations of every Assur group, and those of the driver."""
+        listed = joints(linkage)
+        groups = (
+            _Group.of(dyad, tuple(joint for joint in listed if joint.group == dyad.links), motion)
+            for dyad in reversed(linkage.dyads)
+        )
+        return cls(motion, tuple(linkage.links), listed[0], tuple(groups))
+
+    def under(self, loads: Iterable[Load]) -> Forces:
+        """The reactions and the torque that balance `loads`.
+
+        Raises `KeyError` for a load on a link that does not move.
+        """
+        motion = self.motion
+        carried: dict[int, list[_Wrench]] = {link: [] for link in self.links}
+        for load in loads:
+            carried[load.link].append(_Wrench(load.force, load.point, load.couple))
+        reactions: dict[str, Reaction] = {}
+        for group in self.groups:
+            wrenches = group.balance(carried, motion.reachable)
+            largest = max(float(np.max(np.abs(one.force), initial=0.0, where=motion.reachable)) for one in wrenches)
+            for joint, wrench in zip(group.joints, wrenches, strict=True):
+                _enter(reactions, joint, wrench, motion, NO_FORCE * largest)
+                source = joint.links[0]
+                if source not in group.links and source != GROUND:
+                    carried[source].append(_Wrench(-wrench.force, wrench.point, -wrench.couple))
+        ground, torque = _drive(self.driving, motion, carried[DRIVER])
+        _enter(reactions, self.driving, ground, motion, 0.0)
+        return Forces(reactions, torque)
+
+
+@dataclass(frozen=True, slots=True)
+class _Group:
+    """The six equations of a group's two links.
 
     Rows: ΣF_x, ΣF_y, ΣM/l about the middle point, of the one link and of the other; columns: two
     unknowns of each joint.  The length l only brings forces and moments to one size.
     """
-    pole = motion.points[dyad.middle].p
-    valid = motion.reachable
 
-    def farthest(points: Iterable[str]) -> float:
-        return max(float(np.max(np.abs(motion.points[name].p - pole)[valid], initial=0.0)) for name in points)
+    links: tuple[int, int]
+    joints: tuple[Joint, ...]
+    pole: Complexes
+    length: float
+    columns: tuple[_Wrench, ...]
+    matrix: Floats
+    """[N, 6, 6], that of ones where the position is unreachable."""
 
-    # Joints that lie in one point do so but for rounding.
-    reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
-    length = reach if reach > NO_FORCE * whole else whole or 1.0
-    matrix = np.zeros((6, 6, pole.size))
-    known = np.zeros((6, pole.size))
-    columns = [column for joint in own for column in _unknowns(joint, motion, length)]
-    for row, link in zip((0, 3), dyad.links, strict=True):
-        for column, wrench in enumerate(columns):
-            joint = own[column // 2]
-            if link in joint.links:
-                sense = 1.0 if link == joint.links[1] else -1.0
-                matrix[row : row + 3, column] = _components(wrench, pole, length, sense)
-        for wrench in carried[link]:
-            known[row : row + 3] += _components(wrench, pole, length, -1.0)
-    matrix[:, :, ~valid] = np.eye(6)[:, :, None]
-    known[:, ~valid] = np.nan
-    reactions = np.linalg.solve(np.moveaxis(matrix, 2, 0), known.T[:, :, None])[:, :, 0].T
-    return [
-        _Wrench(
-            first.force * reactions[2 * k] + second.force * reactions[2 * k + 1],
-            first.point,
-            first.couple * reactions[2 * k] + second.couple * reactions[2 * k + 1],
-        )
-        for k, (first, second) in enumerate(zip(columns[::2], columns[1::2], strict=True))
-    ]
+    @classmethod
+    def of(cls, dyad: Dyad, own: tuple[Joint, ...], motion: Motion) -> _Group:
+        """The equations of a dyad with its joints."""
+        pole = motion.points[dyad.middle].p
+        valid = motion.reachable
+
+        def farthest(points: Iterable[str]) -> float:
+            return max(float(np.max(np.abs(motion.points[name].p - pole)[valid], initial=0.0)) for name in points)
+
+        # Joints that lie in one point do so but for rounding.
+        reach, whole = farthest(joint.point for joint in own), farthest(motion.points)
+        length = reach if reach > NO_FORCE * whole else whole or 1.0
+        matrix = np.zeros((6, 6, pole.size))
+        columns = tuple(column for joint in own for column in _unknowns(joint, motion, length))
+        for row, link in zip((0, 3), dyad.links, strict=True):
+            for column, wrench in enumerate(columns):
+                joint = own[column // 2]
+                if link in joint.links:
+                    sense = 1.0 if link == joint.links[1] else -1.0
+                    matrix[row : row + 3, column] = _components(wrench, pole, length, sense)
+        matrix[:, :, ~valid] = np.eye(6)[:, :, None]
+        return cls(dyad.links, own, pole, length, columns, np.ascontiguousarray(np.moveaxis(matrix, 2, 0)))
+
+    def balance(self, carried: Mapping[int, Sequence[_Wrench]], valid: Flags) -> list[_Wrench]:
+        """The wrenches of the joints on their second links, under what the links carry."""
+        known = np.zeros((6, self.pole.size))
+        for row, link in zip((0, 3), self.links, strict=True):
+            for wrench in carried[link]:
+                known[row : row + 3] += _components(wrench, self.pole, self.length, -1.0)
+        known[:, ~valid] = np.nan
+        shares = np.linalg.solve(self.matrix, known.T[:, :, None])[:, :, 0].T
+        return [
+            _Wrench(
+                first.force * shares[2 * k] + second.force * shares[2 * k + 1],
+                first.point,
+                first.couple * shares[2 * k] + second.couple * shares[2 * k + 1],
+            )
+            for k, (first, second) in enumerate(zip(self.columns[::2], self.columns[1::2], strict=True))
+        ]
 
 
 def _unknowns(joint: Joint, motion: Motion, length: float) -> tuple[_Wrench, _Wrench]:
@@ -234,7 +280,7 @@ def _unknowns(joint: Joint, motion: Motion, length: float) -> tuple[_Wrench, _Wr
 def _components(wrench: _Wrench, pole: Complexes, length: float, sense: float) -> Floats:
     """ΣF_x, ΣF_y and ΣM/l of one wrench, [3, N]."""
     force = sense * wrench.force
-    return np.stack((force.real, force.imag, sense * wrench.moment(pole) / length))
+    return np.array((force.real, force.imag, sense * wrench.moment(pole) / length))
 
 
 def _enter(reactions: dict[str, Reaction], joint: Joint, wrench: _Wrench, motion: Motion, nothing: float) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Joint, Linkage, joints
 from reportgen.machine.faces import Faces
-from reportgen.machine.forces import Forces, Load, reaction_name, solve_forces
+from reportgen.machine.forces import Equilibrium, Forces, Load, reaction_name
 from reportgen.machine.motion import Complexes, Flags, Floats, LinkMotion, Motion, cross
 
 ROUNDING = 1e-12
@@ -147,7 +147,8 @@ def solve_with_friction(
 
     Positions at which the reactions do not come to stand are told, not raised: the mechanism locks there, or nearly so.
     """
-    rounds = [frictionless or solve_forces(linkage, motion, loads)]
+    equilibrium = Equilibrium.of(linkage, motion)
+    rounds = [frictionless or equilibrium.under(loads)]
     senses = {joint: relative_sense(joint, motion) for joint in friction.joints(linkage)}
     names = [reaction_name(*joint.links) for joint in senses]
     rubbing: tuple[Load, ...] = ()
@@ -157,7 +158,7 @@ def solve_with_friction(
             rubbing = tuple(
                 load for joint, sense in senses.items() for load in _rubbing(friction, joint, sense, motion, rounds[-1])
             )
-            rounds.append(solve_forces(linkage, motion, (*loads, *rubbing)))
+            rounds.append(equilibrium.under((*loads, *rubbing)))
             after = _forces_in(rounds[-1], names)
             off = np.abs(after - before)
             open_ = motion.reachable & ~(off <= STANDS * np.max(np.abs(after), axis=0, initial=0.0))

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from typing import Literal
 
 from reportgen.base import units
+from reportgen.base.languages import DecimalMark as DecimalMark
+from reportgen.base.languages import decimal_mark as language_mark
 from reportgen.base.units import Dimension, Language, QuantityFault
 
-DecimalMark = Literal[".", ","]
 BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
 """What a cell without an answer holds."""
 LONGEST = 60
@@ -41,7 +41,7 @@ def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark,
             marks_used.add("." if marks == ["."] else ",")
     if len(marks_used) == 1:
         return marks_used.pop(), True
-    return ("," if language == "vi" else "."), False
+    return language_mark(language), False
 
 
 def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -> tuple[float, bool]:

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.languages import decimal_mark
 from reportgen.base.units import Language, write
 from reportgen.drawing import Content, Label
 from reportgen.drawing.animation import (
@@ -154,7 +155,7 @@ class PanelWriter:
             "turns": animation.turns,
             "span": animation.span,
             **({"instants": self.instants()} if animation.instants else {}),
-            "language": self.language,
+            "decimal": decimal_mark(self.language),
             "positions": [[label, float(f"{angle:.9g}")] for label, angle in animation.positions],
             "shown": animation.shown,
             "items": self.items,

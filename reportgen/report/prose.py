@@ -43,6 +43,7 @@ from reportgen.base.limits import TEMPLATES, LimitError
 from reportgen.base.shown import shown
 from reportgen.base.shown import text as as_text
 from reportgen.base.source import STRANGE
+from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
 from reportgen.base.words import find, home, of_file, refuse_strangers, word
 from reportgen.formula import Expression, Number, vocabulary
@@ -249,7 +250,7 @@ def _too_much(places: tuple[Path, ...]) -> str:
 
 
 def _language(places: tuple[Path, ...]) -> Language:
-    return "en" if places and places[-1].name == "en" else "vi"
+    return of_file(places[-1]) if places else DEFAULT_LANGUAGE
 
 
 def _excerpt(fragment: str) -> Rendered:

@@ -196,8 +196,6 @@ def _width(text: str, height: float) -> float:
 # A file of cells in mm, whose fields are filled from `report:` and `sheet:` of the assignment.
 
 FOLDER = "blocks"
-DEFAULT: Mapping[Language, str] = {"vi": "tcvn", "en": "iso"}
-"""The block of a report's language."""
 FIELDS = frozenset(
     {
         "title",

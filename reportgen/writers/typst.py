@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
 from itertools import pairwise
 from pathlib import Path
 from typing import Literal
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
+from reportgen.base.languages import PageMargins, setting_of
 from reportgen.base.limits import give_memory_back
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
@@ -27,7 +29,7 @@ from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEqu
 from reportgen.formula.setting import NARROW, columns, displayed, sides, written
 from reportgen.report import layout
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_fonts import breadth, lacking, needs_system_fonts
+from reportgen.writers.typst_fonts import FONT, breadth, lacking, needs_system_fonts
 from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
@@ -42,8 +44,6 @@ CAPITAL, OUT = 2.4, 0.8
 """Height of capitals there, and how far a formula may stand out above them or below the line, mm."""
 CELL, CELL_INSET = 10.0, 3.0
 """The size of letters in tables, in points, and the white on both sides of a cell, mm."""
-SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
-#show math.equation: set text(font:"New Computer Modern Math")"""
 
 
 def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> str:
@@ -55,7 +55,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
         (
             f"title: {literal(document.title)}",
             f"author: {literal(document.author)}",
-            f"lang: {literal(document.language)}",
+            *_of_language(document.language),
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
             *_in(letter),
@@ -63,6 +63,22 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
     )
     body = _Blocks(document.language, document.words, letter, document.close).write(document.blocks)
     return f"{frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def _of_language(language: Language) -> Iterator[str]:
+    """What the frame is told of a language, as far as it is not as the frame has it."""
+    setting = setting_of(language)
+    own, page = setting.typst, setting.page
+    yield f"lang: {literal(own.lang or language)}"
+    if own.region:
+        yield f"region: {literal(own.region)}"
+    if own.hyphenate:
+        yield "hyphenate: true"
+    if own.fonts:
+        yield f"further: {_array(map(literal, own.fonts))}"
+    if page != PageMargins():
+        sides = ", ".join(f"{side}: {width:g}mm" for side, width in asdict(page).items())
+        yield f"margin: ({sides})"
 
 
 def _in(letter: layout.Letter) -> Iterator[str]:
@@ -79,7 +95,14 @@ def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:
     items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
     drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
-    return "\n".join((frame(), f"#set document(title:{literal(title)},date:none)", SHEET_LOOK, page, ""))
+    return "\n".join((frame(), f"#set document(title:{literal(title)},date:none)", sheet_look(language), page, ""))
+
+
+def sheet_look(language: Language) -> str:
+    """The letters of what has a page of its own size, a drawing sheet or a single figure."""
+    fonts = [literal(font) for font in (FONT, *setting_of(language).typst.fonts)]
+    text = f"#set text(font:{_array(fonts)},ligatures:false)"
+    return f"{text}\n#show math.equation: set text(font:{_array((literal(f'{FONT} Math'), *fonts))})"
 
 
 def frame(close: bool = False) -> str:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import groupby, pairwise
 
 from reportgen import report as tree
+from reportgen.base.languages import setting_of
 from reportgen.drawing import Scene
 from reportgen.formula.setting import NARROW, written
 from reportgen.report import layout
@@ -45,9 +46,6 @@ from reportgen.writers.word_package import packed
 from reportgen.writers.word_sections import CONTENTS_LEVEL, COVER, broken, paged, places, sequence
 from reportgen.writers.word_styles import BULLETS, LIST_INDENT, merged, numbering, properties, settings, styles
 
-FONT = "Times New Roman"
-SIZES = {"vi": 13.0, "en": 12.0}
-"""The letter, unless another one is asked for; sizes in points."""
 Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
 """Scenes as PNG and SVG."""
 
@@ -56,9 +54,10 @@ def write(
     document: tree.Document, pictures: Pictures, letter: layout.Letter | None = None, own: Own | None = None
 ) -> bytes:
     """The file of a document, byte for byte the same from run to run; what a school has of its `own` goes before."""
-    letter, own = letter or layout.Letter(FONT, SIZES[document.language]), own or Own()
+    usual_look = setting_of(document.language)
+    letter, own = letter or layout.Letter(usual_look.word.font, usual_look.word.size), own or Own()
     usual = styles(letter.font, letter.size, document.language, document.close, A4.room)
-    blocks = _Blocks(document, own.page)
+    blocks = _Blocks(document, own.page(usual_look.page))
     body, pages = blocks.sections()
     scenes = pictures(blocks.scenes)
     parts = {

@@ -26,6 +26,9 @@ from .measure import Cost, in_turns, middle, ratio, repeated, run
 ROOT = Path(__file__).resolve().parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 POSITIONS = 3600
+EIGHT_LINKS = ROOT / "assignments" / "linkage-8.yaml"
+RUBBING = 360
+"""Positions of it with friction in every joint."""
 SUFFIX = {"typst": ".typ", "latex": ".tex"}
 TYPST_ALONE = "import sys, typst; typst.compile(sys.argv[1], sys.argv[2], ignore_system_fonts=True)"
 BUILD = "from reportgen.cli import main; main()"
@@ -146,7 +149,8 @@ class Bench:
             yield Row("rows with LaTeX, plain script", "", "skipped", "pdflatex is not installed")
         count = len(list((self.folder / "sheets" / self.file.stem).glob("*.dxf")))
         yield _per_sheet(middle(costs["sheets"]), middle(costs["solve"]), count)
-        yield _solving(json.loads(self.ask("-m", "tests.bench.solving", str(self.file), str(POSITIONS))))
+        solving = ("-m", "tests.bench.solving", str(self.file), str(EIGHT_LINKS), str(POSITIONS), str(RUBBING))
+        yield from _solving(json.loads(self.ask(*solving)))
         for name, (_, statement) in STARTED.items():
             detail = f"{middle(costs[name]).seconds:.2f} s, {statement} {middle(costs[statement]).seconds:.2f} s"
             yield Row(f"{name} / its libraries", "", f"{ratio(costs[name], costs[statement]):.2f}", detail)
@@ -195,10 +199,13 @@ def _of_a_class(taken: Mapping[str, float]) -> Iterator[Row]:
         yield Row(f"{name} of a student / results", "≤ 10", f"{over:.1f}", f"{taken[name]:.0f} ms")
 
 
-def _solving(taken: dict[str, float]) -> Row:
+def _solving(taken: dict[str, float]) -> Iterator[Row]:
     solver, closed = taken["solver"], taken["closed form"]
     detail = f"{solver:.1f} ms, of which motion {taken['motion']:.1f} ms, closed form {closed:.2f} ms"
-    return Row(f"motion and forces of {POSITIONS} positions", "≤ 4", f"{solver / closed:.1f}", detail)
+    yield Row(f"motion and forces of {POSITIONS} positions", "≤ 4", f"{solver / closed:.1f}", detail)
+    without, rubbing = taken["without"], taken["with"]
+    detail = f"{rubbing:.1f} ms, without {without:.1f} ms"
+    yield Row(f"friction in eight links, {RUBBING} positions", "≤ 10", f"{rubbing / without:.1f}", detail)
 
 
 def _importable() -> dict[str, str]:

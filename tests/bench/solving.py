@@ -1,13 +1,15 @@
 """The solver against the closed form: milliseconds for the same positions, in one warm process.
 
-`python -m tests.bench.solving FILE POSITIONS` prints both medians as JSON.
+`python -m tests.bench.solving ENGINE MACHINE POSITIONS FEW` prints the medians as JSON: of the engine at so many
+positions, and of the machine at a few without and with friction in its joints.
 """
 
 from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -16,12 +18,16 @@ from typing import Any
 import numpy as np
 
 from reportgen import api, catalogue
+from reportgen.machine import joints
 from reportgen.machine.analysis import Machine, analyse, motion_at
 from reportgen.machine.gas import StrokeIndicator
+from reportgen.machine.joint_friction import Friction
 
 from .closed_form import Cylinder, Engine, solve
 
 ROUNDS = 25
+RADIUS = 0.002
+"""Of the friction circle of every pin (m)."""
 
 
 def machine(path: Path) -> tuple[Machine, Engine]:
@@ -61,6 +67,23 @@ def compare(path: Path, positions: int, rounds: int = ROUNDS) -> dict[str, float
         "motion": lambda: motion_at(built, angles),
         "closed form": lambda: solve(engine, angles),
     }
+    return _medians(tasks, rounds)
+
+
+def with_friction(path: Path, positions: int, rounds: int = ROUNDS) -> dict[str, float]:
+    """Medians in ms of the solver without friction and with friction in every joint of a machine."""
+    assignment = api.load(path)
+    bare: Machine = catalogue.module(assignment.kind).machine(assignment)
+    angles = np.arange(positions, dtype=np.float64) * (2 * np.pi * bare.turns / positions)
+    listed = joints(bare.linkage)
+    circles = {joint.point: RADIUS for joint in listed if joint.kind == "R"}
+    rubbing = replace(bare, friction=Friction(circles, {joint.links[1]: 0.1 for joint in listed if joint.kind == "P"}))
+    tasks = {"without": lambda: analyse(bare, angles), "with": lambda: analyse(rubbing, angles).with_friction}
+    return _medians(tasks, rounds)
+
+
+def _medians(tasks: Mapping[str, Callable[[], Any]], rounds: int) -> dict[str, float]:
+    """Medians in ms of tasks run in turns."""
     taken: dict[str, list[float]] = {name: [] for name in tasks}
     for _ in range(rounds):
         for name, task in tasks.items():
@@ -71,4 +94,6 @@ def compare(path: Path, positions: int, rounds: int = ROUNDS) -> dict[str, float
 
 
 if __name__ == "__main__":
-    json.dump(compare(Path(sys.argv[1]), int(sys.argv[2])), sys.stdout)
+    engine, eight_links, positions, few = sys.argv[1:]
+    rubbing = with_friction(Path(eight_links), int(few))
+    json.dump(compare(Path(engine), int(positions)) | rubbing, sys.stdout)

@@ -16,6 +16,7 @@ from reportgen.classes.spec import Settings, Spec, read_spec
 from reportgen.classes.variants import Effort, compare, make_variants
 from reportgen.workbook import Book, BookSheet, write_xlsx
 from tests.classes.specs import BARS, ROOT, Put, classes, draw, ids, located
+from tests.lanes import matrix
 
 PINNED = 993029
 _judged: dict[tuple[object, ...], tuple[Fault, ...]] = {}
@@ -96,7 +97,10 @@ def test_a_spec_that_never_turns_is_a_fault_with_its_reasons(put_file: Put) -> N
     assert not (path.parent / "out").exists()
 
 
-@pytest.mark.parametrize("file", sorted((ROOT / "assignments").glob("*.yaml")), ids=lambda file: file.stem)
+FILES = sorted((ROOT / "assignments").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("file", matrix(FILES, FILES[::5]), ids=lambda file: file.stem)
 def test_every_assignment_is_a_usable_spec_of_one_variant(file: Path) -> None:
     """Nothing in it is taken for a choice, and what the reports are made from is not called unusable."""
     spec = read_spec(file)

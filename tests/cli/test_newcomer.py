@@ -204,17 +204,17 @@ def test_a_school_keeps_its_words_where_it_likes(own: Path, way: str) -> None:
     assert "As we have it." in (out / "own" / "report.typ").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize(
-    ("key", "told"),
-    [
-        ("templates: wordz", "error[no-templates]: this is no folder with a school's words, vi.md or en.md: {}/wordz"),
-        ("templates: ../words", "error[path-outside]: "),
-        ("templates: " + "a" * 280, "error[no-templates]: "),
-        ("templates: [words]", "error[wrong-type]: "),
-        ("school: tnut", "error[no-such-school]: there is no folder of templates for the school “tnut” in "),
-        ("templates: words\n  school: sample-school", "error[both-given]: "),
-    ],
-)
+NO_SCHOOL = [
+    ("templates: wordz", "error[no-templates]: this is no folder with a school's words, vi.md or en.md: {}/wordz"),
+    ("templates: ../words", "error[path-outside]: "),
+    ("templates: " + "a" * 280, "error[no-templates]: "),
+    ("templates: [words]", "error[wrong-type]: "),
+    ("school: tnut", "error[no-such-school]: there is no folder of templates for the school “tnut” in "),
+    ("templates: words\n  school: sample-school", "error[both-given]: "),
+]
+
+
+@pytest.mark.parametrize(("key", "told"), matrix(NO_SCHOOL, NO_SCHOOL[::3]))
 def test_where_a_school_was_looked_for_is_told(own: Path, key: str, told: str) -> None:
     text = own.read_text(encoding="utf-8")
     own.write_text(text.replace("language: en", f"language: en\n  {key}"), encoding="utf-8")

@@ -20,6 +20,7 @@ from reportgen.marking.marks import Marking, Verdict
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.working import Change
+from tests.lanes import matrix
 from tests.marking import students
 from tests.marking.designs import STUDENTS, drawn_class, graded_class, named, telling_and_texts
 
@@ -86,7 +87,7 @@ OWN = [
 """What is written in place of a value, all other values being right or following from it."""
 
 
-@pytest.mark.parametrize("goes_on", [True, False])
+@pytest.mark.parametrize("goes_on", matrix([True, False], [True]))
 @pytest.mark.parametrize(("name", "mistake", "id", "taken"), OWN)
 def test_a_mistake_is_named_by_its_own_result(
     name: str, mistake: str, id: str, taken: Callable[[Any], np.ndarray], goes_on: bool

@@ -225,7 +225,13 @@ def test_what_is_asked_for_as_a_magnitude_is_right_either_way() -> None:
     assert {cell.verdict for cell in marking.cells if cell.given is not None} == {Verdict.right}
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in students.ASSIGNMENTS.glob("*.yaml")))
+@pytest.mark.parametrize(
+    "name",
+    matrix(
+        sorted(path.stem for path in students.ASSIGNMENTS.glob("*.yaml")),
+        ["four-bar-01", "shaper-03", "engine-twin-05"],
+    ),
+)
 def test_no_sheet_leaves_a_sense_open(name: str) -> None:
     """Whatever can be negative has words: which sense is positive, or that its magnitude is asked for."""
     scheme = students.scheme(name)

@@ -20,6 +20,9 @@ from reportgen.machine.motion import solve_motion
 HARMONIC = (2, 4, 6, 8, 10, 12)
 """Steps of the modified midpoint rule that are extrapolated to none: the error is of the order h¹³."""
 
+BESIDE = 1e-8
+"""What jumps at an angle has jumped so far beside it (rad): a law takes the last 1e-9 before it for rounding."""
+
 
 def acceleration(machine: Machine, added: float, torque: Callable[[float], float], phi: float, omega: float) -> float:
     """ε₁ in the sense of rotation at the cycle angle φ with the speed ω."""
@@ -61,8 +64,7 @@ def integrate(
     found = [(0.0, speed)]
     for low, high in pairwise(stops):
         width = (high - low) / steps
-        # A jump of a load at either end belongs to the other side.
-        inset = 1e-9 * (high - low)
+        inset = BESIDE
         for k in range(steps):
             start = low + k * width
             table: list[list[np.ndarray]] = []

@@ -12,6 +12,7 @@ import pytest
 from reportgen.formula import Symbol
 from reportgen.formula.plain import formula
 from reportgen.formula.vocabulary import in_language, numbered, runs
+from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Report
 from tests.report.pages import Glyph
@@ -92,7 +93,7 @@ def words_of(symbols: Iterable[Symbol]) -> set[str]:
 VIETNAMESE = {"cb", "qt", "tt", "đ"}
 
 
-@pytest.mark.parametrize("path", built.FILES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", matrix(built.FILES, built.TYPESET[:2]), ids=lambda path: path.stem)
 def test_an_english_report_has_english_indices(path: Path) -> None:
     """In the ledger, of which report, key and sheet are made."""
     english = built.case(path, "en").ledger

@@ -291,19 +291,19 @@ def test_a_word_may_have_lines_and_any_sign(school: School) -> None:
 FORMED = {"en": "another form", "vi": "không cùng dạng"}
 
 
+MISSHAPEN = [
+    ("units: 5", 4, "units"),
+    ("cover: [a]", 4, "cover"),
+    ("cover:\n  title:", 5, "cover.title"),
+    ("cover:\n  title: {a: b}", 5, "cover.title"),
+    ("strokes: [One, Two]", 4, "strokes"),
+    ("strokes: [One, Two, Three, Four, Five]", 4, "strokes"),
+    ("vector:\n  rows: [[One], Two, Three]", 5, "vector.rows"),
+]
+
+
 @pytest.mark.parametrize("language", matrix(["en", "vi"], ["vi"]))
-@pytest.mark.parametrize(
-    ("words", "line", "path"),
-    [
-        ("units: 5", 4, "units"),
-        ("cover: [a]", 4, "cover"),
-        ("cover:\n  title:", 5, "cover.title"),
-        ("cover:\n  title: {a: b}", 5, "cover.title"),
-        ("strokes: [One, Two]", 4, "strokes"),
-        ("strokes: [One, Two, Three, Four, Five]", 4, "strokes"),
-        ("vector:\n  rows: [[One], Two, Three]", 5, "vector.rows"),
-    ],
-)
+@pytest.mark.parametrize(("words", "line", "path"), matrix(MISSHAPEN, MISSHAPEN[3::3]))
 def test_a_word_of_another_form_is_a_located_fault(
     school: School, words: str, line: int, path: str, language: Language
 ) -> None:
