@@ -5,9 +5,10 @@ A folder of templates with such a file is a language; no other place of the prog
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from functools import cache
+from dataclasses import dataclass, field, fields
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
@@ -16,8 +17,7 @@ from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, read_
 from reportgen.base.template_folders import LANGUAGE_FILE, Language, languages, templates
 
 DecimalMark = Literal[".", ","]
-KINDS = "kinds"
-"""Under `draft`: all that no native speaker has read, or the kinds of work of which that holds."""
+_LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +60,31 @@ class PageMargins:
     top: float = 22.0
     bottom: float = 20.0
 
+    @property
+    def narrow(self) -> bool:
+        """Whether an A4 page leaves less room than figures and tables are made for."""
+        return self.left + self.right > 50 or self.top + self.bottom > 42 or min(self.left, self.right) < 5
+
+
+@dataclass(frozen=True, slots=True)
+class MobilityNotation:
+    """How the degree of freedom is written: 3n − (2t + c) + r − s, or `apart`, 3n − 2t − c, with r and s unless zero.
+
+    The letters stand for the freedom, moving links, lower and higher pairs, passive constraints, redundant freedoms.
+    """
+
+    letters: tuple[str, ...] = ("W", "n", "t", "c", "r", "s")
+    apart: bool = False
+
 
 @dataclass(frozen=True, slots=True)
 class LanguageSetting:
     """All that `language.yaml` says; what it leaves out is as here.
 
     `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
-    title block of its drawing sheets; `spaced` says whether it sets blanks between words, and so before a unit.
+    title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them;
+    `spaced` says whether it sets blanks between words; `draft` are the kinds of work whose words no native speaker has
+    read, or all of them.
     """
 
     name: str
@@ -78,6 +96,8 @@ class LanguageSetting:
     drawing: DrawingSetting = DrawingSetting()
     page: PageMargins = PageMargins()
     block: str = "iso"
+    units: Mapping[str, str] = field(default_factory=dict)
+    mobility: MobilityNotation = MobilityNotation()
     spaced: bool = True
     draft: bool | tuple[str, ...] = False
 
@@ -116,6 +136,30 @@ def decimal_mark(language: Language) -> DecimalMark:
     return setting_of(language).decimal
 
 
+class UnitNames(dict[str, str]):
+    """Units as a language prints them: whole ones by name, any other by the letters in it, m/s as м/с."""
+
+    def get(self, unit: str, default: object = None) -> str:
+        """The unit as it is printed; what has no other name stays as it is."""
+        return self[unit] if unit in self else _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
+
+
+@cache
+def unit_names(language: Language) -> UnitNames:
+    """The units as the language prints them."""
+    return UnitNames(setting_of(language).units)
+
+
+@lru_cache(maxsize=1024)
+def common_unit(text: str) -> str:
+    """A unit as typed in any language, with the letters that all of them read: м/с as m/s."""
+    if text.isascii():
+        return text
+    names = {shown: unit for language in languages() for unit, shown in setting_of(language).units.items()}
+    whole = names.get(text, text)
+    return _LETTERS.sub(lambda letters: names.get(letters[0], letters[0]), whole)
+
+
 def read_setting(file: Path) -> LanguageSetting:
     """A file `language.yaml`.  Raises `TemplateError` with file and line for what does not belong there."""
     text = text_in(file)
@@ -133,6 +177,7 @@ _PARTS: Mapping[str, type[Any]] = {
     "word": WordSetting,
     "drawing": DrawingSetting,
     "page": PageMargins,
+    "mobility": MobilityNotation,
 }
 
 
@@ -146,6 +191,8 @@ def _table(form: type[Any], node: Node | None, place: str) -> Any:
             raise TemplateError(f"{key.mark}: {key.text} is no key here; those are {', '.join(known)}")
         part = _PARTS.get(key.text) if form is LanguageSetting else None
         values[key.text] = _table(part, value, place) if part else _value(str(known[key.text].type), value)
+        if isinstance(values[key.text], PageMargins) and values[key.text].narrow:
+            raise TemplateError(f"{value.mark}: figures and tables need a page with 160 mm across and 255 mm down")
     try:
         return form(**values)
     except TypeError:
@@ -158,6 +205,9 @@ def _value(kind: str, node: Node) -> Any:
     if kind.endswith("tuple[str, ...]") and isinstance(node, SequenceNode):
         if all(isinstance(item, Scalar) for item in node.items):
             return tuple(item.text for item in node.items if isinstance(item, Scalar))
+    elif kind.startswith("Mapping") and isinstance(node, MappingNode):
+        if all(isinstance(value, Scalar) for _, value in node.entries):
+            return {key.text: value.text for key, value in node.entries if isinstance(value, Scalar)}
     elif isinstance(node, Scalar):
         match kind:
             case "str":
@@ -182,6 +232,7 @@ def _value(kind: str, node: Node) -> Any:
         "DecimalMark": "a point or a comma in quotation marks",
         "bool": "true or false",
         "tuple[str, ...]": "a list, or none",
+        "Mapping[str, str]": "a table of texts",
     }
     raise TemplateError(f"{node.mark}: {wanted.get(kind, 'true, false or a list')} is wanted here")
 

@@ -16,7 +16,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from reportgen.base.languages import Language as Language
-from reportgen.base.languages import decimal_mark
+from reportgen.base.languages import common_unit, decimal_mark
 from reportgen.base.shown import shown
 
 if TYPE_CHECKING:
@@ -91,7 +91,8 @@ SPELLED: Mapping[str, str] = {
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _KNOWN = "|".join(re.escape(spelling) for spelling in SPELLED if not spelling.isascii())
-UNIT = rf"(?:{_KNOWN}|[A-Za-zµμ°ºΩ][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*)"
+_LETTER = "A-Za-zµμ°Ω\u0400-\u04ff\u4e00-\u9fff"
+UNIT = rf"(?:{_KNOWN}|[{_LETTER}º][{_LETTER}0-9²³⁴⁻¹ */^()·⋅.+-]*)"
 
 _QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
@@ -222,7 +223,7 @@ def read_unit(text: str, unit: str) -> float:
 
 def scale(unit: str) -> tuple[float, Dimension]:
     """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
-    unit = SPELLED.get(unit.casefold(), unit)
+    unit = SPELLED.get(unit.casefold(), common_unit(unit))
     return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
 
 

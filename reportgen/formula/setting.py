@@ -13,7 +13,7 @@ from itertools import repeat
 from typing import Literal
 
 from reportgen.base.errors import TypesetterError
-from reportgen.base.languages import setting_of
+from reportgen.base.languages import setting_of, unit_names
 from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.formula import (
     Call,
@@ -291,7 +291,7 @@ def is_tall(part: Part) -> bool:
 
 
 def written(number: Number, language: Language) -> Written:
-    return Written(write(number.value, number.decimals, language), number.unit)
+    return Written(write(number.value, number.decimals, language), unit_names(language).get(number.unit))
 
 
 def parted(symbol: Symbol) -> tuple[str, str]:

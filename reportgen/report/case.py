@@ -18,8 +18,8 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.kinds import title as kind_title
-from reportgen.base.languages import setting_of
-from reportgen.base.template_folders import languages, search_path
+from reportgen.base.languages import UnitNames, languages, setting_of
+from reportgen.base.template_folders import search_path
 from reportgen.base.words import common_words, load_words, word
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.rounding import printed
@@ -316,6 +316,11 @@ class LoadedAssignment(Case):
         return load_words(self.places)
 
     @property
+    def unit_names(self) -> UnitNames:
+        """Units as the report prints them: as the language does, or the school."""
+        return UnitNames({**setting_of(self.assignment.language).units, **self.words["units"]})
+
+    @property
     def course(self) -> str:
         """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
         standard: str = self.words["cover"]["course"]
@@ -403,7 +408,7 @@ class MachineAnalysis(LoadedAssignment):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.plans import write_ledger
 
-        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, self.balanced)
+        written = write_ledger(self.analysis, self.unit_names, self.assignment.worked_positions, self.balanced)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
     @property

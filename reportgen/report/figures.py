@@ -352,7 +352,8 @@ def _indicator(report: Report, factor: float) -> Scene:
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
     note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
-    frame = indicator_figure.Frame(start, end, side, mu * report.enlarged, Chain((Symbol("p"),), "N/cm²"), note)
+    axis = Chain((Symbol("p"),), report.ledger.units.get("N/cm²", "N/cm²"))
+    frame = indicator_figure.Frame(start, end, side, mu * report.enlarged, axis, note)
     share_at = first.share_at(partial(motion_at, machine))
     lines = first.indicator.branches(share_at, first.dead_centres)
     branches = [

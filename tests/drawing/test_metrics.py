@@ -30,6 +30,10 @@ LABELS: tuple[Expression | str, ...] = (
     Fraction(Symbol("a"), Symbol("b", "1")),
     "10:1",
     "Quá trình nạp",
+    Symbol("M", "ур"),
+    Symbol("F", "и4"),
+    Chain((Symbol("μ", "V"), Number(0.2189, 4, "м/(с·мм)"))),
+    "Рабочий ход",
 )
 
 
