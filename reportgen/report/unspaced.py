@@ -46,7 +46,8 @@ def _set(line: str, symbols: set[str]) -> str:
 
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
-        return f"（{match[1]}）" if _WIDE_LETTER.search(around) else match[0]
+        # With a blank before it, it is a remark and no part of a formula.
+        return f"（{match[1]}）" if match[0][0] == " " or _WIDE_LETTER.search(around) else match[0]
 
     def between(match: re.Match[str]) -> str:
         if match[1] != ",":

@@ -218,7 +218,11 @@ class _Blocks:
         written = [self.inline(inline) for inline in inlines]
         for place, (before, inline) in enumerate(pairwise(inlines), 1):
             # No line begins with these marks of Chinese, though Typst would break before them behind a formula.
-            if isinstance(inline, tree.Text) and inline.text[:1] in ("；", "：") and not isinstance(before, tree.Text):
+            if (
+                isinstance(inline, tree.Text)
+                and inline.text[:1] in ("；", "：")
+                and isinstance(before, (tree.InlineMath, tree.Value))
+            ):
                 written[place] = f"#sym.wj{written[place]}"
         return "".join(written)
 
