@@ -27,7 +27,7 @@ def is_gbk(data: bytes) -> bool:
     """
     try:
         text = data.decode(CODEC)
-        _LETTERS.sub("", text).encode("gb2312")
+        _LETTERS.sub("", text).encode("gbk")
     except UnicodeError:
         return False
     letters = [letter.encode(CODEC) for letter in _LETTERS.findall(text)]

@@ -41,6 +41,11 @@ def test_a_line_without_a_letter_of_it_stays(text: str) -> None:
     assert unspaced((Text(text),)) == (Text(text),)
 
 
+def test_a_line_that_is_set_out_stays() -> None:
+    line = (Text("在位置 1, 2 ("), V, Text(") 为 "), SIZE, Text("."))
+    assert unspaced(unspaced(line)) == unspaced(line)
+
+
 def test_what_is_no_text_comes_through_as_it_is() -> None:
     line = (Text("点 "), B, Text(", "), SIZE, Text(" 和 "), Reference("eq", "(1.2)"))
     assert [one for one in unspaced(line) if not isinstance(one, Text)] == [B, SIZE, line[-1]]
