@@ -28,7 +28,7 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
 from reportgen.base.kinds import kinds
-from reportgen.base.template_folders import samples
+from reportgen.base.template_folders import languages, samples
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.cli import app
@@ -317,7 +317,7 @@ def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Exte
             yield subject, command.__name__, OWN, "typst", "short"
             yield from (
                 (subject, command.__name__, language, engine, extent)
-                for language in get_args(Language)
+                for language in languages()
                 for engine in engines
                 for extent in extents
             )

@@ -15,13 +15,17 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen import catalogue
 from reportgen.api import typesetting
-from reportgen.api.typesetting import Engine, reading_ahead
+from reportgen.api.letters import Engine as Engine
+from reportgen.api.letters import letter_of as letter_of
+from reportgen.api.letters import letters_of
+from reportgen.api.typesetting import reading_ahead
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
 from reportgen.base import made
 from reportgen.base.errors import NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch, version
+from reportgen.base.languages import setting_of
 from reportgen.base.standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
@@ -45,12 +49,7 @@ FORMATS = ("pdf", "html", "docx")
 
 load, check, examine, assess = catalogue.load, catalogue.check, catalogue.examine, catalogue.assess
 schema, sample, examples, example = catalogue.schema, catalogue.sample, catalogue.examples, catalogue.example
-letter_of, typeset, typeset_sheet, SUFFIX = (
-    typesetting.letter_of,
-    typesetting.typeset,
-    typesetting.typeset_sheet,
-    typesetting.SUFFIX,
-)
+typeset, typeset_sheet, SUFFIX = (typesetting.typeset, typesetting.typeset_sheet, typesetting.SUFFIX)
 
 
 def analyse(assignment: Assignment) -> Analysis:
@@ -222,14 +221,16 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     from reportgen.writers import word as writer
     from reportgen.writers.word_elements import Own
 
+    letters_of(assignment)
     given = assignment.report
-    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else writer.SIZES[tree.language]
+    usual = setting_of(tree.language).word
+    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else usual.size
     own = None
     if look is not None and look.exists():
         letterhead = read_letterhead(look, tree.language)
         own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
     drawn = partial(pictures.for_word, language=tree.language)
-    return writer.write(tree, drawn, Letter(given.font or writer.FONT, size), own)
+    return writer.write(tree, drawn, Letter(given.font or usual.font, size), own)
 
 
 # --- products: what a batch makes of an assignment file -----------------------------------------------
@@ -372,7 +373,7 @@ def blocks(assignment: Assignment) -> dict[str, Path]:
     """The title blocks that are known by a name: the program's, and those of the assignment's school."""
     from reportgen.sheets import frame
 
-    return frame.blocks(assignment.school or "")
+    return frame.blocks(assignment.school or "", assignment.language)
 
 
 MAKERS: Mapping[str, Maker] = {

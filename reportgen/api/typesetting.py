@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import AbstractContextManager, nullcontext
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
+from reportgen.api.letters import Engine
 from reportgen.assignment import Assignment
-from reportgen.assignment.reading import placed
-from reportgen.base.errors import Finding
-from reportgen.base.source import read_source
+from reportgen.base.errors import TypesetterError
+from reportgen.base.languages import setting_of
 from reportgen.base.standards import STANDARDS, Standards
 from reportgen.base.steps import step
-from reportgen.base.words import as_error
+from reportgen.base.words import word
 
 if TYPE_CHECKING:
     from reportgen.drawing.sheet import DrawingSheet
@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     from reportgen.report.layout import Letter
     from reportgen.writers.pdflatex import Ahead
 
-Engine = Literal["typst", "latex"]
-SUFFIX = {"typst": ".typ", "latex": ".tex"}
+SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
 
 
 def reading_ahead(
@@ -32,31 +31,7 @@ def reading_ahead(
         return nullcontext()
     from reportgen.writers import latex, pdflatex
 
-    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short"))
-
-
-def letter_of(assignment: Assignment, engine: Engine) -> Letter:
-    """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
-    from reportgen.report.layout import Letter
-
-    font = assignment.report.font or ""
-    if font and font not in (known := _fonts(engine)):
-        finding = Finding(
-            "no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)}
-        )
-        raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
-    return Letter(font, float(assignment.report.size.removesuffix(" pt")))
-
-
-def _fonts(engine: Engine) -> list[str]:
-    """The fonts whose names an engine knows."""
-    if engine == "latex":
-        from reportgen.writers import latex
-
-        return list(latex.FAMILIES)
-    from reportgen.writers import typst_fonts
-
-    return typst_fonts.families()
+    return pdflatex.Ahead(latex.opening(letter, assignment.report.extent == "short", assignment.language))
 
 
 def typeset(
@@ -77,6 +52,8 @@ def typeset(
     if engine == "latex":
         from reportgen.writers import latex, pdflatex
 
+        if not setting_of(tree.language).latex:
+            raise TypesetterError(word("typst_alone", tree.language, language=tree.language))
         compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
         return compiled.source, compiled.pdf
     from reportgen.writers import typst

@@ -16,6 +16,7 @@ from reportgen.assignment.fields import (
     Flag,
     Instant,
     Interval,
+    LanguageName,
     OneLine,
     Ratio,
     SchoolFolder,
@@ -24,6 +25,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding, UnknownNameError
+from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import Given, Language
 from reportgen.base.words import named_school, unknown
 
@@ -72,7 +74,7 @@ class ReportSection(Part):
     closed formulas.  The text is set in letters of a `font` in a `size`.
     """
 
-    language: Language = "vi"
+    language: Annotated[Language, LanguageName()] = DEFAULT_LANGUAGE
     extent: Extent = "full"
     school: Annotated[str, SchoolFolder()] | None = None
     templates: OneLine | None = None

@@ -20,7 +20,7 @@ from reportgen.base.files import school_strays
 from reportgen.base.moments import moment
 from reportgen.base.slips import in_quotes
 from reportgen.base.source import STRANGE, Quoted
-from reportgen.base.template_folders import school_folder, schools, templates
+from reportgen.base.template_folders import languages, school_folder, schools, templates
 from reportgen.base.units import NUMBER, Given, QuantityFault, grouped, read_quantity, read_ratio, read_unit
 
 UNIT_KEY, RANGE_KEY, UNIT_NAME_KEY = "x-unit", "x-range", "x-unit-name"
@@ -129,6 +129,19 @@ class SchoolFolder(Reader):
 
     def schema(self) -> dict[str, Any]:
         return {"type": "string", "pattern": f"^{_SLUG}$"}
+
+
+@dataclass(frozen=True, slots=True)
+class LanguageName(Reader):
+    """A language that has a folder of words."""
+
+    def read(self, value: object) -> str:
+        if value not in languages():
+            raise fault("choice", allowed=", ".join(languages()))
+        return str(value)
+
+    def schema(self) -> dict[str, Any]:
+        return {"type": "string", "enum": list(languages())}
 
 
 @dataclass(frozen=True, slots=True)

@@ -131,7 +131,7 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
         throws += corners if corners[0].real > throws[-1].real - 1e-9 else []
         requests.append(label(complex(x, up), place, gap=1.0, prefer=(math.copysign(math.pi / 2, up),)))
     items.append(Polyline((*throws, end + BEYOND + 0j), SHAFT))
-    marks, numbers = ruler([*places.values()], per, -high - 8)
+    marks, numbers = ruler([*places.values()], per, -high - 8, case.ledger.printed_unit("mm"))
     facts = tuple(fact("station", name, Number(float(f"{at * MM:.9g}"), unit="mm")) for name, at in places.items())
     return settle(Canvas((*items, *marks), (*requests, *numbers), facts)), size.note(Symbol("μ", "l"), usual)
 

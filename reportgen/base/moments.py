@@ -11,13 +11,13 @@ import re
 import unicodedata
 from collections.abc import Mapping
 from functools import cache
-from typing import get_args
 
-from reportgen.base.units import Language
+from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
 
 _TIME = re.compile(r"(?<!\d)(\d{1,2})(?::(\d{2})(?::(\d{2})(?:\.\d+)?)?|h(\d{2})?(?![^\W\d_]))")
-_ISO = re.compile(r"(?<!\d)(\d{4})-(\d{1,2})-(\d{1,2})(?!\d)")
+_ISO = re.compile(r"(?<!\d)(\d{4})(?:-(\d{1,2})-(\d{1,2})(?!\d)| ?年 ?(\d{1,2}) ?月 ?(\d{1,2}) ?日)")
+"""A date that begins with the year, in Chinese with the words for year, month and day."""
 _FIGURES = re.compile(r"(?<!\d)(\d{1,2})[/.-](\d{1,2})[/.-](\d{4}|\d{2})(?!\d)")
 _DAY, _YEAR = re.compile(r"(?<!\d)(\d{1,2})(?!\d)"), re.compile(r"(?<!\d)(\d{4})(?!\d)")
 CENTURY = 2000
@@ -56,7 +56,7 @@ def _time(said: str) -> tuple[datetime.time | None, str]:
 def _day(said: str) -> datetime.date | None:
     """The date that a text names; raises `ValueError` for one that no calendar has."""
     if match := _ISO.search(said):
-        return datetime.date(int(match[1]), int(match[2]), int(match[3]))
+        return datetime.date(int(match[1]), int(match[2] or match[4]), int(match[3] or match[5]))
     if match := _FIGURES.search(said):
         year = int(match[3]) + (CENTURY if len(match[3]) == 2 else 0)
         return datetime.date(year, int(match[2]), int(match[1]))
@@ -80,7 +80,7 @@ def _months() -> Mapping[str, int]:
     """The number of a month by each of its names."""
     return {
         name: number
-        for language in get_args(Language)
+        for language in languages()
         for number, names in enumerate(messages(language)["dates"]["months"], start=1)
         for name in names
     }
@@ -89,5 +89,5 @@ def _months() -> Mapping[str, int]:
 @cache
 def _halves() -> Mapping[str, Mapping[str, int]]:
     """What the halves of the day are called, by `morning` and `afternoon`."""
-    tables = [messages(language)["dates"] for language in get_args(Language)]
+    tables = [messages(language)["dates"] for language in languages()]
     return {half: {word: 0 for table in tables for word in table[half]} for half in ("morning", "afternoon")}

@@ -7,9 +7,8 @@ import re
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import get_args
 
-from reportgen.base.template_folders import documentation
+from reportgen.base.template_folders import REFERENCE, documentation, languages
 from reportgen.base.units import Language
 from reportgen.base.words import spoken
 
@@ -49,7 +48,7 @@ def as_html(page: Path) -> Path:
     body = MarkdownIt("commonmark").enable("table").render(page.read_text(encoding="utf-8"))
     base = page.resolve().parent.as_uri() + "/"
     named = page.name.split(".")
-    tongue = named[1] if len(named) > 2 and named[1] in get_args(Language) else "en"
+    tongue = named[1] if len(named) > 2 and named[1] in languages() else REFERENCE
     text = (
         f'<!doctype html><html lang="{tongue}"><meta charset="utf-8"><base href="{base}">'
         f"<title>{html.escape(heading(page))}</title><style>{LOOK}</style>{_with_anchors(body)}</html>"

@@ -3,10 +3,18 @@
 from __future__ import annotations
 
 import os
+from functools import cache
 from pathlib import Path
 
 from reportgen.base.files import OF_SCHOOL
-from reportgen.base.units import Language
+
+Language = str
+"""The name of a folder that is a language; whoever reads one from outside checks it against `languages`."""
+DEFAULT_LANGUAGE: Language = "vi"
+REFERENCE: Language = "en"
+"""The language of words that another one does not have."""
+LANGUAGE_FILE = "language.yaml"
+"""By this file a folder of templates is a language."""
 
 MACHINES = "catalogue"
 """The folder beside `report.md` with a file for each kind of machine or exercise."""
@@ -15,6 +23,14 @@ MACHINES = "catalogue"
 def templates() -> Path:
     """The folder of words and frames: packed into the package, or beside it in a checkout."""
     return _packed("templates", "templates")
+
+
+@cache
+def languages() -> tuple[Language, ...]:
+    """The languages there are: that of who names none, that of reference, then all others by their names."""
+    names = {file.parent.name for file in templates().glob(f"*/{LANGUAGE_FILE}")}
+    first = [language for language in (DEFAULT_LANGUAGE, REFERENCE) if language in names]
+    return (*first, *sorted(names - {*first}))
 
 
 def samples() -> Path:
@@ -46,7 +62,7 @@ def is_school(folder: Path) -> bool:
 
 def schools() -> list[str]:
     """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
-    own = {"vi", "en", "frames"}
+    own = {*languages(), "frames"}
     return sorted(folder.name for folder in templates().iterdir() if folder.name not in own and is_school(folder))
 
 
@@ -74,3 +90,9 @@ def search_path(
 def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
     """The file with all words of one kind of machine."""
     return (root or templates()) / language / MACHINES / f"{kind}.md"
+
+
+def told_in(language: Language, name: str) -> Path:
+    """A file of words of a language, a kind's, `catalogue/cam.md`, too; that of reference where it has none."""
+    own = templates() / language / name
+    return own if own.is_file() else templates() / REFERENCE / name

@@ -13,8 +13,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
+from reportgen.base.languages import Language as Language
+from reportgen.base.languages import common_unit, decimal_mark
 from reportgen.base.shown import shown
 
 if TYPE_CHECKING:
@@ -89,7 +91,8 @@ SPELLED: Mapping[str, str] = {
 
 NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 _KNOWN = "|".join(re.escape(spelling) for spelling in SPELLED if not spelling.isascii())
-UNIT = rf"(?:{_KNOWN}|[A-Za-zµμ°ºΩ][A-Za-z0-9µμ°Ω²³⁴⁻¹ */^()·⋅.+-]*)"
+_LETTER = "A-Za-zµμ°Ω\u0400-\u04ff\u4e00-\u9fff"
+UNIT = rf"(?:{_KNOWN}|[{_LETTER}º][{_LETTER}0-9²³⁴⁻¹ */^()·⋅.+-]*)"
 
 _QUANTITY = re.compile(rf"({NUMBER})\s*({UNIT})?")
 _RATIO = re.compile(rf"({NUMBER})\s*(?:/\s*({NUMBER}))?")
@@ -220,7 +223,7 @@ def read_unit(text: str, unit: str) -> float:
 
 def scale(unit: str) -> tuple[float, Dimension]:
     """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
-    unit = SPELLED.get(unit.casefold(), unit)
+    unit = SPELLED.get(unit.casefold(), common_unit(unit))
     return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
 
 
@@ -264,8 +267,6 @@ def _cleaned(text: str) -> str:
 # --- rounding and writing of numbers --------------------------------------------------------------
 # Decimal comma or point, no negative zero, no rounding dust.
 
-Language = Literal["vi", "en"]
-
 MINUS = "\N{MINUS SIGN}"
 
 
@@ -284,7 +285,7 @@ def rounded(values: Numbers, decimals: int) -> Numbers:
 def write(value: float, decimals: int | None, language: Language) -> str:
     """The text of a number: fixed `decimals`, or the shortest exact form when None.
 
-    The Vietnamese text has a decimal comma; both use a true minus sign and no thousands mark.  What is very large or
+    Its decimal mark is that of the language; it has a true minus sign and no thousands mark.  What is very large or
     very small is written with a power of ten.
     """
     if not math.isfinite(value):
@@ -294,7 +295,7 @@ def write(value: float, decimals: int | None, language: Language) -> str:
     number = Decimal(repr(float(value if decimals is None else rounded(value, decimals)))) + 0
     text = f"{number.normalize():f}" if decimals is None else f"{number:.{max(decimals, 0)}f}"
     text = text.replace("-", MINUS)
-    return text.replace(".", ",") if language == "vi" else text
+    return text.replace(".", decimal_mark(language))
 
 
 LARGE = 1e7

@@ -37,10 +37,17 @@ from reportgen.base.source import (
     text_in,
 )
 from reportgen.base.source_text import at, path_text
-from reportgen.base.template_folders import MACHINES, is_school, school_files, templates
+from reportgen.base.template_folders import (
+    DEFAULT_LANGUAGE,
+    MACHINES,
+    REFERENCE,
+    is_school,
+    languages,
+    school_files,
+    templates,
+)
 from reportgen.base.units import Language
 
-DEFAULT_LANGUAGE: Language = "vi"
 LONGEST_SHOWN = 40
 """How much of the file a message repeats, in characters."""
 
@@ -161,7 +168,8 @@ def unfilled(text: str, known: Iterable[str], language: Language) -> str:
 
 def of_file(file: Path) -> Language:
     """The language of a file of templates."""
-    return "en" if "en" in (file.stem, file.parent.name, file.parent.parent.name) else DEFAULT_LANGUAGE
+    names = (file.stem, file.parent.name, file.parent.parent.name)
+    return next((name for name in names if name in languages()), DEFAULT_LANGUAGE)
 
 
 def _table(source: Source, above: int = 0) -> Mapping[str, Any]:
@@ -211,11 +219,12 @@ def _alike(present: Any, standing_in: Any) -> bool:
 def language_of(source: Source) -> Language:
     """The language a file asks for, found by its line so that faulty syntax does not matter.
 
-    A file that asks for none is reported in Vietnamese; one that cannot be read says nothing.
+    A file that asks for none is reported in the language of who names none; one that cannot be read says nothing.
     """
-    asked = re.search(r"^[^#\n]*[\s{]language:\s*['\"]?(vi|en)\b", source.text, re.MULTILINE)
+    known = "|".join(languages())
+    asked = re.search(rf"^[^#\n]*[\s{{]language:\s*['\"]?({known})\b", source.text, re.MULTILINE)
     if asked:
-        return "en" if asked[1] == "en" else "vi"
+        return asked[1]
     return DEFAULT_LANGUAGE if source.text else spoken()
 
 
@@ -231,24 +240,52 @@ def speak(language: Language) -> None:
 def spoken() -> Language:
     """The language of what no file and no option says one for: what was set, else that of the locale.
 
-    A locale that is none (C) leaves it at Vietnamese.
+    A locale that is none (C) leaves it at that of who names none; one that there is not is told in that of reference.
     """
     named = next(filter(None, map(os.environ.get, (SPOKEN, "LC_ALL", "LC_MESSAGES", "LANG"))), None)
     named = named or (os.name == "nt" and locale.getlocale()[0]) or "C"
     tongue = re.split(r"[_.@-]", named)[0].casefold()
-    return DEFAULT_LANGUAGE if tongue in {"c", "posix"} or tongue.startswith("vi") else "en"
+    if tongue in {"c", "posix"}:
+        return DEFAULT_LANGUAGE
+    # Some systems call a language by its name: Vietnamese_Vietnam.
+    return tongue if tongue in languages() else DEFAULT_LANGUAGE if tongue.startswith(DEFAULT_LANGUAGE) else REFERENCE
 
 
 @cache
 def messages(language: Language) -> Mapping[str, Any]:
     """The message table: `faults`, `hints`, `words` (kinds of value, reasons), `columns` and `cli`."""
-    return _read(templates() / language / "messages.yaml")
+    return _with_reference(language, "messages.yaml")
 
 
 @cache
 def helps(language: Language) -> Mapping[str, Any]:
     """The help of the command line: its `frame`, the short `start`, and `texts` by their English ones."""
-    return _read(templates() / language / "help.yaml")
+    return _with_reference(language, "help.yaml")
+
+
+@cache
+def common_words(language: Language) -> Mapping[str, Any]:
+    """The short words of a language that no kind and no school changes."""
+    return _with_reference(language, FILE)
+
+
+def _with_reference(language: Language, name: str) -> Mapping[str, Any]:
+    """A file of words; what a language does not have of it comes in that of reference."""
+    file, reference = (templates() / one / name for one in (language, REFERENCE))
+    if language == REFERENCE or not file.is_file():
+        return _read(reference)
+    return _beneath(_read(reference), _read(file))
+
+
+def _beneath(below: Mapping[str, Any], above: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The words `above`, and those of `below` under keys that are not there."""
+    both = {
+        key: _beneath(below[key], value)
+        if isinstance(value, Mapping) and isinstance(below.get(key), Mapping)
+        else value
+        for key, value in above.items()
+    }
+    return both | {key: value for key, value in below.items() if key not in both}
 
 
 def word(key: str, language: Language | None, /, **arguments: object) -> str:

@@ -15,12 +15,11 @@ from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from functools import cache
 from pathlib import Path
-from typing import get_args
 
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.template_folders import search_path
+from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, Language, write
-from reportgen.base.words import as_error, as_problem, close_or_known, load_words, messages
+from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import symbol_text, words_of
@@ -93,7 +92,7 @@ def _verdicts() -> Mapping[str, Verdict]:
     """Right and wrong, by their words in every language."""
     return {
         word: verdict
-        for language in get_args(Language)
+        for language in languages()
         for verdict in (Verdict.right, Verdict.wrong)
         for word in messages(language)["judgements"][verdict]
     }
@@ -195,7 +194,7 @@ def _named(key: Key, text: str) -> tuple[Inlines, Callable[[str], bool]] | None:
 @cache
 def _titles(chapter: Chapter) -> frozenset[str]:
     """What a section is called: its own name, and its title in every language."""
-    tables = [load_words(search_path(language))["parts"] for language in get_args(Language)]
+    tables = [common_words(language)["parts"] for language in languages()]
     return frozenset({str(chapter), *(folded(table[chapter]) for table in tables)})
 
 

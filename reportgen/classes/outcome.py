@@ -8,7 +8,7 @@ from itertools import groupby
 from pathlib import Path
 
 from reportgen import api
-from reportgen.api.typesetting import Engine
+from reportgen.api.letters import Engine
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import SETS, overwritten, put_files, reported, scratch
 from reportgen.base.kinds import title

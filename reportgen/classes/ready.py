@@ -13,8 +13,8 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import Language
-from reportgen.base.words import DEFAULT_LANGUAGE
 from reportgen.catalogue import sample
 from reportgen.classes.pool import KINDS
 
@@ -58,7 +58,7 @@ def _prepare_named() -> None:
         kind, language = named.split(":")
         # What cannot be prepared is done by each worker, which can tell of it.
         with suppress(Exception):
-            prepare(kind, "en" if language == "en" else "vi")
+            prepare(kind, language)
     gc.collect()
     gc.freeze()
     gc.set_threshold(COLLECTED)

@@ -17,25 +17,26 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import get_args
 
 from pydantic_core import PydanticCustomError
 
 from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.fields import RESERVED, TypedText
+from reportgen.base import chinese
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import contents
 from reportgen.base.kinds import kinds
 from reportgen.base.source import Scalar, read_source
 from reportgen.base.source_text import at
+from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
 from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20
 """How far down the headings are looked for, below a title."""
-_WITH_UNIT = re.compile(rf"(.*?)\s*[(\[]\s*({UNIT})\s*[)\]]")
+_WITH_UNIT = re.compile(rf"(.*?)\s*[(\[（]\s*({UNIT})\s*[)\]）]")
 _NUMBER = re.compile(NUMBER)
 
 
@@ -67,7 +68,7 @@ def _known_columns() -> Mapping[str, str]:
     """The name of a column by any heading it may have, in every language, folded."""
     return {
         folded(heading): name
-        for language in get_args(Language)
+        for language in languages()
         for name, headings in messages(language)["columns"].items()
         for heading in (name, *headings)
     }
@@ -75,7 +76,7 @@ def _known_columns() -> Mapping[str, str]:
 
 def folded(text: str) -> str:
     """A heading without what does not tell two headings apart: case, blanks, composition, marks at its end."""
-    return " ".join(unicodedata.normalize("NFC", text).casefold().split()).rstrip(" .:*")
+    return chinese.joined(" ".join(unicodedata.normalize("NFC", text).casefold().split())).rstrip(" .:*：")
 
 
 def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
@@ -214,7 +215,10 @@ def _in_spoken_order(row: Record) -> Record:
     if name is None or name.text.count(", ") != 1:
         return row
     last, _, first = name.text.partition(", ")
-    return replace(row, values={**row.values, "name": Scalar(f"{first} {last}", name.mark)})
+    spoken = chinese.full_name(first, last)
+    # A Chinese name begins with that of the family.
+    spoken = spoken if " " in spoken else f"{last}{first}"
+    return replace(row, values={**row.values, "name": Scalar(spoken, name.mark)})
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
@@ -279,7 +283,8 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
 
 def _student(row: Record) -> RosterEntry:
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
-    texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
+    texts = {"name": chinese.full_name(*parts), **{name: value.text for name, value in row.values.items()}}
+    texts["name"] = chinese.joined(texts["name"])
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
     card = {name: texts[name] for name in PERSONAL if texts.get(name)}
     return RosterEntry(card, overrides, row.mark, row.values.get(HANDED_IN))

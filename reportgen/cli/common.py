@@ -18,7 +18,7 @@ from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
 from reportgen.base.standards import KNOWN, NONE, STANDARDS, Standards
-from reportgen.base.units import Language
+from reportgen.base.template_folders import Language, languages
 
 if TYPE_CHECKING:
     from reportgen.base.made import Put
@@ -31,8 +31,13 @@ ASSIGNMENTS = frozenset({".yaml", ".yml"})
 
 File = Annotated[Path, typer.Argument(metavar="FILE", help="Assignment file.", show_default=False)]
 Files = Annotated[list[Path], typer.Argument(metavar="FILE", help="Assignment files.", show_default=False)]
+if TYPE_CHECKING:
+    NamedLanguage = Language
+else:
+    # As a type of choices the option says in its help, its completion and its faults which languages there are.
+    NamedLanguage = Literal[languages()]
 LangOption = Annotated[
-    Language | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
+    NamedLanguage | None, typer.Option("--lang", help="Language, instead of the file's own.", show_default=False)
 ]
 TemplatesOption = Annotated[
     Path | None,
@@ -235,7 +240,7 @@ def _asked_for(arguments: Sequence[str]) -> Iterator[Language]:
     from reportgen.base.words import language_of
 
     line = " ".join(arguments).replace("--lang=", "--lang ")
-    yield from (language for language in get_args(Language) if re.search(rf"(^| )--lang {language}( |$)", line))
+    yield from (language for language in languages() if re.search(rf"(^| )--lang {language}( |$)", line))
     for path in map(Path, arguments):
         # What is no path at all is told by who reads it.
         with suppress(OSError, ValueError):

@@ -7,6 +7,7 @@ depth below it.  Scripts are set at 0.7 of the size, as both typesetters do.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, reduce
@@ -29,6 +30,10 @@ RELATION = 0.56
 """Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
 GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
 """Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
+BESIDE, BESIDE_HAN = 250, re.compile("(?<=[\u4e00-\u9fff])(?=[0-9A-Za-z])|(?<=[0-9A-Za-z])(?=[\u4e00-\u9fff])")
+"""Between letters of Chinese and of another script, in thousandths of the font size, and where that is."""
+SQUARE = (1000, 860, 200)
+"""Of a letter of East Asia, each of which fills a square, and of its punctuation."""
 THIN = 0.17
 """Between a function and what it is applied to, in font sizes."""
 
@@ -64,14 +69,15 @@ def _text(text: str, em: float, italic: bool = False) -> Box:
         return NOTHING
     k = em / 1000
     advances, heights, depths = zip(*glyphs, strict=True)
-    return Box(k * sum(advances), k * max(heights), k * max(depths))
+    gaps = 0 if text.isascii() else len(BESIDE_HAN.findall(text))
+    return Box(k * (sum(advances) + BESIDE * gaps), k * max(heights), k * max(depths))
 
 
 def _unknown(letter: str) -> tuple[int, int, int]:
     """A letter that the table lacks: one of an alphabet is as wide as a wide letter, any other as one em."""
     if letter.isalpha() and letter < "\u2000":
         return (700 if letter.isupper() else 600), 750, 200
-    return 1000, 750, 200
+    return SQUARE if letter >= "\u2e80" else (1000, 750, 200)
 
 
 def _gap(width: float) -> Box:
@@ -178,7 +184,7 @@ def _row(boxes: Iterable[Box]) -> Box:
 # (advance, height above the baseline, depth below it) in thousandths of the font size.  Read once, with
 # fontTools, from the Latin Modern fonts that both typesetters set (New Computer Modern has the same widths):
 # the upright letters from lmroman10-regular, signs, Greek and the mathematical italic from latinmodern-math;
-# an advance is never less than the right edge of the glyph.
+# an advance is never less than the right edge of the glyph.  `tests/drawing/glyph_sizes.py` adds further letters.
 _GLYPHS = json.loads(Path(__file__).with_name("glyphs.json").read_text(encoding="utf-8"))
 ROMAN: dict[str, tuple[int, int, int]] = {letter: tuple(sizes) for letter, sizes in _GLYPHS["roman"].items()}
 """Upright letters, digits and signs."""

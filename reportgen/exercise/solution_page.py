@@ -225,7 +225,7 @@ class SolutionPage(Solution):
 
     def _typed(self, id: str, given: Given) -> Chain:
         """What is given, by its size: the formula of one that is stated by symbols."""
-        unit = self.case.words["units"].get(given.unit, pretty(given.unit))
+        unit = self.case.unit_names.get(given.unit, pretty(given.unit))
         size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
         if not isinstance(given, Literal):
             if given.unit != "rpm" or id not in self.worked.printed:
@@ -303,7 +303,10 @@ class SolutionPage(Solution):
         if coordinates is not None:
             x, y = map(lettered, coordinates)
             return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
-        at, unit = self.case.exercise.motion.system.points[name], "" if literal is None else "mm"
+        at, unit = (
+            self.case.exercise.motion.system.points[name],
+            "" if literal is None else self.case.unit_names.get("mm"),
+        )
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
         return (Value(across),), (Value(up),)
 

@@ -223,7 +223,7 @@ class SolvedExercise(LoadedAssignment):
         Raises `NotOfferedError` if no steps that are known here lead to something that is asked.
         """
         first = next(iter(self.exercise.given.methods), None)
-        worked = work_out(self.exercise, self.words["units"], self.words["symbols"], first)
+        worked = work_out(self.exercise, self.unit_names, self.words["symbols"], first)
         if worked.missing:
             raise NotOfferedError(word("no_steps", self.assignment.language, asked=", ".join(worked.missing)))
         return self._by_its_method(worked)
@@ -235,7 +235,7 @@ class SolvedExercise(LoadedAssignment):
         Raises `NotOfferedError` for a method of which no steps are known here.
         """
         rest = self.exercise.given.methods[1:]
-        each = (work_out(self.exercise, self.words["units"], self.words["symbols"], one, True) for one in rest)
+        each = (work_out(self.exercise, self.unit_names, self.words["symbols"], one, True) for one in rest)
         return tuple(map(self._by_its_method, each))
 
     @cached_property
@@ -244,7 +244,7 @@ class SolvedExercise(LoadedAssignment):
         if not self.exercise.given.methods:
             return ()
         first = self.exercise.given.methods[0]
-        return (work_out(self.exercise, self.words["units"], self.words["symbols"], first, True), *self.further)
+        return (work_out(self.exercise, self.unit_names, self.words["symbols"], first, True), *self.further)
 
     def _by_its_method(self, worked: Worked) -> Worked:
         if not worked.by_method:

@@ -13,6 +13,7 @@ from itertools import repeat
 from typing import Literal
 
 from reportgen.base.errors import TypesetterError
+from reportgen.base.languages import setting_of, unit_names
 from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.formula import (
     Call,
@@ -228,8 +229,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
     def applied(name: str, arguments: Sequence[Expression], exponent: Part | None) -> Function:
         if len(arguments) == 1 and name in BARE and level(arguments[0]) >= MARKED and not linear:
             return Function(name, exponent, of(arguments[0]))
-        # A comma is the decimal mark in Vietnamese.
-        mark = Sign(";" if language == "vi" else ",", "separator")
+        mark = Sign(setting_of(language).separator, "separator")
         return Function(name, exponent, Fence("(", MathRow(tuple(_joined(map(of, arguments), repeat(mark)))), ")"))
 
     return of(node)
@@ -291,7 +291,7 @@ def is_tall(part: Part) -> bool:
 
 
 def written(number: Number, language: Language) -> Written:
-    return Written(write(number.value, number.decimals, language), number.unit)
+    return Written(write(number.value, number.decimals, language), unit_names(language).get(number.unit))
 
 
 def parted(symbol: Symbol) -> tuple[str, str]:

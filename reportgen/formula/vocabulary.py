@@ -115,12 +115,36 @@ def vector(symbol: Symbol) -> Symbol:
 
 
 def in_language(symbol: Symbol, names: Mapping[str, str]) -> Symbol:
-    """The symbol with its indices as a language has them: with cb → bal, M_cb is M_bal; h_Pqt5 has the qt of P_qt5."""
-    sub = _WORDS.sub(lambda found: names.get(found[0], found[0]), symbol.sub)
-    return replace(symbol, sub=sub, sup=names.get(symbol.sup, symbol.sup))
+    """The symbol as a language has it: with cb → bal, M_cb is M_bal; h_Pqt5 has the qt of P_qt5.
+
+    A name with a letter before the index is that of the whole symbol, with # for each digit: Pqt → F_и makes P_qt5
+    F_и5, and R## → F_R makes R_12 F_R12.  One behind ^ is of what stands above alone.
+    """
+    sup = names.get(f"^{symbol.sup}", names.get(symbol.sup, symbol.sup))
+    word, digits, rest = _INDEX.findall(symbol.sub)[0]
+    whole = (f"{symbol.base}{word}{'#' * len(digits)}", f"{symbol.base}{word}" if word else "")
+    for key in whole if word or digits else ("" if rest else symbol.base,):
+        if key in names and not _WORD.fullmatch(key):
+            base, _, below = names[key].partition("_")
+            return replace(symbol, base=base, sub=f"{below}{digits}{_index(rest, names)}", sup=sup)
+    return replace(symbol, sub=_index(symbol.sub, names), sup=sup)
 
 
-_WORDS = re.compile("[a-z]+")
+def _index(index: str, names: Mapping[str, str]) -> str:
+    """What stands below a letter, in a language: words, and names of other quantities."""
+
+    def said(match: re.Match[str]) -> str:
+        letter, word, digits = match.groups()
+        for key in (f"{letter}{word}{'#' * len(digits)}", f"{letter}{word}"):
+            if letter and key in names:
+                return names[key].replace("_", "") + digits
+        return letter + names.get(word, word) + digits
+
+    return _NAMES.sub(said, index)
+
+
+_WORD, _INDEX = re.compile("[a-z]+"), re.compile(r"([a-z]*)(\d*)(.*)")
+_NAMES = re.compile(r"([^\W\d_a-z]?)([a-z]*)(\d*)")
 
 
 def lowered(text: str) -> str:

@@ -5,11 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator, Sequence
 from pathlib import Path
-from typing import get_args
 
-from reportgen.base.template_folders import search_path
-from reportgen.base.units import Language
-from reportgen.base.words import load_words
+from reportgen.base.template_folders import languages
+from reportgen.base.words import common_words
 from reportgen.handin import FileReading
 from reportgen.handin.drawing_reader import DrawnMark, WantedPlans, read_drawing
 from reportgen.handin.dxf_lines import read_lines
@@ -49,8 +47,8 @@ def wanted_plans(case: Case, key: Key, worlds: Sequence[Values] = ()) -> WantedP
 
 def _words() -> Iterator[str]:
     """The word for “position” in every language."""
-    for language in get_args(Language):
-        yield spoken(str(load_words(search_path(language))["table"]["position"]))
+    for language in languages():
+        yield spoken(str(common_words(language)["table"]["position"]))
 
 
 def read(path: Path, data: bytes, key: Key, plans: WantedPlans | None) -> FileReading:

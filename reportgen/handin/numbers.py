@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from reportgen.base.languages import decimal_mark
 from reportgen.base.units import Language, QuantityFault
 from reportgen.marking.key import typed_unit
 from reportgen.marking.numbers import DecimalMark, read_number
@@ -57,7 +58,7 @@ def marks_of(texts: Iterable[str], language: Language) -> Marks:
                 counts[match[1]] += 1
     points, commas = counts["."], counts[","]
     if not points and not commas:
-        return Marks("," if language == "vi" else ".", mixed=True)
+        return Marks(decimal_mark(language), mixed=True)
     return Marks("," if commas >= points else ".", min(points, commas) > BOTH * (points + commas))
 
 

@@ -19,9 +19,9 @@ import numpy as np
 
 from reportgen.base import units
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.template_folders import search_path
+from reportgen.base.template_folders import languages
 from reportgen.base.units import Language, QuantityFault
-from reportgen.base.words import as_error, as_problem, load_words
+from reportgen.base.words import as_error, as_problem, common_words
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import shown_number, symbol_text, typed_unit, words_of
 from reportgen.marking.marks import Answer, Place, Submission
@@ -256,7 +256,7 @@ def read_submission(
 @cache
 def _words(name: str) -> frozenset[str]:
     """A word of the answer sheet in every language."""
-    sheets = (load_words(search_path(language))["answer_sheet"] for language in get_args(Language))
+    sheets = (common_words(language)["answer_sheet"] for language in languages())
     return frozenset(str(words[name]).casefold() for words in sheets)
 
 

@@ -40,6 +40,7 @@ from reportgen.base.source import (
 )
 from reportgen.base.source_edit import EditError, as_list, exchanged, with_key, with_value, without
 from reportgen.base.source_text import at, put
+from reportgen.base.template_folders import REFERENCE
 from reportgen.base.units import Language, QuantityFault, read_quantity, read_unit
 from reportgen.page import html
 from reportgen.page.dragging import Resident
@@ -421,7 +422,7 @@ def _item(asked: Asked) -> Node:
     kind = str(asked["kind"])
     if kind not in part_kinds():
         raise ValueError(kind)
-    top = read_own(catalogue.sample(kind, "en")).top
+    top = read_own(catalogue.sample(kind, REFERENCE)).top
     assert isinstance(top, MappingNode), "a file to begin with is in order"
     return replace(top, entries=tuple(entry for entry in top.entries if entry[0].text in PART_KEYS))
 

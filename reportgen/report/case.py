@@ -12,15 +12,15 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, TypeVar, get_args
+from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.kinds import title as kind_title
+from reportgen.base.languages import UnitNames, languages, setting_of
 from reportgen.base.template_folders import search_path
-from reportgen.base.units import Language
-from reportgen.base.words import load_words, word
+from reportgen.base.words import common_words, load_words, word
 from reportgen.formula import Expression, Operand, Symbol, as_expression, substitute
 from reportgen.formula.rounding import printed
 from reportgen.formula.sheet import Family
@@ -316,10 +316,15 @@ class LoadedAssignment(Case):
         return load_words(self.places)
 
     @property
+    def unit_names(self) -> UnitNames:
+        """Units as the report prints them: as the language does, or the school."""
+        return UnitNames({**setting_of(self.assignment.language).units, **self.words["units"]})
+
+    @property
     def course(self) -> str:
         """The course as the assignment names it; by its standard name, whatever the language, in the case's own."""
         standard: str = self.words["cover"]["course"]
-        names = {load_words(search_path(language))["cover"]["course"] for language in get_args(Language)}
+        names = {common_words(language)["cover"]["course"] for language in languages()}
         given = self.assignment.report.course
         return given if given and given not in names else standard
 
@@ -352,10 +357,14 @@ class LoadedAssignment(Case):
             (labels["email"], student.email),
             (labels["supervisor"], given.supervisor),
         )
+        setting = setting_of(self.assignment.language)
+        title = labels["title"], self.course
+        subtitles = {"variant": variant, "machine": self.title}
         return Cover(
             tuple(part for part in (given.university, given.faculty, given.department) if part),
-            (labels["title"], self.course),
-            (*((f"{labels['variant']}: {variant}",) if variant else ()), f"{labels['machine']}: {self.title}"),
+            # Chinese names the course before what was made in it.
+            title if setting.spaced else title[::-1],
+            tuple(f"{labels[key]}{setting.colon}{text}" for key, text in subtitles.items() if text),
             tuple((label, value or "") for label, value in fields),
             self.place_and_date,
         )
@@ -399,7 +408,7 @@ class MachineAnalysis(LoadedAssignment):
         """Every number with the force plans, in the symbols and units of the assignment's language."""
         from reportgen.plans import write_ledger
 
-        written = write_ledger(self.analysis, self.words["units"], self.assignment.worked_positions, self.balanced)
+        written = write_ledger(self.analysis, self.unit_names, self.assignment.worked_positions, self.balanced)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))
 
     @property

@@ -56,9 +56,9 @@ class DesignCase(LoadedAssignment):
 
     @cached_property
     def ledger(self) -> Ledger:
-        sheet, words = self.sheet, self.words
-        made = Ledger(sheet.families, sheet.positions, units=words["units"], same=self.SAME, lines=sheet.lines)
-        return made.in_language(words["symbols"])
+        sheet = self.sheet
+        made = Ledger(sheet.families, sheet.positions, units=self.unit_names, same=self.SAME, lines=sheet.lines)
+        return made.in_language(self.words["symbols"])
 
     @cached_property
     def printed(self) -> Ledger:

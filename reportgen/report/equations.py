@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.gaps import NO_LETTER
+from reportgen.base.languages import setting_of
 from reportgen.formula import (
     Chain,
     Expression,
@@ -303,16 +304,23 @@ def functions(report: Report, quantities: Sequence[str]) -> Equation:
 
 
 def mobility_line(report: Report) -> Equation:
-    """W = 3n − (2t + c) + r − s with the numbers put in."""
+    """W = 3n − (2t + c) + r − s, or as the language writes it, with the numbers put in."""
     counted = mobility(report.machine.linkage)
     sizes = counted.n, counted.lower_pairs, counted.higher_pairs, counted.passive, counted.redundant
 
-    def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
-        return 3 * n - (2 * t + c) + r - s
+    notation = setting_of(report.assignment.language).mobility
 
-    formula, numbers = freedom(*map(Symbol, "ntcrs")), freedom(*map(Number, sizes))
+    def freedom(n: Expression, t: Expression, c: Expression, r: Expression, s: Expression) -> Expression:
+        if not notation.apart:
+            return 3 * n - (2 * t + c) + r - s
+        line = 3 * n - 2 * t - c
+        line = line + r if counted.passive else line
+        return line - s if counted.redundant else line
+
+    W, *letters = (Symbol(*letter.partition("_")[::2]) for letter in notation.letters)
+    formula, numbers = freedom(*letters), freedom(*map(Number, sizes))
     # A chain within a chain stays on one line: it is not broken at its equals signs.
-    return Equation((Chain((Chain((Symbol("W"), formula, numbers, Number(counted.W))),)),))
+    return Equation((Chain((Chain((W, formula, numbers, Number(counted.W))),)),))
 
 
 # --- vector equations of motion

@@ -43,6 +43,7 @@ from reportgen.base.limits import TEMPLATES, LimitError
 from reportgen.base.shown import shown
 from reportgen.base.shown import text as as_text
 from reportgen.base.source import STRANGE
+from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import MINUS, Language
 from reportgen.base.words import find, home, of_file, refuse_strangers, word
 from reportgen.formula import Expression, Number, vocabulary
@@ -249,7 +250,7 @@ def _too_much(places: tuple[Path, ...]) -> str:
 
 
 def _language(places: tuple[Path, ...]) -> Language:
-    return "en" if places and places[-1].name == "en" else "vi"
+    return of_file(places[-1]) if places else DEFAULT_LANGUAGE
 
 
 def _excerpt(fragment: str) -> Rendered:
@@ -366,7 +367,8 @@ GLOBALS: Mapping[str, Callable[..., Any]] = {
 
 _WHITE = {ord(letter): " " for letter in "\n\t"}
 _MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
-_REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.\w+)+)")
+# Letters of Chinese end a key: no blank stands behind it there.
+_REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.[^\W\u2e80-\U0010ffff]+)+)")
 
 
 class _Provenance(Extension):

@@ -8,12 +8,13 @@ from pathlib import Path
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import AssignmentError, Finding, SheetError
+from reportgen.base.languages import setting_of
 from reportgen.base.source import read_source
 from reportgen.base.words import as_error, word
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene, TooLargeError
 from reportgen.report.case import Case, CaseOfParts, MachineAnalysis
-from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, fields_of, framed, numbered, read_block, room
+from reportgen.sheets.frame import TitleBlock, blocks, fields_of, framed, numbered, read_block, room
 from reportgen.sheets.packing import Packing
 from reportgen.sheets.plates import Set, Sources, plates_of
 
@@ -49,7 +50,10 @@ def drawing_sheets(
         assignment = case.assignment
         least = min(sheets[0].name, USUAL[0], key=BY_SIZE.index)
         sheets += on_sheets(case, case.joined_plates(), size, block, least=least)
-        form = read_block(block or blocks(assignment.school or "")[DEFAULT[assignment.language]], assignment.language)
+        form = read_block(
+            block or blocks(assignment.school or "", assignment.language)[setting_of(assignment.language).block],
+            assignment.language,
+        )
         sheets = numbered(sheets, form, assignment.sheet.designation or "")
     return [*sheets, *case.true_sizes()]
 
@@ -77,7 +81,7 @@ def on_sheets(
     too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
     """
     language = case.assignment.language
-    form = read_block(block or blocks(case.assignment.school or "")[DEFAULT[language]], language)
+    form = read_block(block or blocks(case.assignment.school or "", language)[setting_of(language).block], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
         paper, laid_out = _chosen(plates, form, wanted, least)

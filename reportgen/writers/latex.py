@@ -15,7 +15,9 @@ from itertools import islice, pairwise
 from typing import TYPE_CHECKING
 
 from reportgen import report as tree
+from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import templates
+from reportgen.base.units import Language
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Symbol, VectorEquation
 from reportgen.formula.setting import columns
@@ -72,7 +74,7 @@ def pieces(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -
         characters=declarations(),
         gap=f"{layout.ABREAST:g}",
         close=document.close,
-        **_type(letter),
+        **_type(letter, document.language),
     )
     identity = hashlib.sha256()
     body = _Writer(document).each(document.blocks)
@@ -86,15 +88,16 @@ def pieces(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -
     yield _command("closing", identity.hexdigest()[:32])
 
 
-def opening(letter: layout.Letter, close: bool) -> str:
+def opening(letter: layout.Letter, close: bool, language: Language) -> str:
     """What the source of every document in this letter begins with, whatever it says: LaTeX's own files."""
     frame = _frame()
-    return "".join(frame.blocks["opening"](frame.new_context({"close": close, **_type(letter)})))
+    return "".join(frame.blocks["opening"](frame.new_context({"close": close, **_type(letter, language)})))
 
 
-def _type(letter: layout.Letter) -> Mapping[str, object]:
-    """The letter as the frame is told it."""
+def _type(letter: layout.Letter, language: Language) -> Mapping[str, object]:
+    """The letter and what the language says, as the frame is told it."""
     return {
+        "setting": setting_of(language),
         "family": FAMILIES.get(letter.font),
         "size": f"{letter.size:g}",
         "lead": f"{letter.size * LEADING:.4g}",

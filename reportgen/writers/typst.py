@@ -12,12 +12,14 @@ import math
 import tempfile
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict
 from itertools import groupby, pairwise
 from pathlib import Path
 from typing import Any, Literal
 
 from reportgen import report as tree
 from reportgen.base.errors import OutputWarning, TypesetterError
+from reportgen.base.languages import PageMargins, setting_of
 from reportgen.base.limits import give_memory_back
 from reportgen.base.standards import STANDARDS, Standards, titled
 from reportgen.base.template_folders import templates
@@ -33,7 +35,7 @@ from reportgen.formula.speech import Speech
 from reportgen.report import layout, spoken
 from reportgen.report.telling import figure_text, sentences, within
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_fonts import MissingLettersWarning, breadth, lacking, sought
+from reportgen.writers.typst_fonts import FONT, MissingLettersWarning, breadth, sought
 from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
@@ -50,8 +52,6 @@ CELL, CELL_INSET = 10.0, 3.0
 """The size of letters in tables, in points, and the white on both sides of a cell, mm."""
 UNDATED = datetime.date(1980, 1, 1)
 """The date of a file of which none is known, as the parts of a Word file have it."""
-SHEET_LOOK = """#set text(font:"New Computer Modern",ligatures:false)
-#show math.equation: set text(font:"New Computer Modern Math")"""
 
 
 def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) -> str:
@@ -64,7 +64,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
             f"title: {literal(document.title)}",
             f"author: {literal(document.author)}",
             f"date: {_date(document.date)}",
-            f"lang: {literal(document.language)}",
+            *_of_language(document.language),
             f"header: {_array(map(literal, document.header))}",
             f"footer: {_array(map(literal, document.footer))}",
             *_in(letter),
@@ -73,7 +73,21 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
     body = _Blocks(document.language, document.words, spoken.speech(document), letter, document.close).write(
         document.blocks
     )
-    return f"{frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
+    return f"{frame(document.language, document.close)}\n#show: report.with({opening})\n\n{body}\n"
+
+
+def _of_language(language: Language) -> Iterator[str]:
+    """What the frame is told of a language, as far as it is not as the frame has it."""
+    setting = setting_of(language)
+    own, page = setting.typst, setting.page
+    yield f"lang: {literal(own.lang or language)}"
+    if own.region:
+        yield f"region: {literal(own.region)}"
+    if own.hyphenate:
+        yield "hyphenate: true"
+    if page != PageMargins():
+        sides = ", ".join(f"{side}: {width:g}mm" for side, width in asdict(page).items())
+        yield f"margin: ({sides})"
 
 
 def _in(letter: layout.Letter) -> Iterator[str]:
@@ -113,15 +127,31 @@ def write_sheet(
         shown = f"D({text},{drawing})" if facts else f"pdf.artifact({drawing})"
         figures.append(f"#place(top+left,{shown})")
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[{''.join(figures)}]"
-    opening = ",".join((*map(literal, (title, author, language)), _date(date)))
-    return "\n".join((frame(), f"#show: described.with({opening})", SHEET_LOOK, page, ""))
+    opening = ",".join((*map(literal, (title, author, setting_of(language).typst.lang or language)), _date(date)))
+    return "\n".join((frame(language), f"#show: described.with({opening})", sheet_look(language), page, ""))
 
 
-def frame(close: bool = False) -> str:
+def sheet_look(language: Language) -> str:
+    """The letters of what has a page of its own size, a drawing sheet or a single figure."""
+    fonts = [literal(font) for font in (FONT, *setting_of(language).typst.fonts)]
+    text = f"#set text(font:{_array(fonts)},ligatures:false)"
+    return f"{text}\n#show math.equation: set text(font:{_array((literal(f'{FONT} Math'), *fonts))})"
+
+
+def frame(language: Language, close: bool = False) -> str:
     """The frame's source, for a document that is set `close` or not: from the package, or beside it in a checkout."""
     path = templates() / "frames" / "typst" / "report.typ"
+    setting = setting_of(language)
+    said = {
+        "close": str(close).lower(),
+        "further": _array(map(literal, setting.typst.fonts)),
+        "further-strong": _array(map(literal, setting.typst.strong or setting.typst.fonts)),
+        "caption-stop": literal(setting.stop),
+        "colon": literal(setting.colon.strip()),
+    }
     try:
-        return f"#let close = {str(close).lower()}\n{path.read_text(encoding='utf-8')}"
+        opening = "".join(f"#let {name} = {value}\n" for name, value in said.items())
+        return opening + path.read_text(encoding="utf-8")
     except OSError as error:
         raise TypesetterError(f"{path}: {error.strerror}") from error
 
@@ -194,7 +224,8 @@ class _Blocks:
                 place = "#standing" if block.here else "#W"
                 figures = [f"{place}({literal(key)},{label},\n{self.rows(first, block)})"]
                 for part, rows in enumerate(others, 2):
-                    again = literal(f"{self.words.figure} {block.number} ({self.words.part.format(part=part)})")
+                    where = setting_of(self.language).aside(self.words.part.format(part=part))
+                    again = literal(f"{self.words.figure} {block.number}{where}")
                     figures.append(f'{place}("",{again},[],\n{self.rows(rows, block)})')
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
@@ -219,7 +250,16 @@ class _Blocks:
     # --- inlines ----------------------------------------------------------------------------------
 
     def inlines(self, inlines: Sequence[tree.Inline]) -> str:
-        return "".join(map(self.inline, inlines))
+        written = [self.inline(inline) for inline in inlines]
+        for place, (before, inline) in enumerate(pairwise(inlines), 1):
+            # No line begins with these marks of Chinese, though Typst would break before them behind a formula.
+            if (
+                isinstance(inline, tree.Text)
+                and inline.text[:1] in ("；", "：")
+                and isinstance(before, (tree.InlineMath, tree.Value))
+            ):
+                written[place] = f"#sym.wj{written[place]}"
+        return "".join(written)
 
     def content(self, inlines: Sequence[tree.Inline]) -> str:
         return f"[{self.inlines(inlines)}]"
@@ -391,7 +431,7 @@ class _Blocks:
 
     def again(self, word: str, block: tree.Table | tree.Plate) -> str:
         """The label of what goes on from the page before."""
-        return literal(f"{word} {block.number} ({self.words.continued})")
+        return literal(f"{word} {block.number}{setting_of(self.language).aside(self.words.continued)}")
 
 
 def _doubt(width: float) -> float:
@@ -458,7 +498,7 @@ def compile_as(
         raise TypesetterError("typst is not installed: pip install typst") from error
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
-    needs_system, missing = sought(source, lacking)
+    folders, needs_system, missing = sought(source)
     if missing:
         warnings.warn(MissingLettersWarning(missing, standards), stacklevel=2)
         standards = ()
@@ -471,7 +511,13 @@ def compile_as(
         def made(kept: Standards) -> Any:
             asked: dict[str, Any] = {"pdf_standards": list(kept)} if kept else {}
             return typst.compile(
-                str(path), root=folder, ignore_system_fonts=own, format=format, ppi=dpi or None, **asked
+                str(path),
+                root=folder,
+                font_paths=[*folders],
+                ignore_system_fonts=own,
+                format=format,
+                ppi=dpi or None,
+                **asked,
             )
 
         try:

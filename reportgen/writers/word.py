@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import groupby, pairwise
 
 from reportgen import report as tree
+from reportgen.base.languages import setting_of
 from reportgen.drawing import Scene
 from reportgen.formula.setting import NARROW, written
 from reportgen.report import layout
@@ -46,9 +47,6 @@ from reportgen.writers.word_package import packed
 from reportgen.writers.word_sections import CONTENTS_LEVEL, COVER, broken, paged, places, sequence
 from reportgen.writers.word_styles import BULLETS, LIST_INDENT, merged, numbering, properties, settings, styles
 
-FONT = "Times New Roman"
-SIZES = {"vi": 13.0, "en": 12.0}
-"""The letter, unless another one is asked for; sizes in points."""
 Pictures = Callable[[Sequence[Scene]], Sequence[tuple[bytes, bytes]]]
 """Scenes as PNG and SVG."""
 
@@ -57,9 +55,10 @@ def write(
     document: tree.Document, pictures: Pictures, letter: layout.Letter | None = None, own: Own | None = None
 ) -> bytes:
     """The file of a document, byte for byte the same from run to run; what a school has of its `own` goes before."""
-    letter, own = letter or layout.Letter(FONT, SIZES[document.language]), own or Own()
+    usual_look = setting_of(document.language)
+    letter, own = letter or layout.Letter(usual_look.word.font, usual_look.word.size), own or Own()
     usual = styles(letter.font, letter.size, document.language, document.close, A4.room)
-    blocks = _Blocks(document, own.page)
+    blocks = _Blocks(document, own.page(usual_look.page))
     body, pages = blocks.sections()
     scenes = pictures(blocks.scenes)
     parts = {
@@ -133,6 +132,7 @@ class _Blocks:
     def __init__(self, document: tree.Document, page: PageSetup) -> None:
         self.page = page
         self.document, self.language, self.words = document, document.language, document.words
+        self.setting = setting_of(document.language)
         self.equations = Equations(document.language)
         self.formulas = self.equations.formulas
         self.scenes: list[Scene] = []
@@ -284,7 +284,7 @@ class _Blocks:
             stops = f'<w:tabs><w:tab w:val="left" w:pos="{twips(58)}"/>{right_tab(COVER.room - 10, "dot")}</w:tabs>'
             white = "" if index else low.format(twips(34), 160)
             hanging = f'<w:ind w:left="{twips(58)}" w:hanging="{twips(48)}"/>'
-            shown = run(f"{label}:") + TAB + (run(value, BOLD) if value else TAB)
+            shown = run(f"{label}{self.setting.colon.strip()}") + TAB + (run(value, BOLD) if value else TAB)
             lines.append(paragraph("CoverField", shown, stops + white + hanging))
         lines.append(paragraph("Institution", run(cover.place_and_date, ITALIC), low.format(twips(26), 80)))
         return "".join(lines)
@@ -353,14 +353,14 @@ class _Blocks:
         if not (block.number or block.caption):
             return ""
         number = self.counted(word, block.number, block.key, BOLD) if block.number else ""
-        stop = run(". " if block.caption else "", BOLD)
+        stop = run(f"{self.setting.stop} " if block.caption else "", BOLD)
         return run(f"{word} ", BOLD) + number + stop + self.inlines(block.caption)
 
     def again(self, block: tree.Figure | tree.Plate, where: str) -> str:
         """The caption of what goes on from the page before, or of a later part."""
         place = self.places.get(self._figure)
         number = field(f"REF {place.bookmark} {LINKED}", block.number, BOLD) if place else run(block.number, BOLD)
-        return run(f"{self.words.figure} ", BOLD) + number + run(f" ({where})", BOLD)
+        return run(f"{self.words.figure} ", BOLD) + number + run(self.setting.aside(where), BOLD)
 
     # --- tables -----------------------------------------------------------------------------------
 

@@ -8,9 +8,11 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from html import escape as escaped
 from typing import Any
+
+from reportgen.base.languages import PageMargins
 
 NAMESPACES = {
     "w": "http://schemas.openxmlformats.org/wordprocessingml/2006/main",
@@ -122,10 +124,9 @@ class Own:
     footer: str = ""
     margins: Mapping[str, Any] | None = None
 
-    @property
-    def page(self) -> PageSetup:
+    def page(self, usual: PageMargins) -> PageSetup:
         """The page of the text, which leaves it no less room than figures and tables are made for."""
-        page = replace(A4, **(self.margins or {}))
+        page = replace(A4, **asdict(usual) | dict(self.margins or {}))
         return page if page.room >= A4.room else replace(page, left=A4.left, right=A4.right)
 
 

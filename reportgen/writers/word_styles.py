@@ -5,11 +5,12 @@ A school's own styles go before ours, under the names that the report uses.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
+from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.writers.word_elements import DECLARED, MATH_FONT, NAMESPACES, PROLOGUE, escape, twips
@@ -17,7 +18,6 @@ from reportgen.writers.word_elements import DECLARED, MATH_FONT, NAMESPACES, PRO
 if TYPE_CHECKING:
     from jinja2 import Environment
 
-CODES: Mapping[Language, str] = {"vi": "vi-VN", "en": "en-GB"}
 EQUATION_SIZE, KNOWN_SIZE = 12.0, 9.5
 """Of displayed formulas, whose lines are measured in it, and of what is known of vectors below them (points)."""
 HEADINGS, BULLETS = 1, 2
@@ -56,7 +56,10 @@ def styles(font: str, size: float, language: Language, close: bool, room: float)
     """
     body, gap = (size - 1, 4.0) if close else (size, 5.0)
     sizes = {"equation": EQUATION_SIZE, "known": KNOWN_SIZE}
-    return _part("styles", font=font, size=body, gap=gap, code=CODES[language], room=room, headings=HEADINGS, **sizes)
+    own = setting_of(language)
+    far = own.word.east_asian or font
+    look = {"font": font, "east_asian": far, "size": body, "gap": gap, "code": own.code, "room": room}
+    return _part("styles", headings=HEADINGS, **look, **sizes)
 
 
 def numbering(starts: Sequence[tuple[int, int]]) -> str:
@@ -66,13 +69,13 @@ def numbering(starts: Sequence[tuple[int, int]]) -> str:
 
 def settings(language: Language) -> str:
     """The part of settings: what Word 2013 and later do, the font of formulas, the language's marks."""
-    decimal, separator = (",", ";") if language == "vi" else (".", ",")
-    return _part("settings", code=CODES[language], decimal=decimal, separator=separator)
+    own = setting_of(language)
+    return _part("settings", code=own.code, decimal=own.decimal, separator=own.separator)
 
 
 def properties(title: str, author: str, language: Language) -> str:
     """The part that says what the file is, without a date."""
-    return _part("core", title=title, author=author, code=CODES[language])
+    return _part("core", title=title, author=author, code=setting_of(language).code)
 
 
 # --- a school's own styles ---------------------------------------------------------------------------
@@ -112,7 +115,8 @@ def merged(ours: str, school: str, language: Language) -> str:
     else:
         for language_tag in letters.findall(f"{_W}lang"):
             letters.remove(language_tag)
-        ElementTree.SubElement(letters, f"{_W}lang", {f"{_W}val": CODES[language], f"{_W}eastAsia": CODES[language]})
+        tags = (f"{_W}val", f"{_W}eastAsia")
+        ElementTree.SubElement(letters, f"{_W}lang", dict.fromkeys(tags, setting_of(language).code))
     ElementTree.register_namespace("w", NAMESPACES["w"])
     return PROLOGUE + ElementTree.tostring(own, encoding="unicode")
 

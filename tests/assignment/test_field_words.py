@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 
@@ -12,9 +12,10 @@ from reportgen import catalogue
 from reportgen.assignment.schema import Schema, alternatives, choices_of, file_schema
 from reportgen.base.field_words import choice_words, field_words
 from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 
-LANGUAGES: tuple[Language, ...] = get_args(Language)
+LANGUAGES: tuple[Language, ...] = languages()
 PLAIN = re.compile(r"[A-Z]+[0-9]?|[0-9]+ pt|[0-9]+")
 """Choices that need no words: names of groups, sizes."""
 

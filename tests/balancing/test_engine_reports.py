@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from pathlib import Path
-from typing import get_args
 
 import pytest
 
@@ -14,6 +13,7 @@ from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_case import EngineCase
 from reportgen.balancing.engine_drawings import UP, star
 from reportgen.balancing.engine_sheet import COUPLES, ORDERS
+from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.catalogue import sample
@@ -35,7 +35,7 @@ from tests.marking.designs import named
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "engine-balance"
 NAMES = sorted(file.stem for file in FOLDER.glob("*.yaml"))
-LANGUAGES: tuple[Language, ...] = get_args(Language)
+LANGUAGES: tuple[Language, ...] = languages()
 CASES = [(name, language) for name in NAMES for language in LANGUAGES]
 TELLING = [("inline-four", "vi"), ("v-six", "en"), ("v-twin", "vi")]
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import get_args
 
 import numpy as np
 import pytest
 
 from reportgen.base.errors import AssignmentError
-from reportgen.base.units import Language
+from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
@@ -125,7 +124,7 @@ def test_the_wrong_sign_is_far_off() -> None:
 
 
 def test_mistakes_have_words_in_both_languages() -> None:
-    for language in get_args(Language):
+    for language in languages():
         case = open_case(FOLDER / "roller-01.yaml", language)
         misconceptions = case.misconceptions
         names = {

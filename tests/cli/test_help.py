@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 import typer
 
 from reportgen.base.pages import as_html, heading, pages
+from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.base.words import SPOKEN, helps
 from reportgen.cli import app
@@ -37,7 +38,7 @@ def shown(command: Any, language: Language, monkeypatch: pytest.MonkeyPatch) -> 
     return str(command.get_help(context))
 
 
-@pytest.mark.parametrize("language", [language for language in get_args(Language) if language != "en"])
+@pytest.mark.parametrize("language", [language for language in languages() if language != "en"])
 def test_each_text_has_its_own_in_every_other_language_and_no_other_is_kept(language: Language) -> None:
     plain = {" ".join(text.split()) for text in texts()} - {""}
     # Typer's own.
@@ -62,7 +63,7 @@ def test_each_help_names_a_page_that_there_is(monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_the_start_leads_from_the_kinds_to_the_report(monkeypatch: pytest.MonkeyPatch) -> None:
-    for language in get_args(Language):
+    for language in languages():
         monkeypatch.setenv(SPOKEN, language)
         named = re.findall(r"reportgen (\w+)", start())
         assert [name for name in named if name in COMMANDS][:4] == ["kinds", "new", "check", "build"]

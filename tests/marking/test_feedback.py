@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.errors import CellMark, Problem
-from reportgen.base.template_folders import search_path
+from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.drawing import Label
@@ -29,7 +29,7 @@ from tests.marking.keys import small_key
 from tests.marking.students import NAMES, OF_BALANCING, OF_FURTHER_KEYS, OF_TRUE_MOTION
 
 FILE = "/somewhere/of/the/instructor/work.xlsx"
-LANGUAGES: tuple[Language, ...] = get_args(Language)
+LANGUAGES: tuple[Language, ...] = languages()
 OF_PLANS = {f"{kind}-{how}" for kind in ("force", "part") for how in ("left-out", "reversed")} | {
     "load-forgotten",
     "load-reversed",

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from functools import cache
 from pathlib import Path
-from typing import get_args
 
 import pytest
 
-from reportgen.base.template_folders import search_path
+from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.cases import open_case
@@ -41,7 +40,7 @@ def key(name: str, language: Language) -> Key:
 
 @pytest.mark.parametrize("name", ALL)
 def test_every_row_says_what_it_is(name: str) -> None:
-    for language in get_args(Language):
+    for language in languages():
         for row in key(name, language).rows:
             assert row.what, row.id
             assert "{" not in row.what, row.id
@@ -50,7 +49,7 @@ def test_every_row_says_what_it_is(name: str) -> None:
 @pytest.mark.parametrize("name", ALL)
 def test_rows_of_one_section_are_told_apart_by_their_words(name: str) -> None:
     """But for the sides of two force plans that stand for one force, which their plan letters tell apart."""
-    for language in get_args(Language):
+    for language in languages():
         asked = [row for row in key(name, language).asked if not row.id.startswith("seg.")]
         twice = [what for what, count in Counter((row.part, row.what) for row in asked).items() if count > 1]
         assert twice == []
@@ -114,7 +113,7 @@ def test_every_phrase_is_that_of_a_quantity_or_a_family() -> None:
     own = (row for head in vocabulary.heads() for row in vocabulary.rows_of(head))
     names = {row.name for row in (*vocabulary.ROWS, *own)}
     ids = {row.id for name in FILES for row in key(name, "en").rows}
-    for language in get_args(Language):
+    for language in languages():
         keys = load_words(search_path(language))["quantities"]
         for phrase in (name for key in keys for name in key.split(", ")):
             # What is a torque elsewhere is a force where the driver slides.

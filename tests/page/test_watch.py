@@ -17,15 +17,14 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
 from reportgen.base import source, words
 from reportgen.base.errors import TemplateError
-from reportgen.base.template_folders import search_path
-from reportgen.base.units import Language
+from reportgen.base.template_folders import languages, search_path
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.page import serving
@@ -121,7 +120,7 @@ def test_a_faulty_file_has_a_page_that_comes_when_it_is_mended(file: Path, brows
         until(lambda: "given.yaml:2:" in browser.run("return document.getElementById('fault').textContent"))
         # There is no last good report that it could show.
         lead = browser.run("return document.querySelector('#fault strong').textContent")
-        assert lead in {words.load_words(search_path(language))["live"]["never"] for language in get_args(Language)}
+        assert lead in {words.load_words(search_path(language))["live"]["never"] for language in languages()}
         file.write_text(given, encoding="utf-8")
         until(lambda: browser.run("return document.getElementById('moving') !== null"))
         assert browser.run("return document.getElementById('fault').hidden")

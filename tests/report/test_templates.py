@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 from jinja2 import Environment, nodes
 
 from reportgen.base.kinds import SAMPLE
-from reportgen.base.template_folders import templates
-from reportgen.base.units import Language
+from reportgen.base.template_folders import languages, templates
 from reportgen.base.words import SECTION, sections
 
 ROOT = templates()
@@ -44,7 +43,7 @@ def test_a_condition_is_a_name(file: str) -> None:
     assert [each for each in conditions if isinstance(each, reckoning) or any(each.find_all(reckoning))] == []
 
 
-@pytest.mark.parametrize("language", get_args(Language))
+@pytest.mark.parametrize("language", languages())
 def test_every_section_is_asked_for(language: str) -> None:
     """By an outline or the code, which name it in a string, or by another section, whose key may end its name."""
     code = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT.parent / "reportgen").rglob("*.py"))

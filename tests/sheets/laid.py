@@ -7,10 +7,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from reportgen.base.languages import setting_of
 from reportgen.cases import open_case
 from reportgen.drawing.sheet import DrawingSheet, PlacedScene
 from reportgen.sheets import drawing_sheets
-from reportgen.sheets.frame import DEFAULT, TitleBlock, blocks, read_block
+from reportgen.sheets.frame import TitleBlock, blocks, read_block
 
 ROOT = Path(__file__).parents[2]
 MACHINES = sorted(path.stem for path in (ROOT / "assignments").glob("*.yaml"))
@@ -41,7 +42,7 @@ def laid(name: str, size: str, every: bool = False) -> Laid:
 
 @cache
 def block_of(name: str) -> TitleBlock:
-    return read_block(blocks()[DEFAULT[opened(name).assignment.language]])
+    return read_block(blocks()[setting_of(opened(name).assignment.language).block])
 
 
 def plates(sheet: DrawingSheet) -> list[PlacedScene]:

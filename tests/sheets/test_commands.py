@@ -6,8 +6,8 @@ import errno
 import io
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
-from typing import get_args
 
 import ezdxf
 import pytest
@@ -15,14 +15,14 @@ from typer.testing import CliRunner, Result
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError
-from reportgen.base.units import Language
+from reportgen.base.languages import languages, setting_of
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.drawing import Label
 from reportgen.drawing.geometry import frame
 from reportgen.sheets import drawing_sheets
 from reportgen.sheets.dxf import MText
-from reportgen.sheets.frame import DEFAULT, FIELDS, blocks, fields_of, frame_scene, read_block
+from reportgen.sheets.frame import FIELDS, blocks, fields_of, frame_scene, read_block
 from tests.classes.classes import here, write_class
 from tests.sheets.laid import ROOT
 
@@ -158,9 +158,16 @@ def test_a_block_has_the_size_of_its_standard(name: str, size: tuple[float, floa
     assert read_block(blocks()[name]).size == size
 
 
+def test_a_block_in_chinese_differs_from_the_one_in_english_in_its_words_alone() -> None:
+    english, chinese = read_block(blocks()["gb"]), read_block(blocks(language="zh")["gb"])
+    assert [replace(cell, text="") for cell in english.cells] == [replace(cell, text="") for cell in chinese.cells]
+    told = "".join(re.sub(r"{\w+}", "", cell.text) for cell in chinese.cells)
+    assert not re.search("[A-Za-z]", told)
+    assert {"设计", "审核", "阶段标记", "比例"} <= {cell.text for cell in chinese.cells}
+
+
 def test_each_language_has_a_block() -> None:
-    assert set(DEFAULT) == set(get_args(Language))
-    assert set(DEFAULT.values()) <= set(blocks())
+    assert {setting_of(language).block for language in languages()} <= set(blocks())
 
 
 LONG = """  university: Trường Đại học Kỹ thuật Công nghiệp Thái Nguyên

@@ -70,14 +70,14 @@ def test_a_run_ended_from_outside_tells_of_memory(monkeypatch: pytest.MonkeyPatc
 def test_a_run_that_has_read_ahead_gives_the_same_bytes() -> None:
     whole, letter = sample.sample(), Letter()
     source = latex.write(whole, letter)
-    with pdflatex.Ahead(latex.opening(letter, whole.close)) as ahead:
+    with pdflatex.Ahead(latex.opening(letter, whole.close, whole.language)) as ahead:
         assert ahead.begins(source)
         assert pdflatex.compile(source, ahead=ahead).pdf == pdflatex.compile(source).pdf
 
 
 @needs_tex
 def test_what_begins_otherwise_is_run_anew() -> None:
-    with pdflatex.Ahead(latex.opening(Letter(), close=True)) as ahead:
+    with pdflatex.Ahead(latex.opening(Letter(), True, "en")) as ahead:
         source = latex.write(document(Section(1, (Text("a"),))))
         assert not ahead.begins(source)
         assert pdflatex.compile(source, ahead=ahead).passes >= 1

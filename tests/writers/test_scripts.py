@@ -10,7 +10,7 @@ import pytest
 
 from reportgen.base.standards import STANDARDS, titled
 from reportgen.writers import typst
-from reportgen.writers.typst_fonts import MissingLettersWarning, lacking, sought, uncommon
+from reportgen.writers.typst_fonts import MissingLettersWarning, added, lacking, sought, uncommon
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
 RARE = "\U00012000\U00014400\U00017000\U0001b170\U0001d800\U00016800\U00011a00\U000118a0"
@@ -42,7 +42,13 @@ def test_letters_that_no_font_has_are_named() -> None:
 
 
 def test_a_text_in_the_usual_letters_is_set_with_the_fonts_it_brings() -> None:
-    assert sought(VIETNAMESE, lacking) == (False, "")
+    assert sought(VIETNAMESE) == ((), False, "")
+
+
+def test_the_fonts_of_the_extra_go_before_those_of_the_system() -> None:
+    if not added():
+        pytest.skip("the extra zh is not installed")
+    assert sought("王小明：机构运动简图") == (added(), False, "")
 
 
 def test_what_the_system_has_is_printed() -> None:

@@ -200,7 +200,7 @@ const panelOf = (root, panels) => {
     let text = number.toFixed(decimals);
     if (Number(text) === 0) text = text.replace("-", "");
     text = text.replace("-", "−");
-    return animation.language === "vi" ? text.replace(".", ",") : text;
+    return text.replace(".", animation.decimal);
   };
 
   // Another text in the same node: nothing is put in or taken out.

@@ -1,0 +1,240 @@
+"""What a language is beside its words: its numbers, its page, its fonts, as `language.yaml` of its folder says.
+
+A folder of templates with such a file is a language; no other place of the program names one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any, Literal
+
+from reportgen.base.errors import TemplateError
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, read_own, text_in
+from reportgen.base.template_folders import LANGUAGE_FILE, Language, languages, templates
+
+DecimalMark = Literal[".", ","]
+_LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")
+
+
+@dataclass(frozen=True, slots=True)
+class TypstSetting:
+    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters.
+
+    `strong` are those that do so in headings and wherever letters are bold, if they are others.
+    """
+
+    lang: str = ""
+    region: str = ""
+    hyphenate: bool = False
+    fonts: tuple[str, ...] = ()
+    strong: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class WordSetting:
+    """The letters of a Word file: size in points, font, and the one of letters of East Asia."""
+
+    size: float = 12.0
+    font: str = "Times New Roman"
+    east_asian: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DrawingSetting:
+    """The letters of DXF files: the style's name, which is a stroke font to LibreCAD, and the font to all others."""
+
+    style: str = "lc_opengost-ar"
+    font: str = "arial.ttf"
+
+
+@dataclass(frozen=True, slots=True)
+class PageMargins:
+    """What stays white around the text of a page (mm)."""
+
+    left: float = 30.0
+    right: float = 20.0
+    top: float = 22.0
+    bottom: float = 20.0
+
+    @property
+    def narrow(self) -> bool:
+        """Whether an A4 page leaves less room than figures and tables are made for."""
+        return self.left + self.right > 50 or self.top + self.bottom > 42 or min(self.left, self.right) < 5
+
+
+@dataclass(frozen=True, slots=True)
+class MobilityNotation:
+    """How the degree of freedom is written: 3n − (2t + c) + r − s, or `apart`, 3n − 2t − c, with r and s unless zero.
+
+    The letters stand for the freedom, moving links, lower and higher pairs, passive constraints, redundant freedoms.
+    """
+
+    letters: tuple[str, ...] = ("W", "n", "t", "c", "r", "s")
+    apart: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class LanguageSetting:
+    """All that `language.yaml` says; what it leaves out is as here.
+
+    `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
+    title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them;
+    `spaced` says whether it sets blanks between words; `draft` are the kinds of work whose words no native speaker has
+    read, or all of them.
+    """
+
+    name: str
+    code: str
+    decimal: DecimalMark
+    typst: TypstSetting = TypstSetting()
+    latex: tuple[str, ...] = ()
+    word: WordSetting = WordSetting()
+    drawing: DrawingSetting = DrawingSetting()
+    page: PageMargins = PageMargins()
+    block: str = "iso"
+    units: Mapping[str, str] = field(default_factory=dict)
+    mobility: MobilityNotation = MobilityNotation()
+    spaced: bool = True
+    draft: bool | tuple[str, ...] = False
+
+    @property
+    def separator(self) -> str:
+        """What stands between the arguments of a function and the items of a list of numbers."""
+        return ";" if self.decimal == "," else ","
+
+    @property
+    def colon(self) -> str:
+        """What stands between a label and what it labels."""
+        return ": " if self.spaced else "："
+
+    @property
+    def stop(self) -> str:
+        """What stands behind the number of a caption, before its words."""
+        return "." if self.spaced else ""
+
+    def aside(self, text: str) -> str:
+        """A remark in parentheses as it follows a word."""
+        return f" ({text})" if self.spaced else f"（{text}）"
+
+    def is_draft(self, kind: str = "") -> bool:
+        """Whether no native speaker has read the words, those of a kind of work if one is named."""
+        return kind in self.draft if isinstance(self.draft, tuple) else self.draft
+
+
+@cache
+def setting_of(language: Language) -> LanguageSetting:
+    """What the language's own file says.  Raises `TemplateError` with file and line."""
+    return read_setting(templates() / language / LANGUAGE_FILE)
+
+
+def decimal_mark(language: Language) -> DecimalMark:
+    """The mark before the decimals of a number."""
+    return setting_of(language).decimal
+
+
+class UnitNames(dict[str, str]):
+    """Units as a language prints them: whole ones by name, any other by the letters in it, m/s as м/с."""
+
+    def get(self, unit: str, default: object = None) -> str:
+        """The unit as it is printed; what has no other name stays as it is."""
+        return self[unit] if unit in self else _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
+
+
+@cache
+def unit_names(language: Language) -> UnitNames:
+    """The units as the language prints them."""
+    return UnitNames(setting_of(language).units)
+
+
+@lru_cache(maxsize=1024)
+def common_unit(text: str) -> str:
+    """A unit as typed in any language, with the letters that all of them read: м/с as m/s."""
+    if text.isascii():
+        return text
+    names = {shown: unit for language in languages() for unit, shown in setting_of(language).units.items()}
+    whole = names.get(text, text)
+    return _LETTERS.sub(lambda letters: names.get(letters[0], letters[0]), whole)
+
+
+def read_setting(file: Path) -> LanguageSetting:
+    """A file `language.yaml`.  Raises `TemplateError` with file and line for what does not belong there."""
+    text = text_in(file)
+    if not isinstance(text, str):
+        raise TemplateError(f"{file}: {text.wordless}")
+    source = read_own(text, str(file))
+    if source.faults:
+        raise TemplateError("\n".join(f"{fault.mark}: {fault.wordless}" for fault in source.faults))
+    setting: LanguageSetting = _table(LanguageSetting, source.top, str(file))
+    return setting
+
+
+_PARTS: Mapping[str, type[Any]] = {
+    "typst": TypstSetting,
+    "word": WordSetting,
+    "drawing": DrawingSetting,
+    "page": PageMargins,
+    "mobility": MobilityNotation,
+}
+
+
+def _table(form: type[Any], node: Node | None, place: str) -> Any:
+    if not isinstance(node, MappingNode):
+        raise TemplateError(f"{node.mark if node else place}: a table is wanted here")
+    known = {field.name: field for field in fields(form)}
+    values: dict[str, Any] = {}
+    for key, value in node.entries:
+        if key.text not in known:
+            raise TemplateError(f"{key.mark}: {key.text} is no key here; those are {', '.join(known)}")
+        part = _PARTS.get(key.text) if form is LanguageSetting else None
+        values[key.text] = _table(part, value, place) if part else _value(str(known[key.text].type), value)
+        if isinstance(values[key.text], PageMargins) and values[key.text].narrow:
+            raise TemplateError(f"{value.mark}: figures and tables need a page with 160 mm across and 255 mm down")
+    try:
+        return form(**values)
+    except TypeError:
+        missing = ", ".join(name for name in ("name", "code", "decimal") if name in known and name not in values)
+        raise TemplateError(f"{node.mark}: missing: {missing}") from None
+
+
+def _value(kind: str, node: Node) -> Any:
+    """A value of the type that a field has."""
+    if kind.endswith("tuple[str, ...]") and isinstance(node, SequenceNode):
+        if all(isinstance(item, Scalar) for item in node.items):
+            return tuple(item.text for item in node.items if isinstance(item, Scalar))
+    elif kind.startswith("Mapping") and isinstance(node, MappingNode):
+        if all(isinstance(value, Scalar) for _, value in node.entries):
+            return {key.text: value.text for key, value in node.entries if isinstance(value, Scalar)}
+    elif isinstance(node, Scalar):
+        match kind:
+            case "str":
+                return node.text
+            case "float":
+                try:
+                    return float(node.text)
+                except ValueError:
+                    pass
+            case "DecimalMark":
+                if node.text in (".", ","):
+                    return node.text
+            case "tuple[str, ...]":
+                if node.text == "none":
+                    return ()
+            case _:
+                if node.text in ("true", "false"):
+                    return node.text == "true"
+    wanted = {
+        "str": "a text",
+        "float": "a number",
+        "DecimalMark": "a point or a comma in quotation marks",
+        "bool": "true or false",
+        "tuple[str, ...]": "a list, or none",
+        "Mapping[str, str]": "a table of texts",
+    }
+    raise TemplateError(f"{node.mark}: {wanted.get(kind, 'true, false or a list')} is wanted here")
+
+
+__all__ = ["DecimalMark", "Language", "LanguageSetting", "decimal_mark", "languages", "read_setting", "setting_of"]
