@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -248,7 +249,7 @@ def _scale(label: Content, ends: tuple[float, float], length: float, mm: str, de
     named = label.parts[0] if isinstance(label, Chain) else None
     shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
     text = label.note if isinstance(label, Chain) else str(label)
-    unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
+    unit = "°" if degrees else re.split("[;；]", text)[0].replace("，", ", ").rpartition(", ")[2]
     above, stroke, below = unit.partition("/")
     below = below.strip("()")
     # A figure in the unit would read as one more of the number.
