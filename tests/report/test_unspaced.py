@@ -23,6 +23,11 @@ EQUATION = InlineMath(Chain((Symbol("v"), Number(2))))
         ((Text("电动机 ("), SIZE, Text(", "), SIZE, Text("); 见下")), "电动机（3.5 m/s，3.5 m/s）；见下"),
         ((Text("各点的速度 (2/3)"),), "各点的速度（2/3）"),
         ((Text("依次作 "), SIZE, Text(" ("), V, Text("), "), SIZE, Text(".")), "依次作 3.5 m/s（v_B），3.5 m/s。"),
+        (
+            (Text("由 tan "), B, Text(" = "), V, Text("/("), B, Text(" + "), V, Text(") 确定")),
+            "由tan B = v_B/(B + v_B)确定",
+        ),
+        ((Text("为 r (cos 2"), B, Text(" + …) , 见图")), "为r (cos 2B + …)，见图"),
         ((Text("平衡力矩: "), V), "平衡力矩：v_B"),
         ((Text("如图 "), Reference("fig", "1.2"), Text(" 所示;")), "如图1.2所示；"),
         ((Text("距离 "), V, Text(" = "), SIZE), "距离 v_B = 3.5 m/s"),
