@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Problem
-from reportgen.base.template_folders import languages, templates
+from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.languages import read_setting
+from reportgen.base.template_folders import LANGUAGE_FILE, languages, templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.report.translation import faults
-from reportgen.writers.typst_fonts import lacking
+from reportgen.writers.typst_fonts import added, lacking, there_is_one_of
 
 BATCH = 400
 """So many letters are asked for at a time."""
@@ -28,6 +29,11 @@ def compared(folder: Path, language: Language) -> list[Problem]:
 
     Raises `TemplateError` for what cannot be read.
     """
+    wanted = read_setting(file).typst.fonts if (file := folder / LANGUAGE_FILE).is_file() else ()
+    if wanted and not there_is_one_of(wanted):
+        # Without its fonts nearly every line would be told.
+        missing = Fault("no-letters", Mark(str(file)), {"text": folder.name, "known": ", ".join(wanted)})
+        return [_problem(fault, language) for fault in (missing, *faults(folder))]
     return [_problem(fault, language) for fault in faults(folder, _lacking)]
 
 
@@ -41,4 +47,4 @@ def _lacking(letters: str) -> str:
 
 def _in_batches(letters: str) -> Iterator[str]:
     for start in range(0, len(letters), BATCH):
-        yield lacking(letters[start : start + BATCH], True)
+        yield lacking(letters[start : start + BATCH], True, added())
