@@ -11,21 +11,23 @@ from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from reportgen import catalogue
+from reportgen.api.letters import Engine as Engine
+from reportgen.api.letters import letter_of as letter_of
+from reportgen.api.letters import letters_of
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
-from reportgen.assignment.reading import inputs, placed
+from reportgen.assignment.reading import inputs
 from reportgen.base import made
-from reportgen.base.errors import Finding, NotOfferedError, ReportgenError, TypesetterError
+from reportgen.base.errors import NotOfferedError, ReportgenError, TypesetterError
 from reportgen.base.files import put_files, reported, scratch, version
 from reportgen.base.languages import setting_of
-from reportgen.base.source import read_source
 from reportgen.base.steps import step
 from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
-from reportgen.base.words import as_error, templates_hash, word
+from reportgen.base.words import templates_hash, word
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.report.case import bounded
 
@@ -40,8 +42,7 @@ if TYPE_CHECKING:
     from reportgen.report.layout import Letter
     from reportgen.writers.pdflatex import Ahead
 
-Engine = Literal["typst", "latex"]
-SUFFIX = {"typst": ".typ", "latex": ".tex"}
+SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
 FORMATS = ("pdf", "html", "docx")
 """What a report can be written as."""
 
@@ -220,6 +221,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
     from reportgen.writers import word as writer
     from reportgen.writers.word_elements import Own
 
+    letters_of(assignment)
     given = assignment.report
     usual = setting_of(tree.language).word
     size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else usual.size
@@ -229,30 +231,6 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
         own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
     drawn = partial(pictures.for_word, language=tree.language)
     return writer.write(tree, drawn, Letter(given.font or usual.font, size), own)
-
-
-def letter_of(assignment: Assignment, engine: Engine) -> Letter:
-    """The letter of a file; raises `AssignmentError` where the engine does not have its font."""
-    from reportgen.report.layout import Letter
-
-    font = assignment.report.font or ""
-    if font and font not in (known := _fonts(engine)):
-        finding = Finding(
-            "no-such-font", ("report", "font"), {"text": font, "engine": engine, "known": ", ".join(known)}
-        )
-        raise as_error(placed(read_source(assignment.source), [finding]), assignment.language)
-    return Letter(font, float(assignment.report.size.removesuffix(" pt")))
-
-
-def _fonts(engine: Engine) -> list[str]:
-    """The fonts whose names an engine knows."""
-    if engine == "latex":
-        from reportgen.writers import latex
-
-        return list(latex.FAMILIES)
-    from reportgen.writers import typst_fonts
-
-    return typst_fonts.families()
 
 
 def typeset(
@@ -411,7 +389,7 @@ def blocks(assignment: Assignment) -> dict[str, Path]:
     """The title blocks that are known by a name: the program's, and those of the assignment's school."""
     from reportgen.sheets import frame
 
-    return frame.blocks(assignment.school or "")
+    return frame.blocks(assignment.school or "", assignment.language)
 
 
 MAKERS: Mapping[str, Maker] = {

@@ -128,7 +128,7 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
         throws += corners if corners[0].real > throws[-1].real - 1e-9 else []
         requests.append(label(complex(x, up), place, gap=1.0, prefer=(math.copysign(math.pi / 2, up),)))
     items.append(Polyline((*throws, end + BEYOND + 0j), SHAFT))
-    marks, numbers = ruler([*places.values()], per, -high - 8)
+    marks, numbers = ruler([*places.values()], per, -high - 8, case.ledger.printed_unit("mm"))
     return settle(Canvas((*items, *marks), (*requests, *numbers))), size.note(Symbol("μ", "l"), usual)
 
 

@@ -52,6 +52,7 @@ def animation(case: SolvedEngine) -> Animation:
     per = HIGH / reach / (2 if len(banks(case)) > 1 else 1)
     drawn = case.given.r.si * per
     return Animation(
+        units=case.ledger.units,
         knots=np.degrees(φ),
         turns=1,
         span=0.0,
@@ -119,7 +120,9 @@ def _charts(case: SolvedEngine, φ: Turn) -> Iterator[Chart]:
             name = Symbol("F", axis)
             across = Chain((Symbol("φ"),), str(case.words["orders"]["degrees"]))
             plots = tuple(PlottedCurve(symbol, np.degrees(φ), values) for symbol, values in curves)
-            shown = plotted(Diagram(plots, across, Chain((name,), KINDS["force"].unit)), half=True)
+            shown = plotted(
+                Diagram(plots, across, Chain((name,), case.ledger.printed_unit(KINDS["force"].unit))), half=True
+            )
             yield Chart(formula(name, language), shown, tuple(Curve(of, Track(values)) for of, values in curves))
 
 

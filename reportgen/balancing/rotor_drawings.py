@@ -118,16 +118,16 @@ def _along_axis(case: SolvedRotor, size: FigureSize) -> tuple[Canvas, Chain]:
         away = math.copysign(math.pi / 2, mass.at.imag)
         requests.append(label(at, mass.name, gap=DISC + 0.5, prefer=(away, 0.0, math.pi)))
     held = [*places.values(), *(mass.z.si for mass in case.given.masses)]
-    marks, numbers = ruler(held, per, -high - 5)
+    marks, numbers = ruler(held, per, -high - 5, case.ledger.printed_unit("mm"))
     return settle(Canvas((*items, *marks), (*requests, *numbers))), size.note(Symbol("μ", "l"), usual)
 
 
-def ruler(places: Collection[float], per: float, height: float) -> tuple[list[Item], list[Request]]:
+def ruler(places: Collection[float], per: float, height: float, mm: str) -> tuple[list[Item], list[Request]]:
     """The axis z below a shaft with the places (m) of what stands on it, the first of them at 0."""
     start, end = min(places), (max(places) - min(places)) * per
     base, tip = complex(-BEYOND, height), complex(end + BEYOND + 5, height)
     items: list[Item] = [Line(base, tip, style.DIMENSION)]
-    requests = [label(tip, Symbol("z"), ", mm", gap=0.8, prefer=(0.0,))]
+    requests = [label(tip, Symbol("z"), f", {mm}", gap=0.8, prefer=(0.0,))]
     for place in sorted(set(places)):
         at = complex((place - start) * per, height)
         items.append(Line(at - 1j, at + 1j, style.DIMENSION))

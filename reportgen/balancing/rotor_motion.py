@@ -60,6 +60,7 @@ def animation(case: SolvedRotor) -> Animation:
     far = max(abs(mass.at) for mass in placed_masses(case))
     drawn = ACROSS / 2
     return Animation(
+        units=case.ledger.units,
         knots=np.degrees(knots),
         turns=1,
         span=0.0,
@@ -160,7 +161,7 @@ def _charts(case: SolvedRotor, knots: NDArray[np.float64]) -> Iterator[Chart]:
         ]
         if curves:
             across = Chain((Symbol("φ"),), str(case.words["rotor"]["degrees"]))
-            up = Chain((Symbol("N", f"{bearing_name}y"),), KINDS["force"].unit)
+            up = Chain((Symbol("N", f"{bearing_name}y"),), case.ledger.printed_unit(KINDS["force"].unit))
             plots = tuple(PlottedCurve(symbol, degrees, values) for symbol, values in curves)
             shown = plotted(Diagram(plots, across, up), half=True)
             title = formula(Symbol("N", f"{bearing_name}y"), language)

@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import TemplateError
+from reportgen.base.languages import setting_of
 from reportgen.base.source import MappingNode, plain, read_own, read_words
-from reportgen.base.template_folders import kind_file, templates
+from reportgen.base.template_folders import MACHINES, languages, told_in
 from reportgen.base.units import Language
 from reportgen.base.words import sections
 
@@ -49,33 +50,34 @@ def field_words(kind: str, language: Language) -> Mapping[str, FieldWords]:
 
     A kind without the section has the common ones.  Raises `TemplateError` for a section that is no table.
     """
-    own, common = kind_file(language, kind), templates() / language / FILE
+    own, common = told_in(language, f"{MACHINES}/{kind}.md"), told_in(language, FILE)
     return _found(own, common, own.stat().st_mtime_ns, common.stat().st_mtime_ns)
 
 
 def shared_keys(language: Language) -> frozenset[str]:
     """The parameters that are called alike in every kind that has them."""
-    common = templates() / language / FILE
+    common = told_in(language, FILE)
     groups: Mapping[str, Any] = _common(common, common.stat().st_mtime_ns)[PARAMETERS]
     return frozenset(key for keys in groups.values() for key in keys)
 
 
 def choice_words(language: Language) -> Mapping[str, str]:
     """What the values are called among which a key may choose."""
-    common = templates() / language / FILE
+    common = told_in(language, FILE)
     table: Mapping[str, str] = _common(common, common.stat().st_mtime_ns)["choices"]
-    return table
+    # Each language by its own name, unless this one has another for it.
+    return {**{name: setting_of(name).name for name in languages()}, **table}
 
 
 def group_titles(language: Language) -> list[str]:
     """The titles of groups in the order in which a form has them."""
-    common = templates() / language / FILE
+    common = told_in(language, FILE)
     return list(_common(common, common.stat().st_mtime_ns)["groups"].values())
 
 
 def also(language: Language) -> str:
     """What stands between two ways to say the same."""
-    common = templates() / language / FILE
+    common = told_in(language, FILE)
     return str(_common(common, common.stat().st_mtime_ns)["or"])
 
 

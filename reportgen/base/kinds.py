@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.template_folders import DEFAULT_LANGUAGE, kind_file
+from reportgen.base.template_folders import MACHINES, REFERENCE, kind_file, told_in
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -23,12 +23,12 @@ def kinds() -> Mapping[str, str]:
     package = Path(__file__).parents[1]
     modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
     named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
-    return {kind: named[kind] for kind in sorted(named) if kind_file(DEFAULT_LANGUAGE, kind).is_file()}
+    return {kind: named[kind] for kind in sorted(named) if kind_file(REFERENCE, kind).is_file()}
 
 
 def title(name: str, language: Language) -> str:
     """The line of description of a kind, from its words."""
-    return str(load_words((kind_file(language, name),))["title"])
+    return str(load_words((told_in(language, f"{MACHINES}/{name}.md"),))["title"])
 
 
 def titles(language: Language) -> dict[str, str]:

@@ -22,12 +22,16 @@ _LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")
 
 @dataclass(frozen=True, slots=True)
 class TypstSetting:
-    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters."""
+    """How Typst sets the language: its code, perhaps a region, hyphens, and fonts that stand in for missing letters.
+
+    `strong` are those that do so in headings and wherever letters are bold, if they are others.
+    """
 
     lang: str = ""
     region: str = ""
     hyphenate: bool = False
     fonts: tuple[str, ...] = ()
+    strong: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +41,14 @@ class WordSetting:
     size: float = 12.0
     font: str = "Times New Roman"
     east_asian: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class DrawingSetting:
+    """The letters of DXF files: the style's name, which is a stroke font to LibreCAD, and the font to all others."""
+
+    style: str = "lc_opengost-ar"
+    font: str = "arial.ttf"
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +93,7 @@ class LanguageSetting:
     typst: TypstSetting = TypstSetting()
     latex: tuple[str, ...] = ()
     word: WordSetting = WordSetting()
+    drawing: DrawingSetting = DrawingSetting()
     page: PageMargins = PageMargins()
     block: str = "iso"
     units: Mapping[str, str] = field(default_factory=dict)
@@ -92,6 +105,20 @@ class LanguageSetting:
     def separator(self) -> str:
         """What stands between the arguments of a function and the items of a list of numbers."""
         return ";" if self.decimal == "," else ","
+
+    @property
+    def colon(self) -> str:
+        """What stands between a label and what it labels."""
+        return ": " if self.spaced else "："
+
+    @property
+    def stop(self) -> str:
+        """What stands behind the number of a caption, before its words."""
+        return "." if self.spaced else ""
+
+    def aside(self, text: str) -> str:
+        """A remark in parentheses as it follows a word."""
+        return f" ({text})" if self.spaced else f"（{text}）"
 
     def is_draft(self, kind: str = "") -> bool:
         """Whether no native speaker has read the words, those of a kind of work if one is named."""
@@ -148,6 +175,7 @@ def read_setting(file: Path) -> LanguageSetting:
 _PARTS: Mapping[str, type[Any]] = {
     "typst": TypstSetting,
     "word": WordSetting,
+    "drawing": DrawingSetting,
     "page": PageMargins,
     "mobility": MobilityNotation,
 }

@@ -16,7 +16,8 @@ from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
 
 _TIME = re.compile(r"(?<!\d)(\d{1,2})(?::(\d{2})(?::(\d{2})(?:\.\d+)?)?|h(\d{2})?(?![^\W\d_]))")
-_ISO = re.compile(r"(?<!\d)(\d{4})-(\d{1,2})-(\d{1,2})(?!\d)")
+_ISO = re.compile(r"(?<!\d)(\d{4})(?:-(\d{1,2})-(\d{1,2})(?!\d)| ?年 ?(\d{1,2}) ?月 ?(\d{1,2}) ?日)")
+"""A date that begins with the year, in Chinese with the words for year, month and day."""
 _FIGURES = re.compile(r"(?<!\d)(\d{1,2})[/.-](\d{1,2})[/.-](\d{4}|\d{2})(?!\d)")
 _DAY, _YEAR = re.compile(r"(?<!\d)(\d{1,2})(?!\d)"), re.compile(r"(?<!\d)(\d{4})(?!\d)")
 CENTURY = 2000
@@ -55,7 +56,7 @@ def _time(said: str) -> tuple[datetime.time | None, str]:
 def _day(said: str) -> datetime.date | None:
     """The date that a text names; raises `ValueError` for one that no calendar has."""
     if match := _ISO.search(said):
-        return datetime.date(int(match[1]), int(match[2]), int(match[3]))
+        return datetime.date(int(match[1]), int(match[2] or match[4]), int(match[3] or match[5]))
     if match := _FIGURES.search(said):
         year = int(match[3]) + (CENTURY if len(match[3]) == 2 else 0)
         return datetime.date(year, int(match[2]), int(match[1]))

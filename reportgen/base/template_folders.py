@@ -90,3 +90,9 @@ def search_path(
 def kind_file(language: Language, kind: str, root: Path | None = None) -> Path:
     """The file with all words of one kind of machine."""
     return (root or templates()) / language / MACHINES / f"{kind}.md"
+
+
+def told_in(language: Language, name: str) -> Path:
+    """A file of words of a language, a kind's, `catalogue/cam.md`, too; that of reference where it has none."""
+    own = templates() / language / name
+    return own if own.is_file() else templates() / REFERENCE / name

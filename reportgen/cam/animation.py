@@ -62,6 +62,7 @@ def animation(case: SolvedCam) -> Animation:
         panes=(pane,),
         charts=tuple(_charts(case, profile)),
         values=tuple(_values(case, profile)),
+        units=case.ledger.units,
         errors=_errors(case, knots, 1 / _scale(case)),
         layers=("paths",) if case.solution.cam.roller else (),
     )

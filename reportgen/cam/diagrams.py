@@ -170,7 +170,9 @@ def _notes(case: SolvedCam, scales: LawScales, size: FigureSize) -> Iterator[Con
     if size.beside:
         for number, pole in enumerate(scales.poles, start=1):
             K = cam_ids.diagram(number)
-            yield size.told(case.printed.symbol(K), Number(pole, 2, "mm"), case.printed.number(K))
+            yield size.told(
+                case.printed.symbol(K), Number(pole, 2, case.printed.printed_unit("mm")), case.printed.number(K)
+            )
 
 
 def _shown(case: SolvedCam, id: str, per_mm: float) -> Number:
@@ -275,7 +277,12 @@ def curvature_chart(case: SolvedCam, half: bool = False) -> Plotted:
         series.append(PlottedCurve(case.ledger.symbol("cam.rho.working"), np.degrees(profile.φ), inner * MM))
     limit = case.ledger["cam.limit.rho"].values[0] * MM
     levels = [(float(limit), case.ledger.symbol("cam.limit.rho"))]
-    return plotted(Diagram(tuple(series), angle_axis(case), axis(Symbol("ρ"), "mm"), levels=tuple(levels)), half=half)
+    return plotted(
+        Diagram(
+            tuple(series), angle_axis(case), axis(Symbol("ρ"), case.ledger.printed_unit("mm")), levels=tuple(levels)
+        ),
+        half=half,
+    )
 
 
 def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
@@ -283,4 +290,4 @@ def motion_charts(case: SolvedCam) -> Iterator[tuple[Symbol, str, Floats]]:
     profile = case.solution.cam.sampled()
     for id, values in zip(case.solution.moved, (profile.s, profile.ds, profile.dds), strict=True):
         how = KINDS[case.ledger[id].kind]
-        yield case.ledger.symbol(id), how.unit, values / how.scale
+        yield case.ledger.symbol(id), case.ledger.printed_unit(how.unit), values / how.scale

@@ -37,7 +37,9 @@ def plates(case: SolvedCam) -> Iterator[DrawingPlate]:
     design = case.solution.designed
 
     def pressure(case: SolvedCam, size: FigureSize) -> Scene:
-        return pressure_chart(case, area=Area(*AREAS[size.steps], size.enlarged)).scene
+        return pressure_chart(
+            case, area=Area(*AREAS[size.steps], size.enlarged, mm=case.ledger.printed_unit("mm"))
+        ).scene
 
     drawn: list[tuple[str, str, Callable[[SolvedCam, FigureSize], Scene], int]] = [
         ("law", "curves", law_diagrams, len(DEGREES_PER_MM) - 1),

@@ -147,7 +147,7 @@ class CamPage(DesignPage[SolvedCam]):
             "lines": self.lines,
             "math": self.math,
             "angle": lambda angle: Value(Number(math.degrees(angle), ANGLE, "°")),
-            "length": lambda size: Value(Number(size * MM, 3, "mm")),
+            "length": lambda size: Value(Number(size * MM, 3, self.case.ledger.printed_unit("mm"))),
             "figure": self.figure,
         }
 
@@ -315,18 +315,18 @@ class CamPage(DesignPage[SolvedCam]):
 
     def _required(self) -> Iterator[RequirementView]:
         found, seen = self.case.solution.designed, self.judged
-        cam, limits = found.cam, found.limits
+        cam, limits, mm = found.cam, found.limits, self.case.ledger.printed_unit("mm")
         for phase, limit, extreme in (("rise", limits.rise, seen.rise), ("return", limits.back, seen.back)):
             if limit is not None and not cam.flat:
                 size = Number(math.degrees(extreme[1]), ANGLE, "°")
                 most = Number(float(f"{math.degrees(limit):.6g}"), None, "°")
                 yield RequirementView(phase, "≤ ", most, size, extreme[1] <= limit + ALLOWED)
-        least, left = Number(float(f"{limits.rho * MM:.6g}"), None, "mm"), seen.least_working[1]
-        yield RequirementView("rho", "≥ ", least, Number(left * MM, 3, "mm"), left >= limits.rho - DUST)
+        least, left = Number(float(f"{limits.rho * MM:.6g}"), None, mm), seen.least_working[1]
+        yield RequirementView("rho", "≥ ", least, Number(left * MM, 3, mm), left >= limits.rho - DUST)
         if cam.roller:
             for key, radius in (("roller_rho", 0.8 * seen.least_rho[1]), ("roller_r0", 0.4 * cam.r0)):
-                size = Number(float(f"{cam.roller * MM:.6g}"), None, "mm")
-                yield RequirementView(key, "≤ ", Number(radius * MM, 3, "mm"), size, cam.roller <= radius + DUST)
+                size = Number(float(f"{cam.roller * MM:.6g}"), None, mm)
+                yield RequirementView(key, "≤ ", Number(radius * MM, 3, mm), size, cam.roller <= radius + DUST)
 
     @property
     def checks(self) -> Table:

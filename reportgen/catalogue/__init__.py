@@ -31,9 +31,11 @@ from reportgen.base.errors import AssignmentError, Fault, Finding, Level, Proble
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.source import MappingNode, Scalar, Source, read_source
+from reportgen.base.source_text import at as node_at
 from reportgen.base.source_text import put, text_of
-from reportgen.base.template_folders import kind_file, samples
+from reportgen.base.template_folders import MACHINES, samples, told_in
 from reportgen.base.units import Language, QuantityFault, measures, read_quantity, read_unit
+from reportgen.base.whole import is_whole, offered
 from reportgen.base.words import as_error, as_problem, language_of, sections, spoken, word
 from reportgen.catalogue import (
     assembly,
@@ -143,7 +145,19 @@ def _in_order(source: Source, path: Path, language: Language | None) -> Assignme
     faults = [*reading.name_faults(path), *faults]
     if assignment is None or faults:
         raise as_error(faults, language or language_of(source))
+    spoken = language or assignment.language
+    if (partial := next((kind for kind in _kinds_of(assignment) if not is_whole(spoken, kind)), None)) is not None:
+        words = {"kind": partial, "language": spoken, "known": ", ".join(offered(spoken)) or "–"}
+        # It is the file's own language or the kind that another one may be taken for.
+        where = ("report", "language") if not language and node_at(source.top, ("report", "language")) else ("kind",)
+        raise as_error(reading.placed(source, [Finding("language-partial", where, words)]), spoken)
     return assignment.with_language(language) if language else assignment
+
+
+def _kinds_of(assignment: Assignment) -> Iterator[str]:
+    yield assignment.kind
+    for part in assignment.parts:
+        yield part.within(assignment).kind
 
 
 def check(path: Path | str, language: Language | None = None) -> list[Problem]:
@@ -217,7 +231,7 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 def sample(name: str, language: Language) -> str:
     """The commented assignment file to fill in of a kind; raises `KeyError`, `TemplateError` where it has none."""
     known = kind(name)
-    file = kind_file(language, name)
+    file = told_in(language, f"{MACHINES}/{name}.md")
     if (section := sections(file).get(SAMPLE)) is None:
         raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
     words = field_words(name, language)

@@ -23,6 +23,7 @@ from pydantic_core import PydanticCustomError
 from reportgen import catalogue
 from reportgen.assignment import parts
 from reportgen.assignment.fields import RESERVED, TypedText
+from reportgen.base import chinese
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.files import contents
 from reportgen.base.kinds import kinds
@@ -35,7 +36,7 @@ from reportgen.workbook import Page, SheetCell, read
 
 FIRST_ROWS = 20
 """How far down the headings are looked for, below a title."""
-_WITH_UNIT = re.compile(rf"(.*?)\s*[(\[]\s*({UNIT})\s*[)\]]")
+_WITH_UNIT = re.compile(rf"(.*?)\s*[(\[（]\s*({UNIT})\s*[)\]）]")
 _NUMBER = re.compile(NUMBER)
 
 
@@ -75,7 +76,7 @@ def _known_columns() -> Mapping[str, str]:
 
 def folded(text: str) -> str:
     """A heading without what does not tell two headings apart: case, blanks, composition, marks at its end."""
-    return " ".join(unicodedata.normalize("NFC", text).casefold().split()).rstrip(" .:*")
+    return chinese.joined(" ".join(unicodedata.normalize("NFC", text).casefold().split())).rstrip(" .:*：")
 
 
 def columns(row: Sequence[SheetCell]) -> list[RosterColumn]:
@@ -214,7 +215,10 @@ def _in_spoken_order(row: Record) -> Record:
     if name is None or name.text.count(", ") != 1:
         return row
     last, _, first = name.text.partition(", ")
-    return replace(row, values={**row.values, "name": Scalar(f"{first} {last}", name.mark)})
+    spoken = chinese.full_name(first, last)
+    # A Chinese name begins with that of the family.
+    spoken = spoken if " " in spoken else f"{last}{first}"
+    return replace(row, values={**row.values, "name": Scalar(spoken, name.mark)})
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
@@ -279,7 +283,8 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
 
 def _student(row: Record) -> RosterEntry:
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
-    texts = {"name": " ".join(parts), **{name: value.text for name, value in row.values.items()}}
+    texts = {"name": chinese.full_name(*parts), **{name: value.text for name, value in row.values.items()}}
+    texts["name"] = chinese.joined(texts["name"])
     overrides = {name: value for name, value in row.values.items() if _PATH.fullmatch(name)}
     card = {name: texts[name] for name in PERSONAL if texts.get(name)}
     return RosterEntry(card, overrides, row.mark, row.values.get(HANDED_IN))

@@ -91,7 +91,7 @@ def _app() -> typer.Typer:
     """The commands in the order of the help."""
     import typer
 
-    from reportgen.cli import instructor, reading, student, takeaway
+    from reportgen.cli import instructor, reading, student, takeaway, translator
     from reportgen.cli.common import begin
     from reportgen.cli.helping import Command, Commands
 
@@ -124,6 +124,7 @@ def _app() -> typer.Typer:
         instructor.batch,
         instructor.key,
         instructor.grade,
+        translator.words,
         reading.docs,
     ):
         made.command(cls=Command)(command)

@@ -22,6 +22,7 @@ PAGES = {
     "solve": "results",
     "check": "assignment",
     "schema": "assignment",
+    "words": "language",
     "new": "machines",
     "kinds": "machines",
     "compare": "class",

@@ -333,13 +333,17 @@ def samples(
 
 def kinds(lang: LangOption = None) -> None:
     """List the machines that are known, a line each."""
-    from reportgen.base.kinds import titles
+    from reportgen.base.kinds import title
+    from reportgen.base.languages import setting_of
+    from reportgen.base.whole import offered
     from reportgen.base.words import spoken
 
-    known = titles(lang or spoken())
-    width = max(map(len, known))
-    for kind, title in known.items():
-        print(f"{kind:{width}}  {title}")
+    language = lang or spoken()
+    known = {kind: title(kind, language) for kind in offered(language)}
+    width = max(map(len, known), default=0)
+    for kind, called in known.items():
+        draft = setting_of(language).is_draft(kind)
+        print(f"{kind:{width}}  {say('draft', lang, title=called) if draft else called}")
 
 
 def schema(lang: LangOption = None) -> None:

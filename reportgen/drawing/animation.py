@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 
@@ -43,6 +44,8 @@ LEAST, FINER = 1 / 4, 3.0
 """A plan that fills a smaller share of its panel is drawn so many times as large, as long as it does."""
 BAR = 0.3
 """A scale bar takes at least this share of its room."""
+NO_UNITS: Mapping[str, str] = MappingProxyType({})
+"""Units that are written as they are."""
 TOGETHER = 1e-6
 """Values that differ by no more of their greatest are one that stands still."""
 
@@ -125,11 +128,11 @@ class BarScale:
     kind: str
     layers: tuple[str, ...] = ()
 
-    def bar(self, room: float) -> tuple[Number, float]:
+    def bar(self, room: float, units: Mapping[str, str] = NO_UNITS) -> tuple[Number, float]:
         """The round value of a bar that has so much room (mm), and the bar's length (mm)."""
         how = KINDS[self.kind]
         value = nice_up(BAR * room * self.per / how.scale, (1.0, 2.0, 5.0))
-        return Number(value, None, how.unit), value * how.scale / self.per
+        return Number(value, None, units.get(how.unit, how.unit)), value * how.scale / self.per
 
 
 @dataclass(frozen=True, slots=True)
@@ -161,7 +164,7 @@ TICK = 0.8
 """Half the strokes at the ends of a scale bar (mm)."""
 
 
-def scale_bars(pane: Pane) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
+def scale_bars(pane: Pane, units: Mapping[str, str]) -> tuple[complex, list[tuple[BarScale, tuple[Item, ...]]]]:
     """The lower left corner (mm) of a pane with its bars, and a bar for each scale, its value above it.
 
     Bars of scales that are in use in turns are all in one place.
@@ -171,7 +174,7 @@ def scale_bars(pane: Pane) -> tuple[complex, list[tuple[BarScale, tuple[Item, ..
     bars: list[tuple[BarScale, tuple[Item, ...]]] = []
     for number, scale in enumerate(pane.scales):
         strip, column = divmod(0 if pane.finer else number, BARS)
-        value, length = scale.bar(room)
+        value, length = scale.bar(room, units)
         start = pane.low + (column * room + enlargement) - 1j * ((strip + 1) * STRIP - UP) * enlargement
         end = start + length
         strokes = ((start, end), (start - tick, start + tick), (end - tick, end + tick))
@@ -265,6 +268,8 @@ class Animation:
     title: str = ""
     runs: tuple[TimedRun, ...] = ()
     """Motions that are played as the time goes, the steady one first; none without a drive."""
+    units: Mapping[str, str] = field(default_factory=dict)
+    """Units as the language writes them; one that is not here is written as it is."""
     instants: tuple[float, ...] = ()
     """Of single instants, which stand at even knots, where the driver is at each (degrees, or mm of a slide)."""
 

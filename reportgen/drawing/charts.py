@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -82,13 +83,14 @@ class Area:
     """The room inside the axes that a chart may fill (mm), at round scales which it then prints.
 
     Room and scales are those of the chart once it is `enlarged` so many times.  `scales` across and upwards, in the
-    units of the axes per mm, are kept whatever room they take.
+    units of the axes per mm, are kept whatever room they take.  `mm` is how the language writes a millimetre.
     """
 
     width: float = SHEET_WIDTH
     height: float = SHEET_HEIGHT
     enlarged: float = 1.0
     scales: tuple[float, float] | None = None
+    mm: str = "mm"
 
     def per_mm(self, length: float, room: float) -> float:
         """The round scale, of the enlarged chart, at which a length in the unit of its axis fits a room (mm)."""
@@ -167,7 +169,7 @@ def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, are
     notes: Sequence[Content] = ()
     if area is not None:
         across, up = window.width * area.enlarged, window.height * area.enlarged
-        notes = _scale(diagram.x, window.x, across, turn), _scale(diagram.y, window.y, up)
+        notes = _scale(diagram.x, window.x, across, area.mm, turn), _scale(diagram.y, window.y, up, area.mm)
     scene = replace(finish(Canvas(tuple(items), tuple(requests)), notes=notes, margin=CHART_MARGIN), diagram=diagram)
     # The frame is the first closed line; finishing moves all items alike.
     frame = next(item for item in scene.items if isinstance(item, Polyline) and item.closed)
@@ -201,7 +203,7 @@ def polar(diagram: Diagram, *, size: float = POLAR_SIZE, area: Area | None = Non
             requests.append(label(_places(vertices), curve.label))
     items.append(Circle(window.at(0, 0), MARK, EDGE, style.PAPER))
     items += _titles(window, diagram.x, diagram.y, items, area is not None)
-    notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged),)
+    notes = () if area is None else (_scale(diagram.x, window.x, window.width * area.enlarged, area.mm),)
     scene = finish(Canvas(tuple(items), tuple(requests)), notes=notes, title=diagram.title, margin=2.0)
     return replace(scene, diagram=diagram)
 
@@ -242,16 +244,16 @@ def _window(
     return _Window((x0, x1), (y_ticks[0], y_ticks[-1]), width, height), x_ticks, y_ticks
 
 
-def _scale(label: Content, ends: tuple[float, float], length: float, degrees: bool = False) -> Content:
+def _scale(label: Content, ends: tuple[float, float], length: float, mm: str, degrees: bool = False) -> Content:
     """The scale of an axis: μ_M = 2 N·m/mm, for the name of the axis "M (N·m; positive: …)"."""
     named = label.parts[0] if isinstance(label, Chain) else None
     shown = Symbol("μ", named.base) if isinstance(named, Symbol) else Symbol("μ")
     text = label.note if isinstance(label, Chain) else str(label)
-    unit = "°" if degrees else text.partition(";")[0].rpartition(", ")[2]
+    unit = "°" if degrees else re.split("[;；]", text)[0].replace("，", ", ").rpartition(", ")[2]
     above, stroke, below = unit.partition("/")
     below = below.strip("()")
     # A figure in the unit would read as one more of the number.
-    per_mm = f"{above}/({below}·mm)" if stroke else f"{above}/mm" if above else "mm⁻¹"
+    per_mm = f"{above}/({below}·{mm})" if stroke else f"{above}/{mm}" if above else f"{mm}⁻¹"
     return Chain((shown, Number(float(f"{(ends[1] - ends[0]) / length:.9g}"), unit=per_mm)))
 
 

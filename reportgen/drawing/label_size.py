@@ -7,6 +7,7 @@ depth below it.  Scripts are set at 0.7 of the size, as both typesetters do.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache, reduce
@@ -29,7 +30,9 @@ RELATION = 0.56
 """Width of the space on both sides of a relation or a sign, in font sizes (thick spaces)."""
 GAPS: Mapping[setting.Role, float] = {"product": RELATION, "separator": 0.5}
 """Width of a sign with its space, in font sizes, where it is not as wide as a plus."""
-SQUARE = (1000, 860, 140)
+BESIDE, BESIDE_HAN = 250, re.compile("(?<=[\u4e00-\u9fff])(?=[0-9A-Za-z])|(?<=[0-9A-Za-z])(?=[\u4e00-\u9fff])")
+"""Between letters of Chinese and of another script, in thousandths of the font size, and where that is."""
+SQUARE = (1000, 860, 200)
 """Of a letter of East Asia, each of which fills a square, and of its punctuation."""
 THIN = 0.17
 """Between a function and what it is applied to, in font sizes."""
@@ -66,7 +69,8 @@ def _text(text: str, em: float, italic: bool = False) -> Box:
         return NOTHING
     k = em / 1000
     advances, heights, depths = zip(*glyphs, strict=True)
-    return Box(k * sum(advances), k * max(heights), k * max(depths))
+    gaps = 0 if text.isascii() else len(BESIDE_HAN.findall(text))
+    return Box(k * (sum(advances) + BESIDE * gaps), k * max(heights), k * max(depths))
 
 
 def _unknown(letter: str) -> tuple[int, int, int]:

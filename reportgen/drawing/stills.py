@@ -72,7 +72,7 @@ def sample_at(animation: Animation, degrees: float) -> int:
 
 def stills(animation: Animation, pane: Pane, samples: Sequence[int], layers: Collection[str] = ()) -> Iterator[Scene]:
     """A pane at samples, with the layers that are shown; letters, heads and pens of arrows as large as on a page."""
-    low, bars = scale_bars(pane)
+    low, bars = scale_bars(pane, animation.units)
     size, foot = pane.high - low, complex(pane.high.real, pane.low.imag)
     shown = [item for item in pane.items if not item.layer or item.layer in layers]
     # Where each label was, by the place of its item.

@@ -303,7 +303,10 @@ class SolutionPage(Solution):
         if coordinates is not None:
             x, y = map(lettered, coordinates)
             return (InlineMath(x, slashed=True),), (InlineMath(y, slashed=True),)
-        at, unit = self.case.exercise.motion.system.points[name], "" if literal is None else "mm"
+        at, unit = (
+            self.case.exercise.motion.system.points[name],
+            "" if literal is None else self.case.unit_names.get("mm"),
+        )
         across, up = (replace(self._coordinate(part), unit=unit) for part in (at.real, at.imag))
         return (Value(across),), (Value(up),)
 

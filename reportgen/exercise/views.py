@@ -291,7 +291,10 @@ class Solution:
     def _coordinates(self, body: int) -> Inlines:
         """Where the instant centre of a body is: x and y, in numbers as in the table of points."""
         centre = self.worked.layout.centres[body]
-        numbers = [Number(self._coordinate(part).value, None, "mm") for part in (centre.at.real, centre.at.imag)]
+        numbers = [
+            Number(self._coordinate(part).value, None, self.case.unit_names.get("mm"))
+            for part in (centre.at.real, centre.at.imag)
+        ]
         literal = self.case.literal
         coordinates = None if literal is None else literal.place(centre.name)
         formulas = None if coordinates is None else [*map(lettered, coordinates)]

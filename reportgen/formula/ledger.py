@@ -127,6 +127,10 @@ class Ledger:
         """Those of the ids that are entered, each once."""
         return [id for id in dict.fromkeys(ids) if id in self.families]
 
+    def printed_unit(self, unit: str) -> str:
+        """A unit as the language of this ledger writes it."""
+        return self.units.get(unit, unit)
+
     def quantity(self, id: str, position: int | None = None) -> PrintedQuantity:
         """One number as printed.  Raises `KeyError` for an unknown id."""
         family = self.families[id]
@@ -137,7 +141,7 @@ class Ledger:
             id=id,
             position=None if len(family.values) == 1 else position,
             symbol=family.symbol,
-            unit=self.units.get(how.unit, how.unit),
+            unit=self.printed_unit(how.unit),
             value=value if decimals is not None else float(f"{value:.12g}"),
             decimals=decimals,
             definition=family.definition,

@@ -125,6 +125,7 @@ def _animation(case: PairCase) -> Animation:
         panes.append(Pane("mesh", str(case.words["pair"]["near"]), tuple(close), low=-half, high=half, scales=(scale,)))
     ratio = pair.teeth[0] / pair.teeth[1]
     return Animation(
+        units=case.ledger.units,
         knots=np.degrees(φ),
         turns=1,
         span=0.0,
@@ -188,7 +189,7 @@ def _plates(case: PairCase) -> Iterator[DrawingPlate]:
     captions, page = case.words["pair"]["captions"], views.PairPage(case)
 
     def of_area(draw: Callable[[PairCase, Area], Scene]) -> Draw:
-        return lambda case, size: draw(case, Area(*AREAS[size.steps], size.enlarged))
+        return lambda case, size: draw(case, Area(*AREAS[size.steps], size.enlarged, mm=case.ledger.printed_unit("mm")))
 
     def plate(name: str, layer: str, draw: Draw, steps: int) -> DrawingPlate:
         return DrawingPlate(str(captions[f"figure-{name}"]), (), layer, (lettered(draw(case, on_sheet(case, steps))),))

@@ -384,5 +384,5 @@ def sliding(case: SolvedPair, area: Area | None = None) -> Plotted:
         shown = np.where(λ >= -least, λ, np.nan)
         marks = tuple(int(np.abs(ρ1 - at).argmin()) for at in (start, end))
         curves.append(PlottedCurve(case.ledger.symbol(gears_ids.of_wheel("lambda", wheel)), ρ1 * MM, shown, marks))
-    across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), "mm")
+    across = Chain((case.ledger.symbol(gears_ids.of_wheel("rho", 1)),), case.ledger.printed_unit("mm"))
     return plotted(Diagram(tuple(curves), across, Chain((Symbol("λ"),), ""), turn=False), area=area)

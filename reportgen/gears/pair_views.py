@@ -156,7 +156,7 @@ class PairPage(DesignPage[SolvedPair]):
             row("tip", wheel, "≥ ", ledger.number("gears.limit.tip"), gears_ids.of_wheel("tip", wheel))
         for wheel in WHEELS:
             begun = ledger.number(gears_ids.of_wheel("rho_f", wheel))
-            limit = begun if begun.value > 0 else Number(0.0, 0, "mm")
+            limit = begun if begun.value > 0 else Number(0.0, 0, ledger.printed_unit("mm"))
             row("interference", wheel, "≥ ", limit, gears_ids.of_wheel("rho_p", wheel))
         row("epsilon", 0, "≥ ", ledger.number("gears.limit.epsilon"), "gears.epsilon")
         if chosen.limits.sliding is not None:

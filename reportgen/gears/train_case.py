@@ -160,7 +160,8 @@ class TrainPage(DesignPage[SolvedTrain]):
             rows.append((str(n + 1), *(z[:2] + z[3:] if self.case.scheme.single else z), *numbers, mark))
         wheels = (Symbol("z", wheel) for wheel in self.wheels)
         u1H = Symbol("u", "H1" if given.by_carrier else "1H")
-        head = (words["number"], *wheels, u1H, (Symbol("Δu"), ", %"), (Symbol("D"), ", mm"), words["unshifted"])
+        diameter = Symbol("D"), f", {self.case.ledger.printed_unit('mm')}"
+        head = (words["number"], *wheels, u1H, (Symbol("Δu"), ", %"), diameter, words["unshifted"])
         return self._table("candidates", head, rows, (10, *(14,) * len(self.wheels), 22, 18, 22, 32))
 
     @property

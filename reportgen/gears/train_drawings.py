@@ -262,6 +262,7 @@ def animation(case: SolvedTrain) -> Animation:
     knots = np.linspace(0, math.tau, SAMPLES + 1)
     a = radii(case)["H"] * _at(case)
     return Animation(
+        units=case.ledger.units,
         knots=np.degrees(knots),
         turns=1,
         span=0.0,

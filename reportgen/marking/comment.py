@@ -10,7 +10,7 @@ from reportgen.marking.feedback import amended, lateness, mistake_inlines, point
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Marked, Marking, points_of
 from reportgen.marking.policy import Policy
-from reportgen.report import plain
+from reportgen.report import Text, plain
 from reportgen.report.key import Key
 
 FIRSTS = 5
@@ -19,6 +19,10 @@ FIRSTS = 5
 
 def comment(marking: Marking, policy: Policy) -> Iterator[str]:
     """The lines: mark, lateness, first mistakes by name, points by chapter, the instructor's word; no answers."""
+    return (plain((Text(line),), marking.key.language) for line in _lines(marking, policy))
+
+
+def _lines(marking: Marking, policy: Policy) -> Iterator[str]:
     key, words = marking.key, words_of(marking.key)
     said, language = words["comment"], key.language
     yield said["score"].format(

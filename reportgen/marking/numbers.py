@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable
 
 from reportgen.base import units
+from reportgen.base.chinese import narrow
 from reportgen.base.languages import DecimalMark as DecimalMark
 from reportgen.base.languages import decimal_mark as language_mark
 from reportgen.base.units import Dimension, Language, QuantityFault
@@ -28,7 +29,7 @@ _NUMBER = re.compile(
 
 def is_blank(text: str) -> bool:
     """Whether a cell's text says that there is no answer."""
-    return text.strip() in BLANKS
+    return narrow(text).strip() in BLANKS
 
 
 def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
@@ -69,7 +70,7 @@ def _matched(text: str) -> re.Match[str] | None:
 
 def _tidy(text: str) -> str:
     """One kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
-    result = _SPACES.sub(" ", text).strip().lstrip("≈~= ")
+    result = _SPACES.sub(" ", narrow(text)).strip().lstrip("≈~= ")
     result = re.sub(r"^[−–—]", "-", result)
     result = _RAISED_POWER.sub(lambda match: f"10^{match[1].translate(_RAISED)}", result)
     result = re.sub(r"\^\s*\(?\s*−", "^-", result)

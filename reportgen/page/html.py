@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from reportgen import report as tree
 from reportgen.base.errors import TypesetterError
+from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import templates
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, VectorEquation
@@ -218,6 +219,7 @@ class Blocks:
 
     def __init__(self, document: tree.Document, pens: Pens) -> None:
         self.language, self.words = document.language, document.words
+        self.setting = setting_of(document.language)
         self.formulas = MathmlFormulas(document.language)
         self.painter = Painter(document.language, pens)
         self.papers: dict[str, tuple[float, float]] = {}
@@ -315,8 +317,9 @@ class Blocks:
         lines = [f'<p class="institution">{escape(line)}</p>' for line in cover.institution]
         lines.append(f"<h1>{'<br>'.join(map(escape, cover.title))}</h1>")
         lines += [f'<p class="subtitle">{escape(line)}</p>' for line in cover.subtitle]
+        colon = self.setting.colon.strip()
         fields = (
-            f"<div><dt>{escape(label)}:</dt><dd>{escape(value) if value else _DOTS}</dd></div>"
+            f"<div><dt>{escape(label)}{colon}</dt><dd>{escape(value) if value else _DOTS}</dd></div>"
             for label, value in cover.fields
         )
         lines += [f"<dl>{''.join(fields)}</dl>", f'<p class="place">{escape(cover.place_and_date)}</p>']
@@ -446,7 +449,7 @@ class Blocks:
 
     def scene(self, scene: Scene, block: tree.Figure | tree.Plate) -> str:
         caption = tree.plain(block.caption, self.language)
-        name = f"{self.words.figure} {block.number}. {caption} {scene.title}".strip()
+        name = f"{self.words.figure} {block.number}{self.setting.stop} {caption} {scene.title}".strip()
         title = f"<p>{escape(scene.title)}</p>" if scene.title else ""
         file = figure_name(block)
         if isinstance(block, tree.Figure) and len(block.scenes) > 1:
@@ -457,11 +460,12 @@ class Blocks:
         """Word, number and words of a caption; nothing for a block that has none."""
         if not (block.number or block.caption):
             return ""
-        return f"<b>{escape(word)} {escape(block.number)}.</b> {self.inlines(block.caption)}"
+        return f"<b>{escape(word)} {escape(block.number)}{self.setting.stop}</b> {self.inlines(block.caption)}"
 
     def again(self, block: tree.Plate) -> str:
         """The number of a figure that goes on from the plate before."""
-        return f"<b>{escape(self.words.figure)} {escape(block.number)}</b> ({escape(self.words.continued)})"
+        where = self.setting.aside(escape(self.words.continued))
+        return f"<b>{escape(self.words.figure)} {escape(block.number)}</b>{where}"
 
 
 def save_buttons(file: str, told: str) -> str:

@@ -123,6 +123,9 @@ class PanelWriter:
         self.enlargement = 1.0
         """How much larger letters, arrowheads and pens of arrows are than in figures."""
 
+    def unit(self, unit: str) -> str:
+        return self.animation.units.get(unit, unit)
+
     def panel(self) -> Panel:
         animation, formula = self.animation, self.formulas.content
         machine, *plans = animation.panes
@@ -136,11 +139,11 @@ class PanelWriter:
             machine=self.pane(machine),
             plans=list(map(self.pane, plans)),
             rates=[
-                ("v", formula(Symbol("v")), KINDS["velocity"].unit),
-                ("a", formula(Symbol("a")), KINDS["acceleration"].unit),
+                ("v", formula(Symbol("v")), self.unit(KINDS["velocity"].unit)),
+                ("a", formula(Symbol("a")), self.unit(KINDS["acceleration"].unit)),
             ],
             runs=[run.key for run in animation.runs],
-            numbers=[(formula(value.symbol), value.unit) for value in animation.values],
+            numbers=[(formula(value.symbol), self.unit(value.unit)) for value in animation.values],
             charts=list(map(self.chart, animation.charts)),
             accuracy=self.accuracy(),
         )
@@ -177,7 +180,7 @@ class PanelWriter:
             "charts": list(map(self.axes, animation.charts)),
             **({"runs": list(map(_timed, animation.runs))} if animation.runs else {}),
             "values": [[number(value.values), value.decimals] for value in animation.values],
-            "heads": [f"{words['way']} (mm)" if animation.span else f"{words['angle']} (°)", *HEADS],
+            "heads": [f"{words['way']} ({self.unit('mm')})" if animation.span else f"{words['angle']} (°)", *HEADS],
             "words": {key: words[key] for key in ("play", "pause", "keep", "release", "copied", "run_told")},
             "lengths": self.tracks.lengths,
             "tracks": self.tracks.packed(),
@@ -211,7 +214,7 @@ class PanelWriter:
     def pane(self, pane: Pane) -> _Drawn:
         """A drawing in the box of all that it ever shows, about the origin of its places, y downwards; bars below."""
         self.enlargement = pane.enlargement
-        size = pane.high - scale_bars(pane)[0]
+        size = pane.high - scale_bars(pane, self.animation.units)[0]
         width, height = decimal(size.real), decimal(size.imag)
         return _Drawn(
             key=pane.key,
@@ -227,7 +230,7 @@ class PanelWriter:
 
     def bars(self, pane: Pane) -> Iterator[str]:
         """A bar for each scale, its value above it; of scales in use in turns all in one place."""
-        for number, (scale, bar) in enumerate(scale_bars(pane)[1]):
+        for number, (scale, bar) in enumerate(scale_bars(pane, self.animation.units)[1]):
             attributes = f' data-bar="{number}"'
             if pane.finer:
                 attributes += f' data-scale="{number}"' + " hidden" * bool(number)

@@ -186,6 +186,7 @@ class Samples:
             panes=panes,
             charts=() if machine.instants else tuple(self.charts()),
             values=tuple(self.values()),
+            units=self.report.ledger.units,
             errors=Errors(0.0, 1.0, 0.0) if machine.instants else self.errors(self.scale),
             layers=tuple(layer for layer in LAYERS if layer in layers),
             runs=timed_runs(self.report),
@@ -414,7 +415,7 @@ class Samples:
         if gases := self.analysis.gas:
             unit = KINDS["pressure"].scale
             pressures = [(Symbol("p", str(gas.piston.link)), gas.pressure / unit) for gas in gases.values()]
-            title = axis(Symbol("p"), "pressure")
+            title = axis(report, Symbol("p"), "pressure")
             tracks = tuple(Curve(symbol, Track(values)) for symbol, values in pressures)
             yield panes.chart(report, over_the_cycle(report, pressures, title, half=True), tracks, title)
         yield from working_point(report)

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Literal, Self
 
+from reportgen.base.languages import setting_of
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
 from reportgen.formula import Expression, Number
@@ -312,12 +313,12 @@ def lines_of(block: Block, document: Document) -> Iterator[str]:
             for cells in (*head, *rows):
                 yield _row(cells, language)
         case Plate(continues=True):
-            yield f"{words.figure} {block.number} ({words.continued})"
+            yield f"{words.figure} {block.number}{setting_of(language).aside(words.continued)}"
         case Figure() | Plate():
             yield from _caption(block, words, language)
         case Cover(institution, title_lines, subtitle, fields, place_and_date):
             yield from (*institution, *title_lines, *subtitle)
-            yield from (f"{label}: {value or '…'}" for label, value in fields)
+            yield from (f"{label}{setting_of(language).colon}{value or '…'}" for label, value in fields)
             yield place_and_date
         case Contents(heading):
             yield heading
@@ -332,7 +333,7 @@ def lines_of(block: Block, document: Document) -> Iterator[str]:
 def _caption(block: Table | Figure | Plate, words: Words, language: Language) -> Iterator[str]:
     if block.number or block.caption:
         word = words.table if isinstance(block, Table) else words.figure
-        yield f"{word} {block.number}. {plain(block.caption, language)}".strip()
+        yield f"{word} {block.number}{setting_of(language).stop} {plain(block.caption, language)}".strip()
 
 
 def _row(cells: tuple[Cell, ...], language: Language) -> str:
@@ -345,7 +346,11 @@ def listed(parts: Iterable[Inline]) -> Inlines:
 
 
 def plain(inlines: Inlines, language: Language) -> str:
-    """The text of inlines in one line."""
+    """The text of inlines in one line, with the marks of the language."""
+    if not setting_of(language).spaced:
+        from reportgen.report.unspaced import unspaced
+
+        inlines = unspaced(inlines)
     result = []
     for inline in inlines:
         match inline:

@@ -201,7 +201,7 @@ def cost_table(report: Report) -> Iterator[Sequence[object]]:
 
 
 def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object]:
-    unit_of = report.ledger[pair[0]].how.unit
+    unit_of = report.ledger.printed_unit(report.ledger[pair[0]].how.unit)
     return report.words["balancing"]["costs"][name], *(bare(report, id, None) for id in pair), unit_of
 
 
@@ -294,8 +294,9 @@ def seen_curve(report: Report) -> FigureScenes:
 
 def _polar(report: Report, curves: tuple[PlottedCurve, ...], component: ids.Name) -> Scene:
     """Hodographs whose axes are called as these components are."""
+    ledger = report.ledger
     across, up = (
-        Chain((report.ledger.symbol(component(axis)),), KINDS[report.ledger[component(axis)].kind].unit)
+        Chain((ledger.symbol(component(axis)),), ledger.printed_unit(KINDS[ledger[component(axis)].kind].unit))
         for axis in AXES
     )
     diagram = Diagram(curves, across, up, turn=False, equal=True)

@@ -357,10 +357,14 @@ class LoadedAssignment(Case):
             (labels["email"], student.email),
             (labels["supervisor"], given.supervisor),
         )
+        setting = setting_of(self.assignment.language)
+        title = labels["title"], self.course
+        subtitles = {"variant": variant, "machine": self.title}
         return Cover(
             tuple(part for part in (given.university, given.faculty, given.department) if part),
-            (labels["title"], self.course),
-            (*((f"{labels['variant']}: {variant}",) if variant else ()), f"{labels['machine']}: {self.title}"),
+            # Chinese names the course before what was made in it.
+            title if setting.spaced else title[::-1],
+            tuple(f"{labels[key]}{setting.colon}{text}" for key, text in subtitles.items() if text),
             tuple((label, value or "") for label, value in fields),
             self.place_and_date,
         )

@@ -33,14 +33,14 @@ ARCS = 16.0, 26.0
 # --- axes
 
 
-def axis(shown: Symbol, kind: str) -> Chain:
+def axis(report: Report, shown: Symbol, kind: str) -> Chain:
     """What an axis shows, as the text calls it, and its unit in parentheses."""
-    return Chain((shown,), KINDS[kind].unit)
+    return Chain((shown,), report.ledger.printed_unit(KINDS[kind].unit))
 
 
 def _axis_of(report: Report, id: str) -> Chain:
     """The axis of a quantity."""
-    return axis(report.ledger.symbol(id), report.ledger[id].kind)
+    return axis(report, report.ledger.symbol(id), report.ledger[id].kind)
 
 
 def _driver_axis(report: Report, angle: str = "cycle_angle") -> Chain:
@@ -80,11 +80,11 @@ def curves_of_motion(report: Report) -> list[tuple[list[Shown], Chain]]:
     way = one_way[0] if len(one_way) == 1 else ""
     rotation = report.sense(1)
     drawings = (
-        (_displacements(report), axis(Symbol("s"), "segment")),
-        (of_points("v"), _positive(report, axis(Symbol("v"), "velocity"), way)),
-        (of_points("a"), _positive(report, axis(Symbol("a"), "acceleration"), way)),
-        (of_links("ω", "omega"), _positive(report, axis(Symbol("ω"), "angular velocity"), rotation)),
-        (of_links("ε", "epsilon"), _positive(report, axis(Symbol("ε"), "angular acceleration"), rotation)),
+        (_displacements(report), axis(report, Symbol("s"), "segment")),
+        (of_points("v"), _positive(report, axis(report, Symbol("v"), "velocity"), way)),
+        (of_points("a"), _positive(report, axis(report, Symbol("a"), "acceleration"), way)),
+        (of_links("ω", "omega"), _positive(report, axis(report, Symbol("ω"), "angular velocity"), rotation)),
+        (of_links("ε", "epsilon"), _positive(report, axis(report, Symbol("ε"), "angular acceleration"), rotation)),
     )
     return [(curves, title) for curves, title in drawings if curves]
 
@@ -152,7 +152,7 @@ def springs(report: Report) -> FigureScenes:
         name = row.loads[0]
         values = analysed[name].value(cycle.cycle_angle, cycle.motion)
         by_kind.setdefault(report.ledger[name].kind, []).append((report.ledger.symbol(name), values))
-    drawn = (over_the_cycle(report, shown, axis(shown[0][0], kind)).scene for kind, shown in by_kind.items())
+    drawn = (over_the_cycle(report, shown, axis(report, shown[0][0], kind)).scene for kind, shown in by_kind.items())
     return FigureScenes(tuple(drawn))
 
 
@@ -264,7 +264,7 @@ def wittenbauer(report: Report) -> FigureScenes:
     curve = PlottedCurve(Symbol("A"), wheel.inertia, wheel.work, (wheel.high, wheel.low))
     across, up = _axis_of(report, "J.r"), _axis_of(report, "A.excess")
     scales = ledger.number("mu.J").value, ledger.number("mu.A").value
-    area = replace(report.area or charts.Area(), scales=scales)
+    area = replace(report.area or charts.Area(mm=ledger.printed_unit("mm")), scales=scales)
     diagram = Diagram((curve, *lines), across, up, turn=False, inclinations=tuple(angles))
     return FigureScenes((charts.chart(diagram, area=area),))
 

@@ -340,7 +340,7 @@ def indicator(report: Report) -> FigureScenes:
 
 
 def _indicator(report: Report, factor: float) -> Scene:
-    machine, gases = report.machine, report.analysis.gas
+    machine, gases, printed_unit = report.machine, report.analysis.gas, report.ledger.printed_unit
     first = machine.pistons[0]
     unit, scale = 1e4, drawing_scale(report) * factor
     top, bottom = first.top * scale, first.bottom * scale
@@ -351,9 +351,10 @@ def _indicator(report: Report, factor: float) -> Scene:
     highest = max(highest, -2 * lowest)
     side = _free_side(machine)
     start, end, mu = indicator_figure.beside(top, bottom, side, highest, report.enlarged)
-    note = Chain((Symbol("μ", "p"), short(Number(mu, 6, "N/(cm²·mm)"))))
-    axis = Chain((Symbol("p"),), report.ledger.units.get("N/cm²", "N/cm²"))
-    frame = indicator_figure.Frame(start, end, side, mu * report.enlarged, axis, note)
+    note = Chain((Symbol("μ", "p"), short(Number(mu, 6, printed_unit("N/(cm²·mm)")))))
+    frame = indicator_figure.Frame(
+        start, end, side, mu * report.enlarged, Chain((Symbol("p"),), printed_unit("N/cm²")), note
+    )
     share_at = first.share_at(partial(motion_at, machine))
     lines = first.indicator.branches(share_at, first.dead_centres)
     branches = [

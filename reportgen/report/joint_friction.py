@@ -146,10 +146,10 @@ def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) 
         without = ids.reaction(each.digits)
         of_rounds = [friction_ids.reaction.of({"joint": each.digits, "round": name}) for name in names[1:]]
         shown = [without, *(id for id in of_rounds if id in ledger), friction_ids.reaction(each.digits)]
-        columns.append([ledger.symbol(without), "N", *(bare(report, id, k) for id in shown)])
+        columns.append([ledger.symbol(without), ledger.printed_unit("N"), *(bare(report, id, k) for id in shown)])
     torques = ["M.eq", *map(friction_ids.torque_of_round, numbers), friction_ids.torque]
     kind = ledger["M.eq"].how
-    columns.append([report.balance_symbol(), kind.unit, *(bare(report, id, k) for id in torques)])
+    columns.append([report.balance_symbol(), ledger.printed_unit(kind.unit), *(bare(report, id, k) for id in torques)])
     titles = [report.words["tables"]["friction.rounds"]["round"], "", *(str(n) for n in range(len(torques)))]
     return side_by_side(report, key, caption, Column(FIRST_COLUMN), titles=titles, columns=columns, most=8, heads=2)
 

@@ -88,15 +88,25 @@ def inlines(of: Any) -> Inlines:
 def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> Inlines:
     """A phrase about so many things, by its words for one and for many, or by one for both; nothing for none.
 
+    Of three forms the second is that of 2, 3 and 4, as Slavic languages have it.
+
     The words may have gaps for their `count`, and for the `list` of them.
     """
     if not len(things):
         return ()
     words = report.words["counted"][name]
-    phrase = words if isinstance(words, str) else words[len(things) > 1]
+    phrase = words if isinstance(words, str) else words[form_of(len(things), len(words))]
     with suppress(TypeError):
         gaps["list"] = ", ".join(map(as_text, things))
     return say(report, phrase, **{"count": len(things), **gaps})
+
+
+def form_of(count: int, forms: int) -> int:
+    """Which of two or three forms of a word goes with a number: 1, 21; 2, 3, 4, 22; 5, 11, 20."""
+    if forms < 3:
+        return int(count > 1)
+    last, teen = count % 10, count // 10 % 10 == 1
+    return 0 if last == 1 and not teen else 1 if 2 <= last <= 4 and not teen else 2
 
 
 def shown_smaller(report: Report, times: float, name: str) -> Inlines:

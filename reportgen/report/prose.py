@@ -367,7 +367,8 @@ GLOBALS: Mapping[str, Callable[..., Any]] = {
 
 _WHITE = {ord(letter): " " for letter in "\n\t"}
 _MATH = re.compile(r"\$([^\W\d_][\w.]*)\$")
-_REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.\w+)+)")
+# Letters of Chinese end a key: no blank stands behind it there.
+_REFERENCE = re.compile(r"@((?:eq|fig|tab)(?:\.[^\W\u2e80-\U0010ffff]+)+)")
 
 
 class _Provenance(Extension):

@@ -95,7 +95,7 @@ class Report:
     @property
     def area(self) -> Area | None:
         """The room that curves have on a drawing sheet, where their scales are round and printed."""
-        return None if self.enlarged == 1.0 else Area(enlarged=self.enlarged)
+        return None if self.enlarged == 1.0 else Area(enlarged=self.enlarged, mm=self.ledger.printed_unit("mm"))
 
     @cached_property
     def dense_cycle(self) -> Analysis:

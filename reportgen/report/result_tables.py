@@ -271,7 +271,7 @@ def checks(report: Report) -> Iterator[Sequence[object]]:
     for id, name in report.words["tables"]["checks"]["rows"].items():
         if id in largest:
             residual, unit = largest[id]
-            yield name, _power_of_ten(residual), unit
+            yield name, _power_of_ten(residual), report.ledger.printed_unit(unit)
 
 
 def residuals(report: Report) -> dict[str, tuple[float, str]]:

@@ -197,7 +197,11 @@ def drive_points(report: Report) -> Inlines:
     pairs = zip(motor.speeds, motor.torques, strict=True)
     rpm = report.ledger.units.get("rpm", "rpm")
     points = (
-        (Value(_short(torque, "N·m")), Text(f" {report.words['figure']['at_speed']} "), Value(_short(speed * RPM, rpm)))
+        (
+            Value(_short(torque, report.ledger.printed_unit("N·m"))),
+            Text(f" {report.words['figure']['at_speed']} "),
+            Value(_short(speed * RPM, rpm)),
+        )
         for speed, torque in pairs
     )
     return tuple(part for number, point in enumerate(points) for part in (*((Text("; "),) if number else ()), *point))

@@ -47,7 +47,7 @@ def _over_angle(report: Report) -> Content:
 
 
 def _axis_of(report: Report, id: str) -> Chain:
-    return axis(report.ledger.symbol(id), report.ledger[id].kind)
+    return axis(report, report.ledger.symbol(id), report.ledger[id].kind)
 
 
 def _chart(report: Report, curves: Sequence[Curve], across: Content, up: Content, **how: Any) -> Scene:
@@ -151,7 +151,7 @@ def energy(report: Report) -> FigureScenes:
     curves: list[Curve] = [(Symbol("T"), run.inertia[kept], run.energy[kept])]
     for id, extreme in (("run.max", steady.fastest), ("run.min", steady.slowest)):
         curves.append((report.ledger.symbol(id), ends, extreme.speed**2 / 2 * ends))
-    across = axis(Symbol("J"), "moment of inertia")
+    across = axis(report, Symbol("J"), "moment of inertia")
     up = _axis_of(report, "run.T")
     return FigureScenes((_chart(report, curves, across, up, turn=False, zero=begin == 0.0),))
 
@@ -160,7 +160,7 @@ def _of_run(report: Report, run: MotionRun) -> FigureScenes:
     kept = _thinned(run)
     kept = kept[:: -(-len(kept) // MOST)] if len(kept) > MOST else kept
     kept = np.append(kept[kept < len(run.angle) - 1], len(run.angle) - 1)
-    up, time = _axis_of(report, "run.omega"), axis(Symbol("t"), "time")
+    up, time = _axis_of(report, "run.omega"), axis(report, Symbol("t"), "time")
     over_angle = _chart(
         report, [("", np.degrees(run.angle[kept]), run.speed[kept])], _over_angle(report), up, half=True
     )

@@ -44,7 +44,10 @@ def motor_list(report: Report) -> Inlines:
         parts += [Text("; ")] if parts else []
         parts += [Text(f"{motor.name} ("), Value(_typed(motor.power, "kW")), Text(", "), Value(rpm)]
         for key, torque in (("start", motor.start), ("breakdown", motor.breakdown)):
-            parts += [Text(f", {words[key]} "), Value(Number(float(f"{torque:.9g}"), None, "N·m"))]
+            parts += [
+                Text(f", {words[key]} "),
+                Value(Number(float(f"{torque:.9g}"), None, report.ledger.printed_unit("N·m"))),
+            ]
         parts.append(Text(")"))
     return tuple(parts)
 

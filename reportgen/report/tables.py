@@ -95,8 +95,7 @@ def tables(
     zeros = [id for id in quantities if all(report.is_zero(id, k) for k in at)]
     shown = [id for id in quantities if id not in zeros] or list(quantities)
     for id in shown:
-        unit = report.ledger[id].how.unit
-        unit = report.ledger.units.get(unit, unit)
+        unit = report.ledger.printed_unit(report.ledger[id].how.unit)
         columns.append([head_symbol(report, id), unit, *(bare(report, id, k) for k in at)])
     titles = [report.words["table"]["position"], "", *map(str, at)]
     room = TEXT_WIDTH - FIRST_COLUMN
@@ -228,7 +227,9 @@ def _as_typed(report: Report, id: str) -> Inlines:
         if len(ends) == 2:
             return Value(ends[0]), Text("/"), Value(ends[1])
     typed = report.machine.sheet.typed.get(id)
-    return (Value(report.ledger.number(id) if typed is None or typed.unit not in PRINTED else typed),)
+    if typed is None or typed.unit not in PRINTED:
+        return (Value(report.ledger.number(id)),)
+    return (Value(replace(typed, unit=report.ledger.printed_unit(typed.unit))),)
 
 
 def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
@@ -255,7 +256,7 @@ def gas_law(report: Report, key: str, caption: str, head: Sequence[str], name: s
 def load_law(report: Report, key: str, caption: str, head: Sequence[str], name: str) -> Table:
     """The load `name` as given: a row for each of the strokes of the head, or against the driver's turn or way."""
     load = next(load for load in report.loads if load.name == name)
-    caption = caption.format(link=load.link, unit=report.ledger[name].how.unit)
+    caption = caption.format(link=load.link, unit=report.ledger.printed_unit(report.ledger[name].how.unit))
     return _law_table(report, name, load.law, key, caption, head)
 
 

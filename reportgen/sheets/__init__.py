@@ -51,7 +51,8 @@ def drawing_sheets(
         least = min(sheets[0].name, USUAL[0], key=BY_SIZE.index)
         sheets += on_sheets(case, case.joined_plates(), size, block, least=least)
         form = read_block(
-            block or blocks(assignment.school or "")[setting_of(assignment.language).block], assignment.language
+            block or blocks(assignment.school or "", assignment.language)[setting_of(assignment.language).block],
+            assignment.language,
         )
         sheets = numbered(sheets, form, assignment.sheet.designation or "")
     return [*sheets, *case.true_sizes()]
@@ -80,7 +81,7 @@ def on_sheets(
     too large; what may be `redrawn` has the length of its crank (mm), and plates for any other one.
     """
     language = case.assignment.language
-    form = read_block(block or blocks(case.assignment.school or "")[setting_of(language).block], language)
+    form = read_block(block or blocks(case.assignment.school or "", language)[setting_of(language).block], language)
     wanted = size or case.assignment.report.sheets or ""
     try:
         paper, laid_out = _chosen(plates, form, wanted, least)

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from reportgen.base.languages import setting_of
 from reportgen.base.units import Language
 from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.label_size import POINT
@@ -47,12 +48,6 @@ LAYERS: dict[str, int] = {
 AXIS, HIDDEN = "CENTER", "HIDDEN"
 AXIS_PARTS = 4
 """A pen of four dashes and gaps is that of an axis, one of two that of a hidden or construction line."""
-STYLE, FONT = "lc_opengost-ar", "arial.ttf"
-"""The text style's name, which LibreCAD takes for that of a stroke font of its own, and the font of all others.
-
-The second has Greek and all letters of Vietnamese.  The first, as LibreCAD has it, lacks most of the latter; they are
-in the file of that name in `templates/frames/letters`.
-"""
 WIDTHS = (13, 18, 25, 35, 50, 70, 100)
 """Line weights that DXF knows, hundredths of a millimetre."""
 ATTACHMENT: dict[Anchor, int] = {
@@ -91,7 +86,10 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
     document.header["$INSUNITS"] = 4
     document.header["$MEASUREMENT"] = 1
     document.header["$LTSCALE"] = 1.0
-    document.styles.add(STYLE, font=FONT)
+    # LibreCAD takes the style's name for that of a stroke font of its own.  Its usual one lacks most letters of
+    # Vietnamese, which are in the file of that name in `templates/frames/letters`; all other programs take the font.
+    letters = setting_of(language).drawing
+    document.styles.add(letters.style, font=letters.font)
     document.linetypes.add(AXIS, [8.0, 5.0, -1.0, 0.8, -1.2], description="axis ____ . ____")
     document.linetypes.add(HIDDEN, [3.0, 2.0, -1.0], description="hidden __ __ __")
     for name, colour in LAYERS.items():
@@ -181,7 +179,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
             for start, end in clip_hatch(points, spacing, turn):
                 yield line(start, end, stroke)
         case Label(where, content, anchor, size, turn, over, narrow):
-            letters = {"layer": "text", "style": STYLE, "insert": at(where), "rotation": turn}
+            letters = {"layer": "text", "style": texts.style, "insert": at(where), "rotation": turn}
             height = round(CAPITAL * POINT * size, 4)
             if narrow < 1.0 and isinstance(content, str) and not set(content) & ORDERS:
                 # Only a line of text has a width in every program.
@@ -254,6 +252,11 @@ class MText(Plain):
     BELOW = f"%s{{\\H{STACK}x;\\S^ %s;}}"
     RAISED = f"%s{{\\H{STACK}x;\\S%s^ ;}}"
     NOTE = "  %s"
+
+    @property
+    def style(self) -> str:
+        """The name of the style that the letters have."""
+        return setting_of(self.language).drawing.style
 
     def text(self, text: str) -> str:
         """A text with what MTEXT takes for orders made plain."""

@@ -287,10 +287,15 @@ def _filled(text: str, fields: Mapping[str, str]) -> str:
     return _FIELD.sub(lambda found: fields.get(found[1], ""), text)
 
 
-def blocks(school: Path | str = "") -> dict[str, Path]:
-    """The blocks that come with the program and those of a school, by name."""
+def blocks(school: Path | str = "", language: Language | None = None) -> dict[str, Path]:
+    """The blocks that come with the program and those of a school, by name.
+
+    One may have a file of its own for a language, whose code is in the file's name: gb.zh.yaml.
+    """
     folders = [templates() / "frames" / FOLDER, *([templates() / school / FOLDER] if school else [])]
-    return {path.stem: path for folder in folders for path in sorted(folder.glob("*.yaml"))}
+    files = [(path.stem.partition("."), path) for folder in folders for path in sorted(folder.glob("*.yaml"))]
+    usual = {name: path for (name, _, of), path in files if not of}
+    return usual | {name: path for (name, _, of), path in files if of and of == language}
 
 
 def read_block(path: Path, language: Language | None = None) -> TitleBlock:

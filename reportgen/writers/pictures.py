@@ -45,4 +45,4 @@ def _source(scenes: Sequence[Scene], language: Language) -> str:
         f"#page(width:{scene.width}mm,height:{scene.height}mm,margin:0pt)[#{paint_typst(scene, formulas)}]"
         for scene in scenes
     )
-    return "\n".join((typst.frame(), typst.sheet_look(language), *pages))
+    return "\n".join((typst.frame(language), typst.sheet_look(language), *pages))

@@ -29,7 +29,7 @@ from reportgen.formula import Chain, Expression, Product, Sum, Symbol, VectorEqu
 from reportgen.formula.setting import NARROW, columns, displayed, sides, written
 from reportgen.report import layout
 from reportgen.writers.drawing import paint_typst
-from reportgen.writers.typst_fonts import FONT, breadth, lacking, needs_system_fonts
+from reportgen.writers.typst_fonts import FONT, breadth, fonts_for
 from reportgen.writers.typst_math import TypstFormulas, literal
 
 LIST_INDENT = 12.0
@@ -62,7 +62,7 @@ def write(document: tree.Document, letter: layout.Letter = layout.OWN_LETTER) ->
         )
     )
     body = _Blocks(document.language, document.words, letter, document.close).write(document.blocks)
-    return f"{frame(document.close)}\n#show: report.with({opening})\n\n{body}\n"
+    return f"{frame(document.language, document.close)}\n#show: report.with({opening})\n\n{body}\n"
 
 
 def _of_language(language: Language) -> Iterator[str]:
@@ -74,8 +74,6 @@ def _of_language(language: Language) -> Iterator[str]:
         yield f"region: {literal(own.region)}"
     if own.hyphenate:
         yield "hyphenate: true"
-    if own.fonts:
-        yield f"further: {_array(map(literal, own.fonts))}"
     if page != PageMargins():
         sides = ", ".join(f"{side}: {width:g}mm" for side, width in asdict(page).items())
         yield f"margin: ({sides})"
@@ -95,7 +93,8 @@ def write_sheet(sheet: DrawingSheet, title: str, language: Language) -> str:
     items = tuple(moved(item, part.at) for part in sheet.parts for item in part.scene.items)
     drawing = paint_typst(Scene(sheet.width, sheet.height, items), TypstFormulas(language))
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[#{drawing}]"
-    return "\n".join((frame(), f"#set document(title:{literal(title)},date:none)", sheet_look(language), page, ""))
+    opening = frame(language), f"#set document(title:{literal(title)},date:none)", sheet_look(language)
+    return "\n".join((*opening, page, ""))
 
 
 def sheet_look(language: Language) -> str:
@@ -105,11 +104,20 @@ def sheet_look(language: Language) -> str:
     return f"{text}\n#show math.equation: set text(font:{_array((literal(f'{FONT} Math'), *fonts))})"
 
 
-def frame(close: bool = False) -> str:
+def frame(language: Language, close: bool = False) -> str:
     """The frame's source, for a document that is set `close` or not: from the package, or beside it in a checkout."""
     path = templates() / "frames" / "typst" / "report.typ"
+    setting = setting_of(language)
+    said = {
+        "close": str(close).lower(),
+        "further": _array(map(literal, setting.typst.fonts)),
+        "further-strong": _array(map(literal, setting.typst.strong or setting.typst.fonts)),
+        "caption-stop": literal(setting.stop),
+        "colon": literal(setting.colon.strip()),
+    }
     try:
-        return f"#let close = {str(close).lower()}\n{path.read_text(encoding='utf-8')}"
+        opening = "".join(f"#let {name} = {value}\n" for name, value in said.items())
+        return opening + path.read_text(encoding="utf-8")
     except OSError as error:
         raise TypesetterError(f"{path}: {error.strerror}") from error
 
@@ -181,7 +189,8 @@ class _Blocks:
                 place = "#standing" if block.here else "#W"
                 figures = [f"{place}({literal(key)},{label},\n{self.rows(first)})"]
                 for part, rows in enumerate(others, 2):
-                    again = literal(f"{self.words.figure} {block.number} ({self.words.part.format(part=part)})")
+                    where = setting_of(self.language).aside(self.words.part.format(part=part))
+                    again = literal(f"{self.words.figure} {block.number}{where}")
                     figures.append(f'{place}("",{again},[],\n{self.rows(rows)})')
                 return "\n".join(figures)
             case tree.Plate(scene, (width, height), _, key, continues=continues):
@@ -206,7 +215,16 @@ class _Blocks:
     # --- inlines ----------------------------------------------------------------------------------
 
     def inlines(self, inlines: Sequence[tree.Inline]) -> str:
-        return "".join(map(self.inline, inlines))
+        written = [self.inline(inline) for inline in inlines]
+        for place, (before, inline) in enumerate(pairwise(inlines), 1):
+            # No line begins with these marks of Chinese, though Typst would break before them behind a formula.
+            if (
+                isinstance(inline, tree.Text)
+                and inline.text[:1] in ("；", "：")
+                and isinstance(before, (tree.InlineMath, tree.Value))
+            ):
+                written[place] = f"#sym.wj{written[place]}"
+        return "".join(written)
 
     def content(self, inlines: Sequence[tree.Inline]) -> str:
         return f"[{self.inlines(inlines)}]"
@@ -368,7 +386,7 @@ class _Blocks:
 
     def again(self, word: str, block: tree.Table | tree.Plate) -> str:
         """The label of what goes on from the page before."""
-        return literal(f"{word} {block.number} ({self.words.continued})")
+        return literal(f"{word} {block.number}{setting_of(self.language).aside(self.words.continued)}")
 
 
 def _doubt(width: float) -> float:
@@ -421,13 +439,16 @@ def compile_as(source: str, format: Literal["pdf", "png", "svg"], system: bool =
         raise TypesetterError("typst is not installed: pip install typst") from error
     except ImportError as error:
         raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
-    own = not needs_system_fonts(source, lacking) and not system
+    folders, needed = fonts_for(source)
+    own = not (needed or system)
     give_memory_back()
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
         try:
-            made = typst.compile(str(path), root=folder, ignore_system_fonts=own, format=format, ppi=dpi or None)
+            made = typst.compile(
+                str(path), root=folder, font_paths=[*folders], ignore_system_fonts=own, format=format, ppi=dpi or None
+            )
         except typst.TypstError as error:
             lines = str(getattr(error, "message", error)).splitlines()
             raise TypesetterError("typst: " + "\n".join(lines[:4])) from error

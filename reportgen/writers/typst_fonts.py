@@ -1,7 +1,7 @@
-"""The fonts that Typst sets in, and the letters that its own ones lack: names in Chinese, Thai, Lao, emoji.
+"""The fonts that Typst sets in, and the letters that its own ones lack: Chinese, names in Thai, Lao, emoji.
 
-Typst leaves out in silence what no font has.  So its fonts are asked first, then those of the system; what neither has
-is told as a warning.
+Typst leaves out in silence what no font has.  So its fonts are asked first, then those that came with the extra `zh`,
+if it is installed, then those of the system; what none has is told as a warning.
 """
 
 from __future__ import annotations
@@ -10,8 +10,10 @@ import json
 import re
 import unicodedata
 import warnings
-from collections.abc import Callable
-from functools import lru_cache
+from collections.abc import Callable, Sequence
+from functools import cache, lru_cache
+from pathlib import Path
+from typing import Any
 
 COMMON = re.compile("[\u0000-\u024f\u0300-\u052f\u1e00-\u2bff\u3000-\u3003\ufb00-\ufb06\ufe00-\ufe0f]+")
 """Latin (Vietnamese included), Greek, Cyrillic, punctuation, arrows and the signs of mathematics: never asked for."""
@@ -21,8 +23,9 @@ NOWHERE = r"\u{10fffe}"
 BATCH = 400
 """So many different letters are asked for at most; a text of more is not worth a warning."""
 
-Lacking = Callable[[str, bool], str]
-"""Those of some letters that none of the typesetter's own fonts has, or, if asked, the system's either."""
+Folders = tuple[str, ...]
+Lacking = Callable[[str, bool, Folders], str]
+"""Those of some letters that none of the typesetter's own fonts has, nor those in folders, or the system's if asked."""
 
 QUESTION = """\
 #set text(font: "{font}", size: 10pt, top-edge: "bounds", bottom-edge: "bounds")
@@ -42,11 +45,26 @@ BREADTH = """\
 """What the typesetter is asked about the letters of a font; words and numbers, as tables have them."""
 
 
-def families() -> list[str]:
-    """The fonts that a source may name: the typesetter's own and those of the system, in order."""
+@cache
+def added() -> Folders:
+    """The folders of fonts that came with the extra `zh`: Noto Serif SC, by a package that holds nothing else."""
+    try:
+        import pylopdf_fonts_zh_cn
+    except ImportError:
+        return ()
+    return (str(Path(pylopdf_fonts_zh_cn.serif_path()).parent),)
+
+
+def families(system: bool = True) -> list[str]:
+    """The fonts that a source may name: the typesetter's own, those of the extra and of the system, in order."""
     import typst
 
-    return sorted(typst.Fonts(include_system_fonts=True).families())
+    return sorted(typst.Fonts(include_system_fonts=system, font_paths=[*added()]).families())
+
+
+def there_is_one_of(fonts: Sequence[str]) -> bool:
+    """Whether one of some fonts is here; the system is asked only where no nearer one is among them."""
+    return any(not set(families(system)).isdisjoint(fonts) for system in (False, True))
 
 
 @lru_cache(maxsize=16)
@@ -58,14 +76,16 @@ def breadth(font: str) -> float:
     return max(1.0, float(json.loads(answer)))
 
 
-def lacking(letters: str, system: bool) -> str:
-    """Those of the letters that none of the typesetter's own fonts, or the `system`'s either, has."""
+def lacking(letters: str, system: bool, folders: Folders = ()) -> str:
+    """Those of the letters that none of the typesetter's own fonts, of the folders', or the `system`'s either, has."""
     import typst
 
     if not letters:
         return ""
-    asked = question(letters).encode()
-    answer = typst.query(asked, "<lacking>", field="value", one=True, ignore_system_fonts=not system)
+    # A source is bytes and a path is a text, though both have one type in the typesetter's annotations.
+    asked: Any = question(letters).encode()
+    paths = [*folders]
+    answer = typst.query(asked, "<lacking>", field="value", one=True, font_paths=paths, ignore_system_fonts=not system)
     return "".join(json.loads(answer))
 
 
@@ -89,11 +109,13 @@ def question(letters: str) -> str:
     return QUESTION.format(font=FONT, letters=listed, nowhere=NOWHERE)
 
 
-def needs_system_fonts(text: str, lacking: Lacking) -> bool:
-    """Whether a text has letters that only the system's fonts may have; warns of those that no font has."""
-    wanted = lacking(uncommon(text), False)
-    if not wanted:
-        return False
-    if missing := lacking(wanted, True):
+def fonts_for(text: str, lacking: Lacking = lacking) -> tuple[Folders, bool]:
+    """The folders of further fonts that a text needs, and whether the system's; warns of letters that no font has."""
+    wanted = uncommon(text)
+    folders = added() if wanted else ()
+    left = lacking(wanted, False, folders)
+    if not left:
+        return folders, False
+    if missing := lacking(left, True, folders):
         warnings.warn(MissingLettersWarning(missing), stacklevel=2)
-    return missing != wanted
+    return folders, missing != left

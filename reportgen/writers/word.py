@@ -131,6 +131,7 @@ class _Blocks:
     def __init__(self, document: tree.Document, page: PageSetup) -> None:
         self.page = page
         self.document, self.language, self.words = document, document.language, document.words
+        self.setting = setting_of(document.language)
         self.equations = Equations(document.language)
         self.formulas = self.equations.formulas
         self.scenes: list[Scene] = []
@@ -282,7 +283,7 @@ class _Blocks:
             stops = f'<w:tabs><w:tab w:val="left" w:pos="{twips(58)}"/>{right_tab(COVER.room - 10, "dot")}</w:tabs>'
             white = "" if index else low.format(twips(34), 160)
             hanging = f'<w:ind w:left="{twips(58)}" w:hanging="{twips(48)}"/>'
-            shown = run(f"{label}:") + TAB + (run(value, BOLD) if value else TAB)
+            shown = run(f"{label}{self.setting.colon.strip()}") + TAB + (run(value, BOLD) if value else TAB)
             lines.append(paragraph("CoverField", shown, stops + white + hanging))
         lines.append(paragraph("Institution", run(cover.place_and_date, ITALIC), low.format(twips(26), 80)))
         return "".join(lines)
@@ -351,14 +352,14 @@ class _Blocks:
         if not (block.number or block.caption):
             return ""
         number = self.counted(word, block.number, block.key, BOLD) if block.number else ""
-        stop = run(". " if block.caption else "", BOLD)
+        stop = run(f"{self.setting.stop} " if block.caption else "", BOLD)
         return run(f"{word} ", BOLD) + number + stop + self.inlines(block.caption)
 
     def again(self, block: tree.Figure | tree.Plate, where: str) -> str:
         """The caption of what goes on from the page before, or of a later part."""
         place = self.places.get(self._figure)
         number = field(f"REF {place.bookmark} {LINKED}", block.number, BOLD) if place else run(block.number, BOLD)
-        return run(f"{self.words.figure} ", BOLD) + number + run(f" ({where})", BOLD)
+        return run(f"{self.words.figure} ", BOLD) + number + run(self.setting.aside(where), BOLD)
 
     # --- tables -----------------------------------------------------------------------------------
 

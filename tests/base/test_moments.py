@@ -22,6 +22,8 @@ from reportgen.base.moments import moment
         "November 20, 2026 09:05 pm",
         "Thứ Sáu, 20 Tháng mười một 2026, 9:05 CH",
         "thứ sáu, 20 tháng 11 năm 2026, 21:05",
+        "2026年11月20日 星期五 21:05",
+        "2026 年 11 月 20 日 下午 9:05",
     ],
 )
 def test_a_moment_is_read_however_it_is_written(text: str) -> None:

@@ -189,3 +189,34 @@ def test_cells_without_a_value_are_faults(put: Put) -> None:
     stream = io.BytesIO()
     book.save(stream)
     assert faults_of(put(stream.getvalue(), "r.xlsx")) == ["FILE:Sheet!B2 no-cell-value", "FILE:Sheet!A3 no-cell-value"]
+
+
+# --- classes of China -------------------------------------------------------------------------------
+
+CHINESE = (
+    "机械2101班成绩表\n学 号,姓　名,班级,电子邮箱,parameters.H（mm）\n"
+    "0210234,王　明,机械2101,w@x.cn,420\n2021010235,欧阳小燕,机械2101,,400\n"
+)
+
+
+@pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "gbk", "utf-16"])
+def test_a_chinese_roster_is_read_as_it_comes(put: Put, codec: str) -> None:
+    """A title above, headings and names made even by blanks, no blank within names, zeros at the head of a number."""
+    roster = read_roster(put(CHINESE.encode(codec)), "zh")
+    first, second = roster.students
+    assert first.card == {"name": "王明", "id": "0210234", "class": "机械2101", "email": "w@x.cn"}
+    assert second.card["name"] == "欧阳小燕"
+    assert second.overrides["parameters.H"].text == "400 mm"
+
+
+@pytest.mark.parametrize(
+    "table",
+    [
+        "学号,姓,名\n1,王,小明\n",
+        "学号,姓名\n1,王小明\n",
+        'Student,ID,SIS User ID,SIS Login ID,Section\n"王, 小明",77,1,wxm,机械\n',
+    ],
+)
+def test_a_chinese_name_begins_with_that_of_the_family(put: Put, table: str) -> None:
+    (student,) = read_roster(put(table), "zh").students
+    assert student.card["name"] == "王小明"

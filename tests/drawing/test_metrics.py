@@ -11,6 +11,7 @@ import typst
 from reportgen.drawing.label_size import box
 from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Call, Chain, Expression, Fraction, Number, Symbol, cos, sin
+from reportgen.writers.typst_fonts import added
 from reportgen.writers.typst_math import TypstFormulas
 
 LABELS: tuple[Expression | str, ...] = (
@@ -62,6 +63,22 @@ def test_boxes_agree_with_the_typesetter() -> None:
         # line's spaces stretch by a tenth.
         assert ours.width == pytest.approx(width, abs=2 * CLEAR, rel=0.12), label
         assert ours.height + ours.depth == pytest.approx(height, abs=2 * CLEAR), label
+
+
+@pytest.mark.parametrize("label", ["机构运动简图", "位置6的速度多边形", "表4（续）末", "力臂，mm", "a点"])
+def test_boxes_of_chinese_agree_with_the_typesetter(label: str) -> None:
+    if not (folders := added()):
+        pytest.skip("the extra zh is not installed")
+    source = (
+        "#set page(width: auto, height: auto, margin: 0mm)\n"
+        '#set text(9pt, font: ("New Computer Modern", "Noto Serif SC"), top-edge: "bounds", bottom-edge: "bounds")\n'
+        f'#page(text("{label}"))'
+    )
+    with pymupdf.open(stream=typst.compile(source.encode(), font_paths=[*folders])) as document:
+        width, height = (size * 25.4 / 72 for size in (document[0].rect.width, document[0].rect.height))
+    ours = box(label, 9.0)
+    assert ours.width == pytest.approx(width, abs=0.15)
+    assert height <= ours.height + ours.depth + 0.05 <= height + 1.0
 
 
 def test_boxes_grow_with_the_font() -> None:

@@ -6,6 +6,7 @@ import errno
 import io
 import os
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import ezdxf
@@ -155,6 +156,14 @@ def test_a_block_has_every_mandatory_cell(name: str) -> None:
 @pytest.mark.parametrize(("name", "size"), [("tcvn", (185, 55)), ("gost", (185, 55)), ("gb", (180, 56))])
 def test_a_block_has_the_size_of_its_standard(name: str, size: tuple[float, float]) -> None:
     assert read_block(blocks()[name]).size == size
+
+
+def test_a_block_in_chinese_differs_from_the_one_in_english_in_its_words_alone() -> None:
+    english, chinese = read_block(blocks()["gb"]), read_block(blocks(language="zh")["gb"])
+    assert [replace(cell, text="") for cell in english.cells] == [replace(cell, text="") for cell in chinese.cells]
+    told = "".join(re.sub(r"{\w+}", "", cell.text) for cell in chinese.cells)
+    assert not re.search("[A-Za-z]", told)
+    assert {"设计", "审核", "阶段标记", "比例"} <= {cell.text for cell in chinese.cells}
 
 
 def test_each_language_has_a_block() -> None:

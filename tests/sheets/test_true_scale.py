@@ -17,6 +17,7 @@ from typing import Any
 
 import pytest
 
+from reportgen.base.languages import DrawingSetting
 from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
@@ -301,7 +302,7 @@ def test_each_process_writes_the_same_file(tmp_path: Path) -> None:
 
 def test_the_letters_for_librecad_are_there() -> None:
     """The shipped font has all of Vietnamese and the Greek and signs of formulas; LibreCAD draws nothing for others."""
-    text = (ROOT / "templates" / "frames" / "letters" / f"{dxf.STYLE}.lff").read_text(encoding="utf-8")
+    text = (ROOT / "templates" / "frames" / "letters" / f"{DrawingSetting().style}.lff").read_text(encoding="utf-8")
     has = {chr(int(code, 16)) for code in re.findall(r"^\[([0-9a-f]{4,5})\]", text, re.MULTILINE)}
     vowels = [
         unicodedata.normalize("NFC", base + tone)

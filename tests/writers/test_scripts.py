@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.writers import typst
-from reportgen.writers.typst_fonts import MissingLettersWarning, lacking, needs_system_fonts, uncommon
+from reportgen.writers.typst_fonts import MissingLettersWarning, added, fonts_for, lacking, uncommon
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
 RARE = "\U00012000\U00014400\U00017000\U0001b170\U0001d800\U00016800\U00011a00\U000118a0"
@@ -37,14 +37,22 @@ def test_its_own_fonts_have_latin_and_no_chinese() -> None:
 def test_letters_that_no_font_has_are_named() -> None:
     missing = nowhere()
     with pytest.warns(MissingLettersWarning) as told:
-        needs_system_fonts(f"A {missing} B", lacking)
+        fonts_for(f"A {missing} B")
     assert told[0].message.letters == missing
 
 
 def test_a_text_in_the_usual_letters_is_set_with_the_fonts_it_brings() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        assert not needs_system_fonts(VIETNAMESE, lacking)
+        assert fonts_for(VIETNAMESE) == ((), False)
+
+
+def test_the_fonts_of_the_extra_go_before_those_of_the_system() -> None:
+    if not added():
+        pytest.skip("the extra zh is not installed")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert fonts_for("王小明：机构运动简图") == (added(), False)
 
 
 def test_what_the_system_has_is_printed() -> None:

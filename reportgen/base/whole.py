@@ -1,0 +1,60 @@
+"""Which kinds of work a language has whole words for: a language may be partial, a document never.
+
+Words are whole that have every section and every key of the language of reference; `reportgen words` says what else of
+them differs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from reportgen.base.kinds import kinds
+from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, kind_file, templates
+from reportgen.base.units import Language
+from reportgen.base.words import FILE, SECTION, load_words, sections
+
+UNTOLD = frozenset({"units", "symbols", "months"})
+"""Words that a language may do without."""
+
+
+@cache
+def is_whole(language: Language, kind: str) -> bool:
+    """Whether nothing that a report of this kind says is missing in the language."""
+    return _has_all(language) and not any(_missing(kind_file(language, kind), kind_file(REFERENCE, kind)))
+
+
+def offered(language: Language) -> list[str]:
+    """The kinds whose words are whole in a language."""
+    return [kind for kind in kinds() if is_whole(language, kind)]
+
+
+@cache
+def _has_all(language: Language) -> bool:
+    """Whether a language has all that the reports of all kinds say."""
+    if language in (DEFAULT_LANGUAGE, REFERENCE):
+        # The program's own tests hold these whole, and a file is checked sooner.
+        return True
+    own, reference = templates() / language, templates() / REFERENCE
+    if not (own / FILE).is_file() or any(_absent(load_words((own,)), load_words((reference,)))):
+        return False
+    return not any(name for file in reference.glob("*.md") for name in _missing(own / file.name, file))
+
+
+def _missing(own: Path, reference: Path) -> Iterator[str]:
+    """The sections and the words that a file lacks; all if there is no such file."""
+    here, there = sections(own), sections(reference)
+    yield from there.keys() - here.keys()
+    if SECTION in here and SECTION in there:
+        yield from _absent(load_words((own,)), load_words((reference,)))
+
+
+def _absent(own: Mapping[str, Any], reference: Mapping[str, Any]) -> Iterator[str]:
+    """Keys of a table, and of the tables in it, that another one lacks."""
+    for key in reference.keys() - UNTOLD:
+        if key not in own:
+            yield key
+        elif isinstance(reference[key], Mapping) and isinstance(own[key], Mapping):
+            yield from _absent(own[key], reference[key])

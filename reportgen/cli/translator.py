@@ -1,0 +1,32 @@
+"""The command of those who translate: the words of a language, compared and set to be read."""
+
+from __future__ import annotations
+
+import sys
+from typing import Annotated
+
+import typer
+
+from reportgen.cli.common import AT_FAULT, LangOption, ending, say
+
+
+def words(
+    place: Annotated[str, typer.Argument(metavar="LANG|DIR", help="A language, or the folder of one.")],
+    lang: LangOption = None,
+) -> None:
+    """Compare the words of a language with the English ones: what is missing, what says something else, by its line."""
+    from reportgen.api import wording
+    from reportgen.base.template_folders import LANGUAGE_FILE, languages
+    from reportgen.base.whole import offered
+    from reportgen.base.words import spoken
+
+    folder = wording.folder_of(place)
+    if not (folder / LANGUAGE_FILE).is_file():
+        raise typer.BadParameter(say("no_language", lang, place=place, known=", ".join(languages())))
+    with ending(lang):
+        problems = wording.compared(folder, lang or spoken())
+        for problem in problems:
+            print(problem, file=sys.stderr)
+        if place in languages():
+            print(say("offered", lang, language=place, known=", ".join(offered(place)) or "–"))
+        raise typer.Exit(AT_FAULT if any(problem.level == "error" for problem in problems) else 0)

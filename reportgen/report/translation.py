@@ -1,0 +1,332 @@
+"""Whether a language says all that the language of reference says: its files, its sections, its short words.
+
+Sections are compared by what does not depend on a language: the names that they call and show, the figures and sections
+that they refer to, their formulas, the levels of their headings.  Words are compared by their keys and gaps.  Each
+difference is a fault with its file and line.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from jinja2 import Environment, nodes
+
+from reportgen.base.errors import Fault, Mark, TemplateError
+from reportgen.base.gaps import gaps
+from reportgen.base.kinds import SAMPLE
+from reportgen.base.languages import MobilityNotation, read_setting
+from reportgen.base.source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, text_in
+from reportgen.base.template_folders import LANGUAGE_FILE, MACHINES, REFERENCE, templates
+from reportgen.base.words import SECTION, Passage, sections
+
+GLOSSARY = "glossary.yaml"
+FIELDS = "fields"
+"""The section of what the keys of a kind's file are called."""
+MESSAGES = frozenset({"messages.yaml", "help.yaml", "fields.yaml"})
+"""Files whose words come in the language of reference where another one does not have them."""
+MOBILITY = "mobility_line()"
+"""What sets the formula of mobility, whose letters are the language's own."""
+GRAMMAR = frozenset({"lowered", "turn_words", "words"})
+"""Names that only fit a word into a sentence."""
+FREE_LISTS = frozenset({"columns", "dates", "judgements", "counted"})
+"""Words under these keys are as many as the language has: ways to be read, forms for one and for several."""
+ONE_SIDED = frozenset({("cover", "months"), ("units",), ("symbols",), ("frame", "pieces"), ("texts",)})
+"""Tables that a language may have as it wants: some dates count the month, some indices are their own."""
+_REFERENCE = re.compile(r"@((?:fig|tab|sec|eq)\.[\w.-]*\w)")
+_FORMULA = re.compile(r"\$([^$\n]+)\$")
+_HEADING = re.compile(r"(?m)^(#+) ")
+_LETTERS = re.compile(r"[^\W\d_]{2}")
+_IN_BRACES = re.compile(r"\{[{%#].*?[%}#]\}", re.DOTALL)
+ENDINGS = (0, 0, 0, 0, 1, 1, 2, 2, 3, 3, 3, 4, 4, 5)
+"""How many letters of a word may be an ending, by its length."""
+
+Lacking = Callable[[str], str]
+"""Those of some letters that no font has."""
+
+
+def faults(folder: Path, lacking: Lacking | None = None) -> Iterator[Fault]:
+    """What a language's folder does not say as the language of reference does.
+
+    Files of kinds that are not begun are no fault; a kind that is begun is compared whole.  Raises `TemplateError` for
+    what cannot be read.
+    """
+    letters = frozenset((*read_setting(folder / LANGUAGE_FILE).mobility.letters, *MobilityNotation().letters))
+    reference = templates() / REFERENCE
+    own, wanted = _files(folder), _files(reference)
+    needed = {name for name in wanted if not name.startswith(f"{MACHINES}/")} - MESSAGES
+    yield from _differences("file", own, needed | own & wanted, Mark(str(folder)))
+    terms = _terms(folder.name)
+    for name in sorted(own & wanted - {LANGUAGE_FILE}):
+        file = folder / name
+        if file.suffix == ".md":
+            yield from _sections(file, reference / name, terms, letters)
+        else:
+            differences = _tables(_read(file), _read(reference / name))
+            yield from map(_untranslated, differences) if name in MESSAGES else differences
+        if lacking is not None:
+            yield from _lines_of(file, lacking)
+
+
+def _untranslated(fault: Fault) -> Fault:
+    """What is missing of the program's own messages comes in the language of reference."""
+    return replace(fault, code="words-untranslated") if fault.code == "words-missing" else fault
+
+
+def _files(folder: Path) -> set[str]:
+    paths = (path for path in folder.rglob("*") if path.is_file() and path.suffix in (".md", ".yaml"))
+    return {path.relative_to(folder).as_posix() for path in paths}
+
+
+def _differences(what: str, own: Set[str], wanted: Set[str], mark: Mark) -> Iterator[Fault]:
+    """What of some names is missing here, and what the language of reference does not have."""
+    for code, names in (("words-missing", wanted - own), ("words-beyond", own - wanted)):
+        if names:
+            yield Fault(code, mark, {"expected": f"{what} of words", "place": ", ".join(sorted(names))})
+
+
+# --- sections ---------------------------------------------------------------------------------------
+
+
+def _sections(file: Path, model: Path, terms: Terms, free: Set[str]) -> Iterator[Fault]:
+    """What differs between two files of sections; letters that are `free` stand in the formula of mobility."""
+    own, wanted = sections(file), sections(model)
+    yield from _differences("section", own.keys(), wanted.keys(), Mark(str(file)))
+    for name in (name for name in wanted if name in own):
+        here, there = own[name], wanted[name]
+        if name in (SECTION, FIELDS):
+            yield from _tables(_read_in(here), _read_in(there), here.line)
+        elif name != SAMPLE:
+            yield from _compared(here, there, free)
+            yield from terms.faults(here, there)
+
+
+def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
+    """What differs between a section and that of reference."""
+    mark, own, wanted = Mark(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
+    if MOBILITY not in wanted.calls:
+        free = frozenset()
+    for what in ("call", "name", "reference", "formula"):
+        of_own, of_reference = (frozenset(getattr(one, f"{what}s")) - free for one in (own, wanted))
+        yield from _differences(what, of_own, of_reference, mark)
+    if own.headings != wanted.headings:
+        yield Fault("words-headings", mark, {"place": _marks(own.headings), "known": _marks(wanted.headings)})
+    for line, text in own.in_braces:
+        yield Fault("words-in-braces", Mark(str(here.file), here.line + line), {"text": text})
+
+
+def _marks(levels: Iterable[int]) -> str:
+    return " ".join("#" * level for level in levels) or "–"
+
+
+@dataclass(frozen=True, slots=True)
+class SectionContents:
+    """What a section has whatever its language, and the words that stand in its braces, by their lines."""
+
+    calls: frozenset[str]
+    names: frozenset[str]
+    references: frozenset[str]
+    formulas: frozenset[str]
+    headings: tuple[int, ...]
+    in_braces: tuple[tuple[int, str], ...]
+
+    @staticmethod
+    def of(section: Passage) -> SectionContents:
+        """The contents of a section.  Raises `TemplateError` for what Jinja cannot read."""
+        tree = parsed(section)
+        text = "".join(data.data for data in tree.find_all(nodes.TemplateData))
+        calls: set[str] = set()
+        names: set[str] = set()
+        for node in tree.find_all(nodes.Node):
+            match node:
+                case nodes.Call(node=nodes.Name(name=name)) if name not in GRAMMAR:
+                    calls.add(f"{name}()")
+                case nodes.Const(value=str(value)) if re.fullmatch(r"[a-z]+\.[\w.]*", value):
+                    calls.add(value)
+                case nodes.For():
+                    calls.add("for")
+                case nodes.Include():
+                    calls.add("include")
+                case nodes.Output(nodes=shown):
+                    names |= {name.name for part in shown for name in _names(part)}
+        return SectionContents(
+            frozenset(calls),
+            frozenset(names - GRAMMAR),
+            frozenset(_REFERENCE.findall(text)),
+            frozenset(_FORMULA.findall(text)),
+            tuple(len(marks) for marks in _HEADING.findall(text)),
+            tuple((leaf.lineno, leaf.value) for leaf in _words_in_braces(tree)),
+        )
+
+
+def parsed(section: Passage) -> nodes.Template:
+    """A section as Jinja reads it.  Raises `TemplateError` with its line for what it cannot."""
+    from jinja2 import TemplateSyntaxError
+
+    try:
+        # It is read and never rendered.
+        return Environment(autoescape=True).parse(section.text)
+    except TemplateSyntaxError as error:
+        raise TemplateError(f"{section.file}:{section.line + error.lineno}: {error.message}") from error
+
+
+def _names(part: nodes.Node) -> Iterator[nodes.Name]:
+    if isinstance(part, nodes.Name):
+        yield part
+    yield from part.find_all(nodes.Name)
+
+
+def _words_in_braces(tree: nodes.Template) -> Iterator[nodes.Const]:
+    """Texts with words that a template prints out of its braces, where no other language can say them otherwise."""
+    for node in tree.find_all((nodes.Output, nodes.Assign)):
+        parts = node.nodes if isinstance(node, nodes.Output) else [*node.find_all(nodes.Expr)][1:2]
+        yield from (leaf for part in parts for leaf in _printed(part))
+
+
+def _printed(part: nodes.Node) -> Iterator[nodes.Const]:
+    match part:
+        case nodes.Const(value=str(value)):
+            # An option of the command line is a name.
+            if _LETTERS.search(value) and not value.startswith("--"):
+                yield part
+        case nodes.TemplateData() | nodes.Call() | nodes.Compare() | nodes.Getitem() | nodes.Test():
+            return
+        case _:
+            for inner in part.iter_child_nodes():
+                yield from _printed(inner)
+
+
+# --- tables of words --------------------------------------------------------------------------------
+
+
+def _read(file: Path) -> Source:
+    text = text_in(file)
+    if isinstance(text, Fault):
+        raise TemplateError(f"{file}: {text.wordless}")
+    return _sound(read_own(text, str(file)), 0)
+
+
+def _read_in(section: Passage) -> Source:
+    return _sound(read_own(section.text, str(section.file)), section.line)
+
+
+def _sound(source: Source, above: int) -> Source:
+    if source.faults:
+        first = source.faults[0]
+        raise TemplateError(f"{source.file}:{first.mark.line + above}: {first.wordless}")
+    return source
+
+
+def _tables(own: Source, wanted: Source, above: int = 0) -> Iterator[Fault]:
+    """What differs between two tables of words; the first begins below line `above` of its file."""
+    if own.top is not None and wanted.top is not None:
+        yield from _node(own.top, wanted.top, (), above)
+
+
+def _node(
+    own: Node,
+    wanted: Node,
+    where: tuple[str, ...],
+    above: int,
+    around: tuple[Set[str], ...] = (frozenset(), frozenset()),
+) -> Iterator[Fault]:
+    """What differs at a place of two tables; `around` are the gaps of what lies about it in that of reference."""
+    mark = Mark(own.mark.file, own.mark.line + above, own.mark.column)
+    match own, wanted:
+        case MappingNode(), MappingNode():
+            if where in ONE_SIDED:
+                return
+            here, there = ({key.text: value for key, value in table.entries} for table in (own, wanted))
+            optional = {one[-1] for one in ONE_SIDED if one[:-1] == where}
+            yield from _differences("key", here.keys() - optional, there.keys() - optional, mark)
+            near = (around[-1], frozenset(_all_gaps(wanted)) if where else frozenset())
+            for key in (key for key in there if key in here):
+                yield from _node(here[key], there[key], (*where, key), above, near)
+        case SequenceNode(), SequenceNode():
+            if not FREE_LISTS & {*where} and len(own.items) != len(wanted.items):
+                yield Fault("words-list", mark, {"count": str(len(own.items)), "known": str(len(wanted.items))})
+            for here_item, there_item in zip(own.items, wanted.items, strict=False):
+                yield from _node(here_item, there_item, where, above, around)
+        case Scalar(), Scalar():
+            if not FREE_LISTS & {*where}:
+                here_gaps, there_gaps = _gaps(own, mark), _gaps(wanted, wanted.mark)
+                # A language may name again what its neighbours name.
+                known = here_gaps & frozenset().union(*around)
+                yield from _differences("gap", here_gaps - (known - there_gaps), there_gaps, mark)
+        case _ if not FREE_LISTS & {*where}:
+            yield Fault("words-form", mark, {"place": ".".join(where)})
+
+
+def _all_gaps(node: Node) -> Iterator[str]:
+    match node:
+        case MappingNode(entries):
+            for _, value in entries:
+                yield from _all_gaps(value)
+        case SequenceNode(items):
+            for item in items:
+                yield from _all_gaps(item)
+        case Scalar():
+            yield from _gaps(node, node.mark)
+
+
+def _gaps(said: Scalar, mark: Mark) -> frozenset[str]:
+    """The gaps of a word, whatever form of them a language takes: {Shaft} as {shaft}, {month_name} as {month}."""
+    try:
+        return frozenset(gap.casefold().removesuffix("_name") or gap for gap in gaps(said.text))
+    except ValueError as error:
+        raise TemplateError(f"{mark}: {error}") from error
+
+
+# --- letters ----------------------------------------------------------------------------------------
+
+
+def _lines_of(file: Path, lacking: Lacking) -> Iterator[Fault]:
+    """The lines of a file with letters that no font has."""
+    text = file.read_text(encoding="utf-8")
+    letters = "".join({letter: None for letter in text if unicodedata.category(letter)[0] in "LNPS"})
+    missing = frozenset(lacking(letters))
+    for number, line in enumerate(text.splitlines() if missing else (), start=1):
+        if strange := [letter for letter in dict.fromkeys(line) if letter in missing]:
+            yield Fault("words-letters", Mark(str(file), number), {"text": " ".join(strange)})
+
+
+# --- terms ------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Terms:
+    """What a language calls the terms of the glossary: for each the name in the language of reference, as it is found
+    in a text, and its own names, any of which will do."""
+
+    names: Mapping[str, tuple[re.Pattern[str], Mapping[str, re.Pattern[str]]]]
+
+    def faults(self, here: Passage, there: Passage) -> Iterator[Fault]:
+        """The terms of a section of reference that this one says otherwise."""
+        wanted, text = (_IN_BRACES.sub(" ", section.text) for section in (there, here))
+        for term, (in_reference, own) in self.names.items():
+            if in_reference.search(wanted) and not any(pattern.search(text) for pattern in own.values()):
+                mark = Mark(str(here.file), here.line)
+                yield Fault("words-term", mark, {"text": term, "known": ", ".join(own)})
+
+
+def _terms(language: str) -> Terms:
+    """The terms of the glossary that a language has; none for the language of reference."""
+    top = _read(templates() / GLOSSARY).top
+    table = plain(top)["terms"] if isinstance(top, MappingNode) else {}
+    names_of: dict[str, tuple[re.Pattern[str], Mapping[str, re.Pattern[str]]]] = {}
+    for term, names in table.items():
+        own = names.get(language, ())
+        if listed := [own] if isinstance(own, str) else own:
+            in_reference = re.compile(rf"\b{re.escape(term)}(s|es)?\b", re.IGNORECASE)
+            names_of[term] = in_reference, {name: _inflected(name) for name in listed}
+    return Terms(names_of)
+
+
+def _inflected(name: str) -> re.Pattern[str]:
+    """A name in any of its forms: long words may end otherwise, and up to three words may stand between two."""
+    stems = [re.escape(word[: len(word) - ENDINGS[min(len(word), len(ENDINGS) - 1)]]) for word in name.split()]
+    begins = r"\b" if name[:1] < "\u2e80" else ""
+    return re.compile(begins + r"\w*\W+(?:\w+\W+){0,3}?".join(stems), re.IGNORECASE)

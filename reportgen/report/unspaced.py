@@ -1,0 +1,88 @@
+"""Lines of a language that sets no blanks between words, and marks of its own between them.
+
+What code puts between inlines, blanks, commas, parentheses, is written as in English; a line that has letters of such
+a language gets its marks here, once for all writers: full-width, and no blank on either side of them or of its letters.
+Only a formula or a value has one on the side of a letter, as typesetters leave a gap there between letters of two
+scripts; between letters they do so themselves.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from reportgen import report as tree
+from reportgen.formula import Symbol
+
+_NARROW, _FORMULAS, _WIDE = 0xF0000, 0xF8000, 0x100000
+"""Where the private characters begin that stand for inlines other than text, by what they begin and end with."""
+_W = "\u2e80-\u303f\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\uff01-\uff5e\U00100000-\U0010fffd"
+"""Han letters, and marks as wide as these."""
+_HELD = "\U000f0000-\U000fffef"
+_HAN = "\u3400-\u4dbf\u4e00-\u9fff"
+_MATH = "\U000f8000-\U000fffef"
+_WIDE_LETTER = re.compile(f"[{_W}]")
+_MARKS: Mapping[str, str] = {",": "，", ";": "；", ":": "：", ".": "。", "?": "？", "!": "！"}
+_PARENTHESES = re.compile(r" *\(([^()]*)\)")
+_AFTER = f"(?<=[{_W}]) *[,;:?!] *|(?<=[{_W}]) *\\.(?= |$) *"
+_MARK = re.compile(f"{_AFTER}|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$")
+_BETWEEN = re.compile(f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])")
+_FORMULA = re.compile(f"(?<=[{_HAN}])(?=[{_MATH}])|(?<=[{_MATH}])(?=[{_HAN}])")
+_BLANK = re.compile(f"(?<=[{_W}]) +(?![=<>≥≤≈±×·→≡−+–])|(?<![=<>≥≤≈±×·→≡−+–]) +(?=[{_W}])")
+
+
+def unspaced(inlines: tree.Inlines) -> tree.Inlines:
+    """A line with the marks of Chinese; one without a letter of it stays as it is."""
+    held: list[tree.Inline] = []
+    line = "".join(_letters(inline, held) for inline in inlines)
+    if not _WIDE_LETTER.search(line):
+        return inlines
+    symbols = {chr(_FORMULAS + n) for n, one in enumerate(held) if _is_symbol(one)}
+    return tuple(_inlines(_set(line, symbols), held))
+
+
+def _set(line: str, symbols: set[str]) -> str:
+    """The text of a line, in which private characters stand for what is no text, with its marks."""
+
+    def parenthesis(match: re.Match[str]) -> str:
+        around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
+        # With a blank before it, it is a remark and no part of a formula.
+        return f"（{match[1]}）" if match[0][0] == " " or _WIDE_LETTER.search(around) else match[0]
+
+    def between(match: re.Match[str]) -> str:
+        if match[1] != ",":
+            return _MARKS[match[1]]
+        sides = match.string[match.start() - 1], match.string[match.end()]
+        return "、" if all(side.isalnum() or side in symbols for side in sides) else "，"
+
+    line = _PARENTHESES.sub(parenthesis, line)
+    line = _MARK.sub(lambda match: _MARKS[match[0].strip()[0]], line)
+    return _FORMULA.sub(" ", _BLANK.sub("", _BETWEEN.sub(between, line)))
+
+
+def _letters(inline: tree.Inline, held: list[tree.Inline]) -> str:
+    """What stands for an inline in the text of its line: its letters, or one private character."""
+    if isinstance(inline, tree.Text):
+        return inline.text
+    begins = _FORMULAS if isinstance(inline, (tree.InlineMath, tree.Value)) else _NARROW
+    if isinstance(inline, (tree.Emph, tree.Strong)):
+        inner = "".join(one.text for one in inline.of if isinstance(one, tree.Text))
+        begins = _WIDE if _WIDE_LETTER.search(inner) else _NARROW
+        inline = type(inline)(unspaced(inline.of))
+    held.append(inline)
+    return chr(begins + len(held) - 1)
+
+
+def _is_symbol(inline: tree.Inline) -> bool:
+    return isinstance(inline, tree.InlineMath) and isinstance(inline.expression, Symbol)
+
+
+def _inlines(line: str, held: list[tree.Inline]) -> list[tree.Inline]:
+    """The inlines of a line again."""
+    parts: list[tree.Inline] = []
+    for piece in re.split(f"([{_HELD}\U00100000-\U0010fffd])", line):
+        if len(piece) == 1 and ord(piece) >= _NARROW:
+            parts.append(held[ord(piece) - max(one for one in (_NARROW, _FORMULAS, _WIDE) if one <= ord(piece))])
+        elif piece:
+            parts.append(tree.Text(piece))
+    return parts
