@@ -24,6 +24,7 @@ _MATH = "\U000f8000-\U000fffef"
 _WIDE_LETTER = re.compile(f"[{_W}]")
 _MARKS: Mapping[str, str] = {",": "，", ";": "；", ":": "：", ".": "。", "?": "？", "!": "！"}
 _PARENTHESES = re.compile(r" *\(([^()]*)\)")
+_SUM = re.compile(" [+−·] ")
 _AFTER = f"(?<=[{_W}]) *[,;:?!] *|(?<=[{_W}]) *\\.(?= |$) *"
 _MARK = re.compile(f"{_AFTER}|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$")
 _BETWEEN = re.compile(f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])")
@@ -46,8 +47,9 @@ def _set(line: str, symbols: set[str]) -> str:
 
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
-        # With a blank before it, it is a remark and no part of a formula.
-        return f"（{match[1]}）" if match[0][0] == " " or _WIDE_LETTER.search(around) else match[0]
+        # With a blank before it, it is a remark, unless it is a sum, as in a formula that is written out.
+        remark = match[0][0] == " " and not _SUM.search(match[1])
+        return f"（{match[1]}）" if remark or _WIDE_LETTER.search(around) else match[0]
 
     def between(match: re.Match[str]) -> str:
         if match[1] != ",":
