@@ -119,6 +119,8 @@ def write(
     written = written or report(document)
     moving_styles, moving_scripts = (MOVING_STYLES, MOVING_SCRIPTS) if panels else ((), ())
     styles = [read(name) for name in (*STYLES, *moving_styles, *(live.styles if live else ()))]
+    if fonts := setting_of(document.language).typst.fonts:
+        styles.insert(1, f":root{{--serif:{','.join(map(quoted, fonts))},serif;text-autospace:normal}}")
     rules = {"moving": rules_of(panels), "report": written.rules}
     # Rules that change while the page is read are the script's to put in.
     styles += [] if live else rules.values()

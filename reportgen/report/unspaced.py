@@ -24,6 +24,7 @@ _MATH = "\U000f8000-\U000fffef"
 _WIDE_LETTER = re.compile(f"[{_W}]")
 _MARKS: Mapping[str, str] = {",": "，", ";": "；", ":": "：", ".": "。", "?": "？", "!": "！"}
 _PARENTHESES = re.compile(r" *\(([^()]*)\)")
+_TERMS = re.compile("[+−·]|cos|sin")
 _AFTER = f"(?<=[{_W}]) *[,;:?!] *|(?<=[{_W}]) *\\.(?= |$) *"
 _MARK = re.compile(f"{_AFTER}|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$")
 _BETWEEN = re.compile(f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])")
@@ -46,8 +47,10 @@ def _set(line: str, symbols: set[str]) -> str:
 
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
-        # With a blank before it, it is a remark and no part of a formula.
-        return f"（{match[1]}）" if match[0][0] == " " or _WIDE_LETTER.search(around) else match[0]
+        # With a blank before it, it is a remark; a sum or a product in it is part of a formula, whatever stands around.
+        remark = match[0][0] == " " or _WIDE_LETTER.search(around)
+        formula = _TERMS.search(match[1]) and not _WIDE_LETTER.search(match[1])
+        return f"（{match[1]}）" if remark and not formula else match[0]
 
     def between(match: re.Match[str]) -> str:
         if match[1] != ",":
