@@ -46,10 +46,10 @@ def _set(line: str, symbols: set[str]) -> str:
     """The text of a line, in which private characters stand for what is no text, with its marks."""
 
     def parenthesis(match: re.Match[str]) -> str:
-        around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
-        # With a blank before it, it is a remark, unless it is a sum, as in a formula that is written out.
-        remark = match[0][0] == " " and not _SUM.search(match[1])
-        return f"（{match[1]}）" if remark or _WIDE_LETTER.search(around) else match[0]
+        # A sum stands in a formula that is written out; else it is a remark with a blank before it, or beside letters.
+        beside = "" if _SUM.search(match[1]) else line[: match.start()][-1:] + line[match.end() :][:1]
+        remark = beside and match[0][0] == " "
+        return f"（{match[1]}）" if remark or _WIDE_LETTER.search(match[1] + beside) else match[0]
 
     def between(match: re.Match[str]) -> str:
         if match[1] != ",":

@@ -31,7 +31,8 @@ EQUATION = InlineMath(Chain((Symbol("v"), Number(2))))
         ((Text("见 feedback.pdf, 共 3.5 页"),), "见feedback.pdf，共3.5页"),
         ((Text("f(x) 为奇函数"),), "f(x)为奇函数"),
         ((Text("由 tan α = (s − e)/(s₀ + s) 求得"),), "由tan α = (s − e)/(s₀ + s)求得"),
-        ((Text("其力矩为 "), V, Text(" ("), B, Text(" − 1) , 依次")), "其力矩为 v_B (B − 1)，依次"),
+        ((Text("其力矩为 "), V, Text(" ("), B, Text(" − 1), 依次")), "其力矩为 v_B (B − 1)，依次"),
+        ((Text("效率 (上升 − 下降) 为 "), SIZE), "效率（上升 − 下降）为 3.5 m/s"),
     ],
 )
 def test_marks_are_full_width_and_blanks_fall(inlines: tuple, expected: str) -> None:
