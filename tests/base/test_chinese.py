@@ -10,7 +10,9 @@ from reportgen.base.chinese import full_name, is_gbk, joined, narrow
 from reportgen.base.source import decoded, encoding_of
 
 ROSTER = "学号,姓名,班级\n2021010234,王小明,机械2101\n2021010235,李喆,机械2101\n"
-SHEET = "答题表 – 2021010234\n代号,符号,名称,单位,数值\nomega.1,?,曲柄的角速度,rad/s,9.32\nmu.l,μl,长度比例尺,m/mm,0.004\n"
+SHEET = (
+    "答题表 – 2021010234\n代号,符号,名称,单位,数值\nomega.1,?,曲柄的角速度,rad/s,9.32\nmu.l,μl,长度比例尺,m/mm,0.004\n"
+)
 ELSEWHERE = {
     "cp1258": "id,họ tên,lớp\n1,Nguyễn Văn Ánh,46\n2,Trần Đức Thắng,47\n",
     "latin-1": "id,name\n1,José Müller\n2,Zoë Ångström\nÀÉÎ\n",
