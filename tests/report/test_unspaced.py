@@ -32,6 +32,7 @@ EQUATION = InlineMath(Chain((Symbol("v"), Number(2))))
         ((Text("f(x) 为奇函数"),), "f(x)为奇函数"),
         ((Text("由 tan α = (s − e)/(s₀ + s) 求得"),), "由tan α = (s − e)/(s₀ + s)求得"),
         ((Text("其力矩为 "), V, Text(" ("), B, Text(" − 1), 依次")), "其力矩为 v_B (B − 1)，依次"),
+        ((Text("由 (s − e)/(a sin q), 知 f(x)为奇函数"),), "由(s − e)/(a sin q)，知f(x)为奇函数"),
         ((Text("效率 (上升 − 下降) 为 "), SIZE), "效率（上升 − 下降）为 3.5 m/s"),
     ],
 )
