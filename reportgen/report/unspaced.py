@@ -24,7 +24,7 @@ _MATH = "\U000f8000-\U000fffef"
 _WIDE_LETTER = re.compile(f"[{_W}]")
 _MARKS: Mapping[str, str] = {",": "，", ";": "；", ":": "：", ".": "。", "?": "？", "!": "！"}
 _PARENTHESES = re.compile(r" *\(([^()]*)\)")
-_SUM, _OF_FORMULA = re.compile(" [+−·] "), re.compile("[A-Za-z/]")
+_TERMS = re.compile("[+−·]|cos|sin")
 _AFTER = f"(?<=[{_W}]) *[,;:?!] *|(?<=[{_W}]) *\\.(?= |$) *"
 _MARK = re.compile(f"{_AFTER}|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$")
 _BETWEEN = re.compile(f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])")
@@ -46,12 +46,11 @@ def _set(line: str, symbols: set[str]) -> str:
     """The text of a line, in which private characters stand for what is no text, with its marks."""
 
     def parenthesis(match: re.Match[str]) -> str:
-        # Sums, divisors, arguments stand in formulas; else it is a remark with a blank before it, or beside letters.
-        before, after = line[: match.start()][-1:], line[match.end() :][:1]
-        written_out = _SUM.search(match[1]) or (match[0][0] == "(" and _OF_FORMULA.match(before))
-        beside = "" if written_out else before + after
-        remark = beside and match[0][0] == " "
-        return f"（{match[1]}）" if remark or _WIDE_LETTER.search(match[1] + beside) else match[0]
+        around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
+        # With a blank before it, it is a remark; a sum or a product in it is part of a formula, whatever stands around.
+        remark = match[0][0] == " " or _WIDE_LETTER.search(around)
+        formula = _TERMS.search(match[1]) and not _WIDE_LETTER.search(match[1])
+        return f"（{match[1]}）" if remark and not formula else match[0]
 
     def between(match: re.Match[str]) -> str:
         if match[1] != ",":

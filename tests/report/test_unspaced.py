@@ -23,6 +23,11 @@ EQUATION = InlineMath(Chain((Symbol("v"), Number(2))))
         ((Text("电动机 ("), SIZE, Text(", "), SIZE, Text("); 见下")), "电动机（3.5 m/s，3.5 m/s）；见下"),
         ((Text("各点的速度 (2/3)"),), "各点的速度（2/3）"),
         ((Text("依次作 "), SIZE, Text(" ("), V, Text("), "), SIZE, Text(".")), "依次作 3.5 m/s（v_B），3.5 m/s。"),
+        (
+            (Text("由 tan "), B, Text(" = "), V, Text("/("), B, Text(" + "), V, Text(") 确定")),
+            "由tan B = v_B/(B + v_B)确定",
+        ),
+        ((Text("为 r (cos 2"), B, Text(" + …) , 见图")), "为r (cos 2B + …)，见图"),
         ((Text("平衡力矩: "), V), "平衡力矩：v_B"),
         ((Text("如图 "), Reference("fig", "1.2"), Text(" 所示;")), "如图1.2所示；"),
         ((Text("距离 "), V, Text(" = "), SIZE), "距离 v_B = 3.5 m/s"),
@@ -31,9 +36,7 @@ EQUATION = InlineMath(Chain((Symbol("v"), Number(2))))
         ((Text("见 feedback.pdf, 共 3.5 页"),), "见feedback.pdf，共3.5页"),
         ((Text("f(x) 为奇函数"),), "f(x)为奇函数"),
         ((Text("由 tan α = (s − e)/(s₀ + s) 求得"),), "由tan α = (s − e)/(s₀ + s)求得"),
-        ((Text("其力矩为 "), V, Text(" ("), B, Text(" − 1), 依次")), "其力矩为 v_B (B − 1)，依次"),
-        ((Text("由 (s − e)/(a sin q), 知 f(x)为奇函数"),), "由(s − e)/(a sin q)，知f(x)为奇函数"),
-        ((Text("效率 (上升 − 下降) 为 "), SIZE), "效率（上升 − 下降）为 3.5 m/s"),
+        ((Text("其力矩为 "), V, Text(" ("), B, Text(" − 1) , 依次")), "其力矩为 v_B (B − 1)，依次"),
     ],
 )
 def test_marks_are_full_width_and_blanks_fall(inlines: tuple, expected: str) -> None:
