@@ -56,10 +56,10 @@ def typeset(
             raise TypesetterError(word("typst_alone", tree.language, language=tree.language))
         compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
         return compiled.source, compiled.pdf
-    from reportgen.writers import typst
+    from reportgen.writers import typst, typst_compiler
 
     source = typst.write(tree, letter)
-    return source, typst.compile(source, bool(letter.font), standards)
+    return source, typst_compiler.compile(source, bool(letter.font), standards)
 
 
 def typeset_sheet(
@@ -69,11 +69,11 @@ def typeset_sheet(
 
     Raises `TypesetterError`.
     """
-    from reportgen.writers import typst
+    from reportgen.writers import typst, typst_compiler
 
     step("typeset")
     said = assignment.report
     source = typst.write_sheet(
         sheet, title, assignment.language, phrases, author=said.student.name or "", date=said.date
     )
-    return typst.compile(source, standards=standards)
+    return typst_compiler.compile(source, standards=standards)

@@ -18,69 +18,20 @@ from typing import Any, Literal, Self
 from reportgen.base.languages import setting_of
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
-from reportgen.formula import Expression, Number
+from reportgen.formula import Expression
 from reportgen.formula.plain import formula, quantity
-
-# --- inlines --------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, slots=True)
-class Text:
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class Emph:
-    of: tuple[Inline, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Strong:
-    of: tuple[Inline, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class InlineMath:
-    """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
-
-    expression: Expression
-    slashed: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Value:
-    """A number with its unit inside a line or a table cell."""
-
-    number: Number
-
-
-@dataclass(frozen=True, slots=True)
-class Reference:
-    """The number of the block called `key`, linked; `text` is filled in by numbering."""
-
-    key: str
-    text: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class LineBreak:
-    pass
-
-
-@dataclass(frozen=True, slots=True)
-class Blank:
-    """A place to fill in, by the `name` of what belongs there and how it is `called` where a name holds less."""
-
-    name: str
-    called: str
-    title: str = ""
-
-
-DOTS = "……"
-"""What a blank shows."""
-
-Inline = Text | Emph | Strong | InlineMath | Value | Reference | LineBreak | Blank
-Inlines = tuple[Inline, ...]
+from reportgen.report.inlines import DOTS as DOTS
+from reportgen.report.inlines import Blank as Blank
+from reportgen.report.inlines import Emph as Emph
+from reportgen.report.inlines import Inline as Inline
+from reportgen.report.inlines import InlineMath as InlineMath
+from reportgen.report.inlines import Inlines as Inlines
+from reportgen.report.inlines import LineBreak as LineBreak
+from reportgen.report.inlines import Reference as Reference
+from reportgen.report.inlines import Strong as Strong
+from reportgen.report.inlines import Text as Text
+from reportgen.report.inlines import Value as Value
+from reportgen.report.unspaced import unspaced
 
 # --- blocks ---------------------------------------------------------------------------------------
 
@@ -361,8 +312,6 @@ def listed(parts: Iterable[Inline]) -> Inlines:
 def plain(inlines: Inlines, language: Language) -> str:
     """The text of inlines in one line, with the marks of the language."""
     if not setting_of(language).spaced:
-        from reportgen.report.unspaced import unspaced
-
         inlines = unspaced(inlines)
     result = []
     for inline in inlines:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
-from reportgen.writers import typst
+from reportgen.writers import typst, typst_compiler
 from reportgen.writers.drawing import paint_typst
 from reportgen.writers.typst_math import TypstFormulas
 
@@ -19,18 +19,18 @@ def svgs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
     # Letters are symbols that are used; groups that are used look the same, and more programs know them.
     return [
         svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>")
-        for svg in typst.compile_as(_source(scenes, language), "svg")
+        for svg in typst_compiler.compile_as(_source(scenes, language), "svg")
     ]
 
 
 def pngs(scenes: Sequence[Scene], language: Language, dpi: int = DPI) -> list[bytes]:
     """Scenes as PNG of `dpi` dots an inch.  Raises `TypesetterError`."""
-    return typst.compile_as(_source(scenes, language), "png", dpi=dpi)
+    return typst_compiler.compile_as(_source(scenes, language), "png", dpi=dpi)
 
 
 def pdfs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
     """A PDF for each scene.  Raises `TypesetterError`."""
-    return [typst.compile(_source([scene], language), standards=()) for scene in scenes]
+    return [typst_compiler.compile(_source([scene], language), standards=()) for scene in scenes]
 
 
 def for_word(scenes: Sequence[Scene], language: Language) -> list[tuple[bytes, bytes]]:

@@ -35,7 +35,7 @@ STEPS = {
     "reportgen.report.outline.compose": "text and figures",
     "reportgen.drawing.labels.place": "places of labels",
     "reportgen.writers.typst.write": "source",
-    "reportgen.writers.typst.compile": "typesetting",
+    "reportgen.writers.typst_compiler.compile": "typesetting",
     "reportgen.writers.latex.write": "source",
     "reportgen.writers.pdflatex.compile": "typesetting",
 }

@@ -28,7 +28,7 @@ from reportgen.drawing.statistics import intervals, scatter
 from reportgen.report import Document, Figure, Plate
 from reportgen.report.telling import MOST, figure_text, sentences
 from reportgen.sheets import drawing_sheets
-from reportgen.writers import typst
+from reportgen.writers import typst, typst_compiler
 from tests.lanes import matrix
 
 ROOT = Path(__file__).parents[2] / "assignments"
@@ -164,7 +164,7 @@ def test_pdf_page_and_word_tell_the_same() -> None:
     pymupdf = pytest.importorskip("pymupdf")
     name, language = "slider-crank-01.yaml", "en"
     texts = [text for _, _, text in drawings(name, language)]
-    with pymupdf.open(stream=typst.compile(typst.write(document(name, language)))) as pdf:
+    with pymupdf.open(stream=typst_compiler.compile(typst.write(document(name, language)))) as pdf:
         assert alternatives(pdf) == texts
     page = api.page_files(ROOT / name, "typst", language)
     html = next(iter(page.values())).decode()

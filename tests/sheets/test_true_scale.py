@@ -27,7 +27,7 @@ from reportgen.plans.sides import image
 from reportgen.report.plans import motion_construction
 from reportgen.report.report import Report
 from reportgen.sheets import dxf
-from reportgen.writers import typst
+from reportgen.writers import typst, typst_compiler
 from tests.lanes import matrix, proof
 from tests.sheets.laid import MACHINES, ROOT, laid, plates
 
@@ -232,7 +232,8 @@ def test_distances_of_instant_centres_are_those_printed(name: str) -> None:
 @pytest.mark.parametrize("name", matrix(MACHINES, TELLING[:1]))
 def test_all_arrows_are_as_long_on_paper_as_in_cad(name: str) -> None:
     for number, sheet in enumerate(laid(name, "A1").sheets):
-        with pymupdf.open(stream=typst.compile(typst.write_sheet(sheet, "", "vi", PHRASES)), filetype="pdf") as pdf:
+        source = typst.write_sheet(sheet, "", "vi", PHRASES)
+        with pymupdf.open(stream=typst_compiler.compile(source), filetype="pdf") as pdf:
             assert pdf.page_count == 1
             size = pdf[0].rect
             assert abs(size.width / pages.MM - sheet.width) < 0.1
@@ -289,7 +290,7 @@ def test_the_file_is_sound_and_shows_the_whole_sheet(name: str) -> None:
 def test_the_same_sheet_gives_the_same_bytes() -> None:
     sheet = laid("four-bar-01", "A1").sheets[0]
     assert dxf.write_sheet(sheet, "vi") == dxf.write_sheet(sheet, "vi")
-    assert typst.compile(typst.write_sheet(sheet, "", "vi", PHRASES)) == typst.compile(
+    assert typst_compiler.compile(typst.write_sheet(sheet, "", "vi", PHRASES)) == typst_compiler.compile(
         typst.write_sheet(sheet, "", "vi", PHRASES)
     )
 

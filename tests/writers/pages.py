@@ -11,7 +11,7 @@ import pymupdf
 import pytest
 
 from reportgen.report import Block, Document
-from reportgen.writers import latex, pdflatex, typst
+from reportgen.writers import latex, pdflatex, typst, typst_compiler
 from tests.writers import sample
 
 MM = 72 / 25.4
@@ -32,7 +32,7 @@ def opened(pdf: bytes) -> Any:
 
 def by_typst(*blocks: Block) -> Any:
     """The open PDF of a document of these blocks."""
-    return opened(typst.compile(typst.write(document(*blocks))))
+    return opened(typst_compiler.compile(typst.write(document(*blocks))))
 
 
 def by_latex(*blocks: Block) -> Any:

@@ -21,7 +21,7 @@ from reportgen.base.standards import KNOWN, STANDARDS, other_than_usual, titled
 from reportgen.base.units import Language
 from reportgen.formula import Symbol
 from reportgen.report import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
-from reportgen.writers import typst
+from reportgen.writers import typst_compiler
 from tests.lanes import matrix
 from tests.marking.test_papers import PAPERS
 from tests.report import built
@@ -254,13 +254,13 @@ def test_the_typesetter_knows_each_of_them(standard: str) -> None:
     with warnings.catch_warnings():
         # Some forbid what any document of ours has.
         warnings.simplefilter("ignore", OutputWarning)
-        assert typst.compile(f"{DATED}= A", standards=(standard,)).startswith(b"%PDF-")
+        assert typst_compiler.compile(f"{DATED}= A", standards=(standard,)).startswith(b"%PDF-")
 
 
 def test_none_and_others_are_kept_as_asked() -> None:
     with nothing_told():
-        assert tags.read(typst.compile(f"{DATED}= A", standards=())).standards == ("", "")
-        assert tags.read(typst.compile(f"{DATED}= A", standards=("a-2b",))).standards == ("", "2b")
+        assert tags.read(typst_compiler.compile(f"{DATED}= A", standards=())).standards == ("", "")
+        assert tags.read(typst_compiler.compile(f"{DATED}= A", standards=("a-2b",))).standards == ("", "2b")
 
 
 @pytest.mark.parametrize(
@@ -273,8 +273,8 @@ def test_none_and_others_are_kept_as_asked() -> None:
     ],
 )
 def test_what_a_standard_refuses_is_told_with_its_reason_and_made(text: str, reason: str) -> None:
-    with pytest.warns(typst.StandardWarning) as warned:
-        pdf = typst.compile(DATED + text)
+    with pytest.warns(typst_compiler.StandardWarning) as warned:
+        pdf = typst_compiler.compile(DATED + text)
     (warning,) = (one.message for one in warned)
     assert reason in str(warning)
     assert "PDF/UA-1, PDF/A-2a" in str(warning)
@@ -282,19 +282,19 @@ def test_what_a_standard_refuses_is_told_with_its_reason_and_made(text: str, rea
 
 
 def test_standards_that_contradict_each_other_are_told() -> None:
-    with pytest.warns(typst.StandardWarning, match="PDF/A-4 and PDF/UA-1 are mutually incompatible"):
-        typst.compile(f"{DATED}= A", standards=("a-4", "ua-1"))
+    with pytest.warns(typst_compiler.StandardWarning, match="PDF/A-4 and PDF/UA-1 are mutually incompatible"):
+        typst_compiler.compile(f"{DATED}= A", standards=("a-4", "ua-1"))
 
 
 def test_what_is_wrong_with_a_source_stays_an_error() -> None:
     with pytest.raises(TypesetterError, match="unknown variable: nothing"):
-        typst.compile("#nothing")
+        typst_compiler.compile("#nothing")
 
 
 def refused(_: int) -> bytes:
-    return typst.compile(f"{DATED}= A\n=== B")
+    return typst_compiler.compile(f"{DATED}= A\n=== B")
 
 
 def test_it_is_told_from_the_process_of_a_school_too() -> None:
-    with pytest.warns(typst.StandardWarning, match="skipped from heading level"):
+    with pytest.warns(typst_compiler.StandardWarning, match="skipped from heading level"):
         assert call_within(TEMPLATES, refused, 0).startswith(b"%PDF-")

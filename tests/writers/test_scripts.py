@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.standards import STANDARDS, titled
-from reportgen.writers import typst
+from reportgen.writers import typst_compiler
 from reportgen.writers.typst_fonts import MissingLettersWarning, added, lacking, sought, uncommon
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
@@ -37,7 +37,7 @@ def test_its_own_fonts_have_latin_and_no_chinese() -> None:
 def test_letters_that_no_font_has_are_named() -> None:
     missing = nowhere()
     with pytest.warns(MissingLettersWarning) as told:
-        typst.compile(f"A {missing} B", standards=())
+        typst_compiler.compile(f"A {missing} B", standards=())
     assert told[0].message.letters == missing
 
 
@@ -57,7 +57,7 @@ def test_what_the_system_has_is_printed() -> None:
     there = [letter for letter in wanted if letter not in lacking(wanted, system=True)]
     if not there:
         pytest.skip("this system has no further fonts")
-    pdf = typst.compile(f'#set text(font: "New Computer Modern")\n{"".join(there)}', standards=())
+    pdf = typst_compiler.compile(f'#set text(font: "New Computer Modern")\n{"".join(there)}', standards=())
     printed = pymupdf.open(stream=pdf, filetype="pdf")[0].get_text()
     assert set(there) <= set(printed)
 

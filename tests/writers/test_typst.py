@@ -29,7 +29,7 @@ from reportgen.report import (
     Value,
 )
 from reportgen.report.layout import in_rows
-from reportgen.writers import typst
+from reportgen.writers import typst, typst_compiler
 from reportgen.writers.typst_math import literal
 from tests.writers import sample
 from tests.writers.pages import MM, body_of, by_typst, opened, plain, sides, text_of
@@ -37,14 +37,14 @@ from tests.writers.pages import MM, body_of, by_typst, opened, plain, sides, tex
 
 @cache
 def sample_pdf() -> bytes:
-    return typst.compile(typst.write(sample.sample()))
+    return typst_compiler.compile(typst.write(sample.sample()))
 
 
 # --- the whole sample -----------------------------------------------------------------------------
 
 
 def test_every_node_compiles_byte_identically() -> None:
-    assert sample_pdf() == typst.compile(typst.write(sample.sample()))
+    assert sample_pdf() == typst_compiler.compile(typst.write(sample.sample()))
 
 
 def test_source_needs_no_other_file() -> None:
@@ -224,6 +224,6 @@ def test_nothing_but_zero_is_no_row_of_its_own() -> None:
 
 def test_a_fault_of_the_typesetter_is_told_in_its_first_lines() -> None:
     with pytest.raises(TypesetterError, match="unknown variable: nothing") as caught:
-        typst.compile("#nothing")
+        typst_compiler.compile("#nothing")
     assert caught.value.exit_code == 3
     assert len(str(caught.value).splitlines()) <= 5

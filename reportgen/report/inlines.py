@@ -1,0 +1,69 @@
+"""What a line is made of: texts, formulas, values and references, as data.
+
+Texts are plain strings exactly as they shall appear; writers escape.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from reportgen.formula import Expression, Number
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Emph:
+    of: tuple[Inline, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Strong:
+    of: tuple[Inline, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class InlineMath:
+    """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
+
+    expression: Expression
+    slashed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A number with its unit inside a line or a table cell."""
+
+    number: Number
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """The number of the block called `key`, linked; `text` is filled in by numbering."""
+
+    key: str
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LineBreak:
+    pass
+
+
+@dataclass(frozen=True, slots=True)
+class Blank:
+    """A place to fill in, by the `name` of what belongs there and how it is `called` where a name holds less."""
+
+    name: str
+    called: str
+    title: str = ""
+
+
+DOTS = "……"
+"""What a blank shows."""
+
+Inline = Text | Emph | Strong | InlineMath | Value | Reference | LineBreak | Blank
+Inlines = tuple[Inline, ...]

@@ -1,0 +1,97 @@
+"""Typst source → PDF or pictures, by the typesetter that comes embedded in its Python package.
+
+It runs once for each source, twice where a standard refuses it.
+"""
+
+from __future__ import annotations
+
+import tempfile
+import warnings
+from pathlib import Path
+from typing import Any, Literal
+
+from reportgen.base.errors import OutputWarning, TypesetterError
+from reportgen.base.limits import give_memory_back
+from reportgen.base.standards import STANDARDS, Standards, titled
+from reportgen.base.words import word
+from reportgen.writers.typst_fonts import MissingLettersWarning, sought
+
+
+class StandardWarning(OutputWarning):
+    """A file keeps none of the `standards` that were asked for, since they refuse it for a `reason`."""
+
+    def __init__(self, standards: Standards, reason: str) -> None:
+        self.standards, self.reason = standards, reason
+        super().__init__(standards, reason)
+
+    def __str__(self) -> str:
+        return word("standards_refused", None, standards=titled(self.standards), reason=self.reason)
+
+
+def compile(source: str, system: bool = False, standards: Standards = STANDARDS) -> bytes:
+    """The PDF of a Typst source, byte for byte the same from run to run; it may name fonts of the `system`.
+
+    It keeps the `standards`, or none of them where they do not allow what it says, which is told as a warning.  Raises
+    `TypesetterError` with the message's first lines.
+    """
+    (pdf,) = compile_as(source, "pdf", system, standards=standards)
+    return pdf
+
+
+def compile_as(
+    source: str, format: Literal["pdf", "png", "svg"], system: bool = False, dpi: int = 0, standards: Standards = ()
+) -> list[bytes]:
+    """A PDF of a Typst source, or a picture of each of its pages, of `dpi` dots an inch.
+
+    Raises `TypesetterError`.
+    """
+    try:
+        import typst
+    except ModuleNotFoundError as error:
+        raise TypesetterError("typst is not installed: pip install typst") from error
+    except ImportError as error:
+        raise TypesetterError(f"typst cannot be loaded, most likely for too little memory: {error}") from error
+    folders, needs_system, missing = sought(source)
+    if missing:
+        warnings.warn(MissingLettersWarning(missing, standards), stacklevel=2)
+        standards = ()
+    own = not needs_system and not system
+    give_memory_back()
+    with tempfile.TemporaryDirectory(prefix="typst-") as folder:
+        path = Path(folder) / "report.typ"
+        path.write_text(source, encoding="utf-8", newline="")
+
+        def made(kept: Standards) -> Any:
+            asked: dict[str, Any] = {"pdf_standards": list(kept)} if kept else {}
+            return typst.compile(
+                str(path),
+                root=folder,
+                font_paths=[*folders],
+                ignore_system_fonts=own,
+                format=format,
+                ppi=dpi or None,
+                **asked,
+            )
+
+        try:
+            try:
+                pages = made(standards)
+            except typst.TypstError as error:
+                if not standards:
+                    raise
+                pages = made(())
+                warnings.warn(StandardWarning(standards, _refusal(error)), stacklevel=2)
+        except typst.TypstError as error:
+            raise TypesetterError(f"typst: {_first_lines(error, 4)}") from error
+    # What has one page comes alone.
+    return [pages] if isinstance(pages, bytes) else list(pages)
+
+
+def _refusal(error: Exception) -> str:
+    """Why standards refuse a source, without their names; of such as contradict each other, that they do."""
+    line = _first_lines(error, 1).partition(" error: ")[2]
+    return line.split('"')[1] if line.startswith("HintedString") else line
+
+
+def _first_lines(error: Exception, count: int) -> str:
+    return "\n".join(str(getattr(error, "message", error)).splitlines()[:count])
