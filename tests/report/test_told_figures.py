@@ -169,6 +169,11 @@ def test_pdf_page_and_word_tell_the_same() -> None:
     page = api.page_files(ROOT / name, "typst", language)
     html = next(iter(page.values())).decode()
     assert [unescape(one) for one in re.findall(r'<svg class="scene" role="img" aria-label="([^"]*)"', html)] == texts
+    graphs = [unescape(one) for one in re.findall(r'<svg role="img" aria-label="([^"]*)"', html)]
+    assert graphs
+    for text in graphs:
+        assert re.search(r": across φ .*greatest .* at ", text)
+        assert not re.search(r"[_^]", text)
     (word,) = api.word_files(ROOT / name, "typst", language).values()
     with zipfile.ZipFile(io.BytesIO(word)) as package:
         body = package.read("word/document.xml").decode()
