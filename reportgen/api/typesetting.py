@@ -63,7 +63,11 @@ def typeset(
 
 
 def typeset_sheet(
-    sheet: DrawingSheet, title: str, assignment: Assignment, phrases: Mapping[str, str], standards: Standards
+    sheet: DrawingSheet,
+    title: str,
+    assignment: Assignment,
+    phrases: Mapping[str, str],
+    standards: Standards = STANDARDS,
 ) -> bytes:
     """The PDF of a drawing sheet of an assignment, which tells in `phrases` what it shows.
 

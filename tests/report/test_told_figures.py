@@ -209,7 +209,7 @@ def test_each_plate_of_a_sheet_is_told() -> None:
     case = open_case(ROOT / "rotor" / "rotor-two-planes.yaml", "en")
     for sheet in drawing_sheets(case):
         names = {part.name.partition(".")[0] for part in sheet.parts}
-        with pymupdf.open(stream=api.typeset_sheet(sheet, case.title, "en", case.words["told"])) as pdf:
+        with pymupdf.open(stream=api.typeset_sheet(sheet, case.title, case.assignment, case.words["told"])) as pdf:
             told = alternatives(pdf)
         silent = [part for part in sheet.parts if not part.scene.description]
         assert len(told) == len(names) - len({part.name for part in silent})
