@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from reportgen.base.errors import Fault, Mark, Problem
+from reportgen import catalogue
+from reportgen.api import typeset
+from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.languages import read_setting
 from reportgen.base.template_folders import LANGUAGE_FILE, languages, templates
 from reportgen.base.units import Language
-from reportgen.base.words import as_problem
+from reportgen.base.words import as_problem, common_words, messages, spoken
+from reportgen.cases import MachineCase, open_case
+from reportgen.report.proof import proof
+from reportgen.report.report import Report
 from reportgen.report.translation import faults
 from reportgen.writers.typst_fonts import added, lacking, there_is_one_of
 
@@ -48,3 +53,31 @@ def _lacking(letters: str) -> str:
 def _in_batches(letters: str) -> Iterator[str]:
     for start in range(0, len(letters), BATCH):
         yield lacking(letters[start : start + BATCH], True, added())
+
+
+# --- the proof sheet ----------------------------------------------------------------------------------
+
+PROOF = "proof.pdf"
+COMMON = "engine-twin"
+"""The machine whose data stand in what all machines say: it has gas, forces and a flywheel."""
+
+
+def proof_sheet(folder: Path, language: Language) -> bytes:
+    """The proof sheet of a language as PDF.  Raises `TypesetterError`, and `TemplateError` for faulty words."""
+    words = {**messages(spoken())["proof"], "document": common_words(language)["document"]}
+    words["page"] = words["document"]["page"]
+    return typeset(proof(folder, language, words, _names), "typst")[1]
+
+
+def _names(kind: str, language: Language) -> Mapping[str, object]:
+    """The names that the templates of a kind see, of its first example; none of a kind that is no machine."""
+    from reportgen.report.outline import names
+
+    examples = catalogue.examples(kind or COMMON)
+    try:
+        case = open_case(next(iter(examples.values())), language)
+    except (AssignmentError, StopIteration):
+        return {}
+    if not isinstance(case, MachineCase):
+        return {}
+    return {**names(Report(case)), "k": case.assignment.worked_positions[0]}

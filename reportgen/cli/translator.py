@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from reportgen.base.files import put_file, reported
 from reportgen.cli.common import AT_FAULT, LangOption, ending, say
 
 
 def words(
     place: Annotated[str, typer.Argument(metavar="LANG|DIR", help="A language, or the folder of one.")],
+    sheet: Annotated[bool, typer.Option("--proof", help="Set all of it beside English, to be read.")] = False,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the proof sheet.")] = Path("out"),
     lang: LangOption = None,
 ) -> None:
     """Compare the words of a language with the English ones: what is missing, what says something else, by its line."""
@@ -27,6 +31,12 @@ def words(
         problems = wording.compared(folder, lang or spoken())
         for problem in problems:
             print(problem, file=sys.stderr)
+        if sheet:
+            path = out / folder.name / wording.PROOF
+            with reported():
+                path.parent.mkdir(parents=True, exist_ok=True)
+                put_file(path, wording.proof_sheet(folder, folder.name))
+            print(path)
         if place in languages():
             print(say("offered", lang, language=place, known=", ".join(offered(place)) or "–"))
         raise typer.Exit(AT_FAULT if any(problem.level == "error" for problem in problems) else 0)

@@ -12,6 +12,7 @@ import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from jinja2 import Environment, nodes
 
@@ -30,13 +31,15 @@ MESSAGES = frozenset({"messages.yaml", "help.yaml", "fields.yaml"})
 """Files whose words come in the language of reference where another one does not have them."""
 MOBILITY = "mobility_line()"
 """What sets the formula of mobility, whose letters are the language's own."""
-GRAMMAR = frozenset({"lowered", "turn_words", "words"})
+LETTERED = frozenset({"symbol()", "letters()"})
+"""What prints the letter of a quantity as the language has it, where the reference has a formula."""
+GRAMMAR = frozenset({"loop", "lowered", "turn_words", "words"})
 """Names that only fit a word into a sentence."""
 FREE_LISTS = frozenset({"columns", "dates", "judgements", "counted"})
 """Words under these keys are as many as the language has: ways to be read, forms for one and for several."""
 ONE_SIDED = frozenset({("cover", "months"), ("units",), ("symbols",), ("frame", "pieces"), ("texts",)})
 """Tables that a language may have as it wants: some dates count the month, some indices are their own."""
-_REFERENCE = re.compile(r"@((?:fig|tab|sec|eq)\.[\w.-]*\w)")
+_REFERENCE = re.compile(r"@((?:fig|tab|sec|eq)\.[\w.-]*\w)", re.ASCII)
 _FORMULA = re.compile(r"\$([^$\n]+)\$")
 _HEADING = re.compile(r"(?m)^(#+) ")
 _LETTERS = re.compile(r"[^\W\d_]{2}")
@@ -109,6 +112,9 @@ def _compared(here: Passage, there: Passage, free: Set[str]) -> Iterator[Fault]:
     mark, own, wanted = Mark(str(here.file), here.line), SectionContents.of(here), SectionContents.of(there)
     if MOBILITY not in wanted.calls:
         free = frozenset()
+    # Where the letter of a quantity is the language's own, a template asks for it.
+    asked = LETTERED & own.calls - wanted.calls
+    free |= asked | {call.removesuffix("()") for call in asked} | (wanted.formulas if asked else frozenset())
     for what in ("call", "name", "reference", "formula"):
         of_own, of_reference = (frozenset(getattr(one, f"{what}s")) - free for one in (own, wanted))
         yield from _differences(what, of_own, of_reference, mark)
@@ -174,9 +180,13 @@ def parsed(section: Passage) -> nodes.Template:
 
 
 def _names(part: nodes.Node) -> Iterator[nodes.Name]:
+    """The names that are shown, without those of conditions: a language may tell other cases apart."""
     if isinstance(part, nodes.Name):
         yield part
-    yield from part.find_all(nodes.Name)
+    shown = (part.expr1, part.expr2) if isinstance(part, nodes.CondExpr) else part.iter_child_nodes()
+    for inner in shown:
+        if inner is not None:
+            yield from _names(inner)
 
 
 def _words_in_braces(tree: nodes.Template) -> Iterator[nodes.Const]:
@@ -218,6 +228,21 @@ def _sound(source: Source, above: int) -> Source:
         first = source.faults[0]
         raise TemplateError(f"{source.file}:{first.mark.line + above}: {first.wordless}")
     return source
+
+
+def read_table(file: Path) -> Mapping[str, Any]:
+    """A file of words.  Raises `TemplateError` for what is none."""
+    return _plain(_read(file))
+
+
+def read_words_in(section: Passage) -> Mapping[str, Any]:
+    """The words that a section holds.  Raises `TemplateError` for what are none."""
+    return _plain(_read_in(section))
+
+
+def _plain(source: Source) -> Mapping[str, Any]:
+    table: Mapping[str, Any] = plain(source.top) if isinstance(source.top, MappingNode) else {}
+    return table
 
 
 def _tables(own: Source, wanted: Source, above: int = 0) -> Iterator[Fault]:
@@ -283,14 +308,20 @@ def _gaps(said: Scalar, mark: Mark) -> frozenset[str]:
 # --- letters ----------------------------------------------------------------------------------------
 
 
+MOST_LETTERS = 12
+"""Where a file has more letters that no font has, a font is missing: that is told once."""
+
+
 def _lines_of(file: Path, lacking: Lacking) -> Iterator[Fault]:
-    """The lines of a file with letters that no font has."""
+    """The lines of a file with letters that no font has, or the first one alone."""
     text = file.read_text(encoding="utf-8")
     letters = "".join({letter: None for letter in text if unicodedata.category(letter)[0] in "LNPS"})
     missing = frozenset(lacking(letters))
     for number, line in enumerate(text.splitlines() if missing else (), start=1):
         if strange := [letter for letter in dict.fromkeys(line) if letter in missing]:
             yield Fault("words-letters", Mark(str(file), number), {"text": " ".join(strange)})
+            if len(missing) > MOST_LETTERS:
+                return
 
 
 # --- terms ------------------------------------------------------------------------------------------

@@ -26,12 +26,15 @@ LETTERS = str.maketrans(
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", "абвгдежзийклмнопрстуфхцчшщАБВГДЕЖЗИЙКЛМНОПРСТУФХЦЧШЩ"
 )
 KEPT = re.compile(
-    r"\{\{.*?\}\}|\{%.*?%\}|\{[^{}]*\}|\$[^$\n]+\$|@(?:fig|tab|sec|eq)\.[\w.]*\w|<[^>]*>|\*reportgen[^*]*\*|\w+\.\w+|\bv\.\w+",
+    r"\{\{.*?\}\}|\{%.*?%\}|\{[^{}]*\}|\$[^$\n]+\$|@(?:fig|tab|sec|eq)\.[\w.]*\w"
+    r"|<[^>]*>|\*reportgen[^*]*\*|\w+\.\w+",
     re.DOTALL,
 )
 """What is no word of a language: names in braces, gaps, formulas, references, names of files and commands."""
 WORD = re.compile(r"[A-Za-z]{4,}")
 UNTOUCHED = frozenset({"units", "pieces", "texts"})
+NAMES = frozenset({"reportgen", "compare", "assignment", "yaml", "answers", "hint", "scale"})
+"""Of commands, options and files, and an id of one word."""
 SHOWN = ("engine-twin-05", "shaper-01")
 
 
@@ -56,7 +59,9 @@ def table(words: Any) -> Any:
 
 
 def as_yaml(text: str) -> str:
-    return yaml.safe_dump(table(yaml.safe_load(text)), allow_unicode=True, sort_keys=False, width=10_000)
+    return yaml.safe_dump(
+        table(yaml.load(text, Loader=yaml.BaseLoader)), allow_unicode=True, sort_keys=False, width=10_000
+    )
 
 
 def make_language(templates: Path) -> None:
@@ -120,8 +125,10 @@ ENGLISH = frozenset(
 def english(text: str, name: str) -> set[str]:
     """English words of a text that its assignment does not have itself."""
     own = (built.ROOT / "assignments" / f"{name}.yaml").read_text(encoding="utf-8")
-    given = {word.casefold() for word in WORD.findall(own)} | {"reportgen", "compare", "assignment", "yaml", "answers"}
-    return {word for word in map(str.casefold, WORD.findall(text)) if word in ENGLISH} - given
+    given = {word.casefold() for word in WORD.findall(own)} | NAMES
+    # The ids of quantities are the same in every language.
+    words = WORD.findall(re.sub(r"\w+(\.\s?\w+)+", " ", text))
+    return {word for word in map(str.casefold, words) if word in ENGLISH} - given
 
 
 def test_the_command_lists_its_kinds_and_which_are_drafts(place: Path) -> None:
@@ -154,7 +161,8 @@ def of_html(data: bytes) -> str:
 def of_docx(data: bytes) -> str:
     with zipfile.ZipFile(io.BytesIO(data)) as package:
         parts = [name for name in package.namelist() if re.match(r"word/(document|header|footer)\d*\.xml", name)]
-        return " ".join(re.sub(r"<[^>]*>", " ", package.read(name).decode()) for name in parts)
+        texts = (re.sub(r"<w:instrText.*?</w:instrText>", " ", package.read(name).decode()) for name in parts)
+        return " ".join(re.sub(r"<[^>]*>", " ", text) for text in texts)
 
 
 def of_xlsx(data: bytes) -> str:
@@ -172,9 +180,12 @@ def of_xlsx(data: bytes) -> str:
 
 
 def of_dxf(data: bytes) -> str:
-    lines = data.decode("utf-8", "replace").splitlines()
-    pairs = zip(lines[::2], lines[1::2], strict=False)
-    return "\n".join(value for code, value in pairs if code.strip() in {"1", "3"} and not value.startswith("AC"))
+    import ezdxf
+
+    layout = ezdxf.read(io.StringIO(data.decode())).modelspace()
+    return "\n".join(text.dxf.text for text in layout.query("TEXT")) + "".join(
+        text.plain_text() for text in layout.query("MTEXT")
+    )
 
 
 READ: dict[str, Callable[[bytes], str]] = {
@@ -199,7 +210,9 @@ def made(place: Path) -> Path:
 
 
 def files(made: Path, name: str) -> Iterator[Path]:
-    yield from (path for path in sorted((made / name).rglob("*")) if path.suffix in READ)
+    """What was made of an assignment; the folder of a batch has a number behind its name."""
+    folders = (made / name, *made.glob(f"{name.replace('-', '_')}-*"))
+    yield from (path for folder in folders for path in sorted(folder.rglob("*")) if path.suffix in READ)
 
 
 @proof

@@ -1,0 +1,183 @@
+"""A proof sheet: all that a language says beside what the language of reference says, numbered for remarks.
+
+Every section stands there with all its conditions, and with the data of one machine where it has them; what it has not
+is named as the template names it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import count, zip_longest
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment, StrictUndefined
+
+from reportgen.base.kinds import SAMPLE
+from reportgen.base.template_folders import MACHINES, REFERENCE, templates
+from reportgen.base.units import Language
+from reportgen.base.words import SECTION, sections
+from reportgen.formula import Symbol
+from reportgen.report import (
+    Block,
+    Cell,
+    Column,
+    Document,
+    Emph,
+    Inline,
+    InlineMath,
+    Inlines,
+    Paragraph,
+    Reference,
+    Strong,
+    Table,
+    Text,
+    Words,
+)
+from reportgen.report import Section as Heading
+from reportgen.report.numbering import number
+from reportgen.report.phrases import inlines
+from reportgen.report.translation import FIELDS, read_table, read_words_in
+
+NUMBER_WIDTH = 12.0
+SIDE = 74.0
+"""Widths (mm) of the columns: the number, and each language."""
+_BRACES = re.compile(r"(\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\})", re.DOTALL)
+_ID = re.compile(r"\w+\.[\w.]+")
+_OPENED = re.compile(r"(if|elif|for)\s+(.*)", re.DOTALL)
+
+Named = Callable[[str, Language], Mapping[str, Any]]
+"""The names that templates of a kind see in a language, of one machine; none where there is no such machine."""
+
+
+@dataclass(frozen=True)
+class ProofReader:
+    """Reads sections in one language, with the values of one machine by their `names`."""
+
+    names: Mapping[str, Any]
+    environment: Environment = field(default_factory=lambda: Environment(undefined=StrictUndefined, autoescape=True))
+
+    def paragraphs(self, text: str) -> list[Inlines]:
+        """The paragraphs of a section."""
+        parts = (part.strip() for part in re.split(r"\n\s*\n", text))
+        return [self._paragraph(" ".join(part.split("\n"))) for part in parts if part]
+
+    def _paragraph(self, text: str) -> Inlines:
+        """A paragraph, a heading in heavy letters."""
+        line = tuple(self._pieces(text.lstrip("# ")))
+        return (Strong(line),) if text.startswith("#") else line
+
+    def _pieces(self, text: str) -> Iterator[Inline]:
+        for piece in _BRACES.split(text):
+            inner = piece[2:-2].strip(" -+")
+            if piece.startswith("{{"):
+                yield from self._value(inner)
+            elif piece.startswith("{%"):
+                yield from _condition(inner)
+            elif piece and not piece.startswith("{#"):
+                yield from self._text(piece)
+
+    def _text(self, text: str) -> Iterator[Inline]:
+        """Words, and between dollar signs a letter or the id of a quantity."""
+        for index, part in enumerate(text.split("$")):
+            if index % 2:
+                symbol = InlineMath(Symbol(*part.partition("_")[::2]))
+                yield from self._value(f'symbol("{part}")') if _ID.fullmatch(part) else (symbol,)
+            elif part:
+                yield Text(part)
+
+    def _value(self, expression: str) -> Inlines:
+        """What stands in braces, or their text where this machine has nothing there or it is no part of a line."""
+        try:
+            value = self.environment.compile_expression(expression, undefined_to_none=False)(**self.names)
+            # What is referred to stands in no proof sheet.
+            shown = inlines(value)
+            return tuple(Text(f"@{one.key}") if isinstance(one, Reference) else one for one in shown)
+        except Exception:
+            # Whatever this machine cannot say is read as it is written.
+            return (Emph((Text(f"‹{expression}›"),)),)
+
+
+def _condition(statement: str) -> Iterator[Inline]:
+    opened = _OPENED.match(statement)
+    if opened and opened[1] == "if":
+        yield Emph((Text(f"[{opened[2]}: "),))
+    elif opened and opened[1] == "elif":
+        yield Emph((Text(f" | {opened[2]}: "),))
+    elif opened:
+        yield Emph((Text(f"[… {opened[2]}: "),))
+    elif statement == "else":
+        yield Emph((Text(" | – : "),))
+    elif statement.startswith("end"):
+        yield Emph((Text("]"),))
+    elif statement.startswith("include"):
+        yield Emph((Text(statement.replace("include", "→").replace('"', "")),))
+
+
+def proof(folder: Path, language: Language, words: Mapping[str, Any], named: Named) -> Document:
+    """The proof sheet of a language's folder, which is called so in the headings of its columns."""
+    numbers = count(1)
+    blocks: list[Block] = [Heading(1, (Text(words["title"].format(language=language)),), numbered=False)]
+    blocks.append(Paragraph((Text(words["how"]),)))
+    for file in sorted(folder.rglob("*.md"), key=lambda path: (path.parent.name == MACHINES, path.name)):
+        name = file.relative_to(folder)
+        model = templates() / REFERENCE / name
+        if not model.is_file():
+            continue
+        kind = file.stem if file.parent.name == MACHINES else ""
+        readers = ProofReader(named(kind, REFERENCE)), ProofReader(named(kind, language))
+        rows = [row for section in sections(model) for row in _section(section, model, file, readers, numbers)]
+        blocks += [Heading(2, (Text(name.as_posix()),), numbered=False), _table(rows, language)]
+    own = folder / "words.yaml"
+    if own.is_file():
+        table = _words(read_table(templates() / REFERENCE / own.name), read_table(own), numbers)
+        blocks += [Heading(2, (Text(own.name),), numbered=False), _table(list(table), language)]
+    title = words["title"].format(language=language)
+    return number(Document(language, title, "", (title, ""), ("", words["page"]), _terms(words), tuple(blocks)))
+
+
+def _terms(words: Mapping[str, Any]) -> Words:
+    return Words.among(words["document"])
+
+
+def _section(
+    name: str, model: Path, file: Path, readers: tuple[ProofReader, ProofReader], numbers: Iterator[int]
+) -> Iterator[tuple[Cell, ...]]:
+    """The rows of one section, below its name."""
+    there, here = sections(model)[name], sections(file).get(name)
+    if name == SAMPLE:
+        return
+    yield (Cell((Strong((Text(f"%% {name}"),)),), 3),)
+    if name in (SECTION, FIELDS):
+        yield from _words(read_words_in(there), read_words_in(here) if here else {}, numbers)
+        return
+    first, second = readers[0].paragraphs(there.text), readers[1].paragraphs(here.text if here else "")
+    for row in zip_longest(first, second, fillvalue=()):
+        if any(map(_has_words, row)):
+            yield (Cell((Text(str(next(numbers))),)), *map(Cell, row))
+
+
+def _has_words(line: Inlines) -> bool:
+    """Whether there is anything to read: a line may be a table or a figure alone."""
+    inner = (part.of if isinstance(part, Strong) else (part,) for part in line)
+    return any(isinstance(one, Text) and re.search(r"[^\W\d_]", one.text) for parts in inner for one in parts)
+
+
+def _words(there: Any, here: Any, numbers: Iterator[int], above: str = "") -> Iterator[tuple[Cell, ...]]:
+    """A row for each word of a table, by its key."""
+    for key, value in there.items():
+        own = here.get(key) if isinstance(here, Mapping) else None
+        if isinstance(value, Mapping):
+            yield from _words(value, own, numbers, f"{above}{key}.")
+            continue
+        both = (" · ".join(map(str, one)) if isinstance(one, list) else str(one or "") for one in (value, own))
+        cells = [Cell((Text(text),)) for text in both]
+        cells[0] = Cell((Emph((Text(f"{above}{key} "),)), *cells[0].inlines))
+        yield (Cell((Text(str(next(numbers))),)), *cells)
+
+
+def _table(rows: Sequence[tuple[Cell, ...]], language: Language) -> Table:
+    head = tuple(Cell((Strong((Text(text),)),)) for text in ("", REFERENCE, language))
+    return Table((Column(NUMBER_WIDTH), Column(SIDE, "left"), Column(SIDE, "left")), (head,), tuple(rows))
