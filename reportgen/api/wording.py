@@ -65,7 +65,6 @@ COMMON = "engine-twin"
 def proof_sheet(folder: Path, language: Language) -> bytes:
     """The proof sheet of a language as PDF.  Raises `TypesetterError`, and `TemplateError` for faulty words."""
     words = {**messages(spoken())["proof"], "document": common_words(language)["document"]}
-    words["page"] = words["document"]["page"]
     return typeset(proof(folder, language, words, _names), "typst")[1]
 
 

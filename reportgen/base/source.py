@@ -150,8 +150,8 @@ def text_in(path: Path) -> str | Fault:
 def encoding_of(data: bytes) -> tuple[bytes, str]:
     """The mark at the beginning of a text and the encoding that it tells; without one UTF-8, or GBK if it can be."""
     marked = ((mark, codec) for mark, codec in ENCODINGS.items() if data.startswith(mark))
-    if found := next(marked, None):
-        return found
+    if known := next(marked, None):
+        return known
     try:
         data.decode()
     except UnicodeDecodeError:

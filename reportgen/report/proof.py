@@ -45,6 +45,7 @@ NUMBER_WIDTH = 12.0
 SIDE = 74.0
 """Widths (mm) of the columns: the number, and each language."""
 _BRACES = re.compile(r"(\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\})", re.DOTALL)
+_MARKUP = re.compile(r"#{2,4} |\*\*")
 _ID = re.compile(r"\w+\.[\w.]+")
 _OPENED = re.compile(r"(if|elif|for)\s+(.*)", re.DOTALL)
 
@@ -86,7 +87,7 @@ class ProofReader:
                 symbol = InlineMath(Symbol(*part.partition("_")[::2]))
                 yield from self._value(f'symbol("{part}")') if _ID.fullmatch(part) else (symbol,)
             elif part:
-                yield Text(part)
+                yield Text(_MARKUP.sub("", part))
 
     def _value(self, expression: str) -> Inlines:
         """What stands in braces, or their text where this machine has nothing there or it is no part of a line."""
@@ -135,11 +136,17 @@ def proof(folder: Path, language: Language, words: Mapping[str, Any], named: Nam
         table = _words(read_table(templates() / REFERENCE / own.name), read_table(own), numbers)
         blocks += [Heading(2, (Text(own.name),), numbered=False), _table(list(table), language)]
     title = words["title"].format(language=language)
-    return number(Document(language, title, "", (title, ""), ("", words["page"]), _terms(words), tuple(blocks)))
-
-
-def _terms(words: Mapping[str, Any]) -> Words:
-    return Words.among(words["document"])
+    return number(
+        Document(
+            language=language,
+            title=title,
+            author="",
+            header=(title, ""),
+            footer=("", words["document"]["page"]),
+            words=Words.among(words["document"]),
+            blocks=tuple(blocks),
+        )
+    )
 
 
 def _section(
