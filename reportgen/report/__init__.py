@@ -31,7 +31,7 @@ from reportgen.report.inlines import Reference as Reference
 from reportgen.report.inlines import Strong as Strong
 from reportgen.report.inlines import Text as Text
 from reportgen.report.inlines import Value as Value
-from reportgen.report.unspaced import unspaced
+from reportgen.report.unspaced import set_out
 
 # --- blocks ---------------------------------------------------------------------------------------
 
@@ -311,10 +311,8 @@ def listed(parts: Iterable[Inline]) -> Inlines:
 
 def plain(inlines: Inlines, language: Language) -> str:
     """The text of inlines in one line, with the marks of the language."""
-    if not setting_of(language).spaced:
-        inlines = unspaced(inlines)
     result = []
-    for inline in inlines:
+    for inline in set_out(inlines, language):
         match inline:
             case Text(text) | Reference(text=text):
                 result.append(text)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+from reportgen.base.languages import Language, setting_of
 from reportgen.formula import Symbol
 from reportgen.report import inlines as tree
 
@@ -40,6 +41,11 @@ def unspaced(inlines: tree.Inlines) -> tree.Inlines:
         return inlines
     symbols = {chr(_FORMULAS + n) for n, one in enumerate(held) if _is_symbol(one)}
     return tuple(_inlines(_set(line, symbols), held))
+
+
+def set_out(inlines: tree.Inlines, language: Language) -> tree.Inlines:
+    """A line with the marks of its language."""
+    return inlines if setting_of(language).spaced else unspaced(inlines)
 
 
 def _set(line: str, symbols: set[str]) -> str:
