@@ -9,7 +9,7 @@ from reportgen import catalogue
 from reportgen.api import typeset
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.languages import read_setting
-from reportgen.base.template_folders import LANGUAGE_FILE, languages, templates
+from reportgen.base.template_folders import LANGUAGE_FILE, REFERENCE, languages, templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, common_words, messages, spoken
 from reportgen.cases import MachineCase, open_case
@@ -64,7 +64,8 @@ COMMON = "engine-twin"
 
 def proof_sheet(folder: Path, language: Language) -> bytes:
     """The proof sheet of a language as PDF.  Raises `TypesetterError`, and `TemplateError` for faulty words."""
-    words = {**messages(spoken())["proof"], "document": common_words(language)["document"]}
+    # What the language does not say yet, the reader is told as the reference says it.
+    words = {**common_words(REFERENCE), **common_words(language), **messages(spoken())["proof"]}
     return typeset(proof(folder, language, words, _names), "typst")[1]
 
 

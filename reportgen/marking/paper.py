@@ -57,7 +57,7 @@ def paper(
             author=owner,
             header=header,
             footer=footer,
-            words=tree.Words.among(words),
+            words=tree.Words.among(words, language),
             blocks=tuple(blocks),
         )
     )

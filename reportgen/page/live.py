@@ -202,5 +202,5 @@ class LiveSession:
 
 def empty_document(revision: Revision) -> tree.Document:
     """What stands on the page of a file that has had no report yet."""
-    words = tree.Words.among(revision.words)
+    words = tree.Words.among(revision.words, revision.language)
     return tree.Document(revision.language, NOBODY, "", ("", ""), ("", ""), words)

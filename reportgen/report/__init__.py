@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any, Literal, Self
 
-from reportgen.base.languages import setting_of
+from reportgen.base.languages import UnitNames, setting_of
 from reportgen.base.units import Language
 from reportgen.drawing import Scene
 from reportgen.formula import Expression
@@ -224,9 +224,9 @@ class Words:
     """The phrases of what drawings tell, by their names."""
 
     @classmethod
-    def among(cls, words: Mapping[str, Any]) -> Self:
+    def among(cls, words: Mapping[str, Any], language: Language) -> Self:
         """Those of all words of a language, in which a school may have more."""
-        speech, printed = words["speech"], words["units"]
+        speech, printed = words["speech"], UnitNames({**setting_of(language).units, **words["units"]})
         units = {printed.get(unit, unit): said for unit, said in speech["units"].items()}
         own = words["document"] | {"speech": {**speech, "units": units}, "phrases": words["told"]}
         return cls(*(own[field.name] for field in fields(cls)))

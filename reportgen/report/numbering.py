@@ -42,7 +42,7 @@ def finished(
             author=case.assignment.report.student.name or "",
             header=(words["header"].format(course=case.course), case.variant_line),
             footer=("", words["document"]["page"]),
-            words=tree.Words.among(words),
+            words=tree.Words.among(words, case.assignment.language),
             blocks=tuple(blocks),
             close=close,
             date=case.assignment.report.date,

@@ -143,7 +143,7 @@ def proof(folder: Path, language: Language, words: Mapping[str, Any], named: Nam
             author="",
             header=(title, ""),
             footer=("", words["document"]["page"]),
-            words=Words.among(words["document"]),
+            words=Words.among(words, language),
             blocks=tuple(blocks),
         )
     )

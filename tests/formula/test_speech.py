@@ -40,7 +40,7 @@ HALF = Number(0.5)
 
 
 def words(language: Language) -> Any:
-    return Words.among(load_words(search_path(language))).speech
+    return Words.among(load_words(search_path(language)), language).speech
 
 
 def said(node: Expression, language: Language = "en", slashed: bool = False) -> str:

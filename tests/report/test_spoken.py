@@ -88,7 +88,7 @@ def sample(request: pytest.FixtureRequest) -> tuple[Language, tuple[Document, ..
 
 @cache
 def words(language: Language) -> Any:
-    return Words.among(load_words(search_path(language))).speech
+    return Words.among(load_words(search_path(language)), language).speech
 
 
 @cache

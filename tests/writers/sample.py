@@ -54,7 +54,7 @@ from reportgen.report import (
     Words,
 )
 
-WORDS = Words.among(load_words(search_path("vi")))
+WORDS = Words.among(load_words(search_path("vi")), "vi")
 
 HOSTILE = (
     r"A_B & 100% #1 $x$ \input{…} *y* _z_ @a <b> // c /* d */ `e` [f] ~g^h - i -- j --- k ... "

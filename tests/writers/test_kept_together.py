@@ -35,7 +35,7 @@ def test_the_first_equality_of_a_line_is_not_broken() -> None:
     source = LatexFormulas("en").content(PLACE)
     assert source.count(r"=\nobreak") == 1
     assert source.count(r"\relbreak=") == 1
-    words = Words.among(load_words(search_path("en")))
+    words = Words.among(load_words(search_path("en")), "en")
     blocks = _Blocks("en", words, Speech("en", words.speech))
     first, second = blocks.formula(PLACE).split(" #box")
     assert "=" in first
