@@ -50,7 +50,7 @@ class Listener:
                     self.meanings[literal].add(("pattern", name))
         known = "|".join(map(re.escape, sorted(self.meanings, key=len, reverse=True)))
         word = rf"[^\W\d_{HAN}]+"
-        self.token = re.compile(rf"({known})(?![^\W{HAN}])|({word})|(\d+(?:[.,]\d+)*)|(,)|\s+")
+        self.token = re.compile(rf"({known})(?![^\W{HAN}])|({word})|(\d+(?:[.,]\d+)*)|(,)|\s+|(\S)")
 
     # --- words ------------------------------------------------------------------------------------
 
@@ -74,10 +74,11 @@ class Listener:
     def _tokens(self) -> Iterator[tuple[str, str, int]]:
         at = 0
         while at < len(self.said):
-            if not (match := self.token.match(self.said, at)):
-                raise Misheard(f"{self.said[at:]!r} in {self.said!r}")
+            match = self.token.match(self.said, at)
+            assert match
             at = match.end()
-            for kind, text in zip(("known", "word", "digits", "comma"), match.groups(), strict=True):
+            # Anything else may stand in a reason.
+            for kind, text in zip(("known", "word", "digits", "comma", "else"), match.groups(), strict=True):
                 if text is not None:
                     yield kind, text, at
 
