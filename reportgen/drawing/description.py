@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from reportgen.drawing.diagram import Content, Diagram, PlottedCurve
 from reportgen.formula import Number
 
-SAME = 1e-9
-"""A share of the largest value of a curve that counts as none."""
+SAME = 1e-6
+"""A share of the greatest value of a curve that nobody sees on paper: it is told as none."""
 FIGURES = 4
 """Digits of values that are read from a curve."""
 MOST_ZEROS = 6
@@ -127,11 +127,12 @@ def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
     x, y = x[kept], y[kept]
     if not y.size:
         return
+    y = np.where(np.abs(y) <= SAME * np.abs(y).max(), 0.0, y)
     name = _label(curve)
     if curve.dots:
         yield Fact("dots" if name else "only-dots", (*name, Number(y.size)))
     high, low = int(y.argmax()), int(y.argmin())
-    if np.ptp(y) <= SAME * np.abs(y).max(initial=0.0):
+    if np.ptp(y) <= SAME * np.abs(y).max():
         yield Fact("constant" if name else "only-constant", (*name, _read(float(y[0]))))
         return
     ends = (_read(float(y[high])), _read(float(x[high]), unit), _read(float(y[low])), _read(float(x[low]), unit))

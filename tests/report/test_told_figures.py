@@ -22,9 +22,11 @@ from reportgen.base.words import load_words
 from reportgen.cases import open_case
 from reportgen.drawing import Arc, Arrow, Circle, Line, Pen, Polyline, Scene
 from reportgen.drawing.charts import PENS
-from reportgen.drawing.description import crossings
+from reportgen.drawing.counts import bars, histogram
+from reportgen.drawing.description import PaperLength, crossings
+from reportgen.drawing.statistics import intervals, scatter
 from reportgen.report import Document, Figure, Plate
-from reportgen.report.telling import MOST, figure_text
+from reportgen.report.telling import MOST, figure_text, sentences
 from reportgen.sheets import drawing_sheets
 from reportgen.writers import typst
 from tests.lanes import matrix
@@ -167,6 +169,11 @@ def test_pdf_page_and_word_tell_the_same() -> None:
     page = api.page_files(ROOT / name, "typst", language)
     html = next(iter(page.values())).decode()
     assert [unescape(one) for one in re.findall(r'<svg class="scene" role="img" aria-label="([^"]*)"', html)] == texts
+    graphs = [unescape(one) for one in re.findall(r'<svg role="img" aria-label="([^"]*)"', html)]
+    assert graphs
+    for text in graphs:
+        assert re.search(r": across φ .*greatest .* at ", text)
+        assert not re.search(r"[_^]", text)
     (word,) = api.word_files(ROOT / name, "typst", language).values()
     with zipfile.ZipFile(io.BytesIO(word)) as package:
         body = package.read("word/document.xml").decode()
@@ -207,6 +214,38 @@ def test_each_plate_of_a_sheet_is_told() -> None:
         silent = [part for part in sheet.parts if not part.scene.description]
         assert len(told) == len(names) - len({part.name for part in silent})
         assert all(told)
+        for part in sheet.parts:
+            lengths = [fact.values[1] for fact in part.scene.description if fact.phrase == "arrow"]
+            drawn = [abs(item.end - item.start) for item in part.scene.items if isinstance(item, Arrow) and item.name]
+            assert [one.value for one in lengths if isinstance(one, PaperLength)] == pytest.approx(drawn)
+
+
+def test_every_phrase_has_words() -> None:
+    """What any drawing may say, in samples or not, has a phrase in both languages, with as many places."""
+    source = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT.parent / "reportgen").rglob("*.py"))
+    said = set(re.findall(r'\b[fF]act\(\s*"([a-z-]+)"', source))
+    vi, en = (load_words(search_path(language))["told"] for language in LANGUAGES)
+    assert len(said) > 50
+    assert said <= vi.keys() == en.keys()
+    for name in en:
+        assert sorted(re.findall(r"\{\d\}", vi[name])) == sorted(re.findall(r"\{\d\}", en[name])), name
+
+
+def test_diagrams_of_a_class_are_told() -> None:
+    """Counts, means and points as they are given, with the names of the axes."""
+    words = load_words(search_path("en"))["told"]
+
+    def told(scene: Scene) -> list[str]:
+        return list(sentences(scene.description, words, "en"))
+
+    assert told(bars(["signs", "scale"], [3, 1], "errors")) == ["errors:", "signs 3", "scale 1"]
+    assert told(histogram([2, 0, 5], [0, 5, 8, 10], "mark", "students")) == [
+        "students by mark:",
+        "from 0 to 5: 2",
+        "from 8 to 10: 5",
+    ]
+    assert told(intervals(["a"], [7.25], [0.5], [0, 5, 10], "mark"))[1:] == ["a 7.25 ± 0.5"]
+    assert told(scatter([1], [0.5], [0, 1], [0, 1], "x", "y"))[2:] == ["points: 1", "(1; 0.5)"]
 
 
 # --- print without colour ---------------------------------------------------------------------------
