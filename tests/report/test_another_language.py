@@ -235,7 +235,7 @@ def test_numbers_and_units_are_those_of_the_language(made: Path) -> None:
 
 
 def filled(made: Path, name: str, wrong: str) -> bytes:
-    """The answer sheet with the numbers of the key, that of one id with the other sign."""
+    """The answer sheet with the numbers of the key, twice those of ids that begin so."""
     import openpyxl
 
     run(made.parent, "key", f"assignments/{name}.yaml", "--lang", "xx", "--format", "csv")
@@ -249,7 +249,7 @@ def filled(made: Path, name: str, wrong: str) -> bytes:
         for cell in row[4:]:
             value = values.get((str(row[0].value), places[cell.column]))
             if cell.value is None and value is not None:
-                cell.value = -value if row[0].value == wrong else value
+                cell.value = 2 * value if wrong and str(row[0].value).startswith(wrong) else value
     data = io.BytesIO()
     book.save(data)
     return data.getvalue()
@@ -257,14 +257,14 @@ def filled(made: Path, name: str, wrong: str) -> bytes:
 
 @proof
 def test_answers_in_it_are_marked_and_told_of(made: Path) -> None:
-    """A sheet with the numbers of the key has nothing wrong; with one wrong sign the feedback says where, in xx."""
+    """A sheet with the numbers of the key has nothing wrong; with wrong lengths it has fewer points, and is told so in xx."""
     place, name = made.parent, "shaper-01"
     folder, tasks = place / "handed", place / "tasks"
     folder.mkdir()
     tasks.mkdir()
     shutil.copy(place / "assignments" / f"{name}.yaml", tasks)
     points = {}
-    for wrong in ("", "omega.3"):
+    for wrong in ("", "seg."):
         (folder / f"{name}.xlsx").write_bytes(filled(made, name, wrong))
         out = place / f"graded{wrong}"
         run(place, "grade", f"handed/{name}.xlsx", "--assignments", "tasks", "--lang", "xx", "--out", out.name)
@@ -273,4 +273,4 @@ def test_answers_in_it_are_marked_and_told_of(made: Path) -> None:
         feedback = [READ[path.suffix](path.read_bytes()) for path in out.rglob("*.pdf")]
         assert feedback
         assert [english(text, name) for text in feedback if english(text, name)] == []
-    assert points[""] != points["omega.3"]
+    assert points[""] != points["seg."]
