@@ -20,8 +20,8 @@ from reportgen.writers.typst_fonts import added, lacking, there_is_one_of
 
 BATCH = 400
 """So many letters are asked for at a time."""
-WARNINGS = frozenset({"words-term", "words-untranslated"})
-"""What may be meant so: a term said otherwise than in the glossary, a message that comes in English."""
+WARNINGS = frozenset({"words-term", "words-untranslated", "words-idle"})
+"""What does no harm: a term said otherwise than in the glossary, a message in English, a word nobody asks for."""
 
 
 def folder_of(place: str) -> Path:

@@ -266,7 +266,9 @@ def _node(
                 return
             here, there = ({key.text: value for key, value in table.entries} for table in (own, wanted))
             optional = {one[-1] for one in ONE_SIDED if one[:-1] == where}
-            yield from _differences("key", here.keys() - optional, there.keys() - optional, mark)
+            yield from _differences("key", here.keys() & there.keys() - optional, there.keys() - optional, mark)
+            if idle := here.keys() - there.keys() - optional:
+                yield Fault("words-idle", mark, {"place": ", ".join(sorted(idle))})
             near = (around[-1], frozenset(_all_gaps(wanted)) if where else frozenset())
             for key in (key for key in there if key in here):
                 yield from _node(here[key], there[key], (*where, key), above, near)

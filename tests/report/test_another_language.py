@@ -5,9 +5,10 @@ All that is made of an assignment is made in it, without a word of English and w
 
 from __future__ import annotations
 
+import csv
 import io
-import json
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -138,6 +139,7 @@ def test_the_command_lists_its_kinds_and_which_are_drafts(place: Path) -> None:
     assert drafts == ["shaper"]
 
 
+@proof
 def test_its_words_are_those_of_reference(place: Path) -> None:
     """Said in the language itself; only terms differ, which the glossary does not have in it."""
     assert "error" not in run(place, "words", "xx")
@@ -232,10 +234,43 @@ def test_numbers_and_units_are_those_of_the_language(made: Path) -> None:
     assert not re.search(r"\d\s*(mm|m/s|N·m|rad/s)\b", text)
 
 
+def filled(made: Path, name: str, wrong: str) -> bytes:
+    """The answer sheet with the numbers of the key, twice those of ids that begin so."""
+    import openpyxl
+
+    run(made.parent, "key", f"assignments/{name}.yaml", "--lang", "xx", "--format", "csv")
+    rows = list(csv.reader((made / name / "key.csv").read_text(encoding="utf-8-sig").splitlines()))[1:]
+    values = {(row[0], row[5]): float(row[6].replace(",", ".")) for row in rows if row[6]}
+    book = openpyxl.load_workbook(next(made.glob(f"{name.replace('-', '_')}-*")) / "answers.xlsx")
+    sheet = book.worksheets[0]
+    head = next(row for row in sheet.iter_rows() if row[0].value == told("id"))
+    places = {cell.column: "".join(re.findall(r"\d+", str(cell.value))) for cell in head[4:]}
+    for row in sheet.iter_rows(min_row=head[0].row + 1):
+        for cell in row[4:]:
+            value = values.get((str(row[0].value), places[cell.column]))
+            if cell.value is None and value is not None:
+                cell.value = 2 * value if wrong and str(row[0].value).startswith(wrong) else value
+    data = io.BytesIO()
+    book.save(data)
+    return data.getvalue()
+
+
 @proof
 def test_answers_in_it_are_marked_and_told_of(made: Path) -> None:
-    """A sheet filled with the key's own numbers has all points, and one wrong sign is named."""
-    place, name = made.parent, SHOWN[0]
-    run(place, "key", f"assignments/{name}.yaml", "--lang", "xx", "--format", "json")
-    key = json.loads((made / name / "key.json").read_text(encoding="utf-8"))
-    assert key["language"] == "xx"
+    """A sheet with the numbers of the key has nothing wrong; with wrong lengths it has fewer points, and is told so in xx."""
+    place, name = made.parent, "shaper-01"
+    folder, tasks = place / "handed", place / "tasks"
+    folder.mkdir()
+    tasks.mkdir()
+    shutil.copy(place / "assignments" / f"{name}.yaml", tasks)
+    points = {}
+    for wrong in ("", "seg."):
+        (folder / f"{name}.xlsx").write_bytes(filled(made, name, wrong))
+        out = place / f"graded{wrong}"
+        run(place, "grade", f"handed/{name}.xlsx", "--assignments", "tasks", "--lang", "xx", "--out", out.name)
+        grades = list(csv.DictReader((out / "grades.csv").read_text(encoding="utf-8-sig").splitlines()))
+        points[wrong] = grades[0]
+        feedback = [READ[path.suffix](path.read_bytes()) for path in out.rglob("*.pdf")]
+        assert feedback
+        assert [english(text, name) for text in feedback if english(text, name)] == []
+    assert points[""] != points["seg."]
