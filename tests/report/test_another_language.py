@@ -257,7 +257,7 @@ def filled(made: Path, name: str, wrong: str) -> bytes:
 
 @proof
 def test_answers_in_it_are_marked_and_told_of(made: Path) -> None:
-    """A sheet with the numbers of the key has nothing wrong; with wrong lengths it has fewer points, and is told in xx."""
+    """A sheet with the numbers of the key has nothing wrong; with wrong lengths it has fewer points, told in xx."""
     place, name = made.parent, "shaper-01"
     folder, tasks = place / "handed", place / "tasks"
     folder.mkdir()
