@@ -10,8 +10,9 @@ from reportgen.marking.feedback import amended, lateness, mistake_inlines, point
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Marked, Marking, points_of
 from reportgen.marking.policy import Policy
-from reportgen.report import Text, plain
+from reportgen.report import Text
 from reportgen.report.key import Key
+from reportgen.report.unspaced import plain
 
 FIRSTS = 5
 """First mistakes that are told; the page of feedback has them all."""

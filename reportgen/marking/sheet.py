@@ -26,8 +26,8 @@ from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import shown_number, symbol_text, typed_unit, words_of
 from reportgen.marking.marks import Answer, Place, Submission
 from reportgen.marking.numbers import DecimalMark, decimal_mark, is_blank, read_number
-from reportgen.report import plain
 from reportgen.report.key import Key, KeyRow, Role
+from reportgen.report.unspaced import plain
 from reportgen.workbook import Book, BookSheet, Entry, Page, SheetCell, read
 
 NAMES = 5

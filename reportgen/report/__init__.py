@@ -346,11 +346,7 @@ def listed(parts: Iterable[Inline]) -> Inlines:
 
 
 def plain(inlines: Inlines, language: Language) -> str:
-    """The text of inlines in one line, with the marks of the language."""
-    if not setting_of(language).spaced:
-        from reportgen.report.unspaced import unspaced
-
-        inlines = unspaced(inlines)
+    """The text of inlines in one line."""
     result = []
     for inline in inlines:
         match inline:

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Literal
 
 from reportgen import report as tree
 from reportgen.base.errors import DocumentError
-from reportgen.base.languages import setting_of
 from reportgen.report import plain
-from reportgen.report.unspaced import unspaced
+from reportgen.report.unspaced import set_out
 
 if TYPE_CHECKING:
     from reportgen.report.case import LoadedAssignment
@@ -70,8 +69,7 @@ def number(document: tree.Document) -> tree.Document:
         raise DocumentError(faults)
     named = {key: plain(_filled(title, count.shown), document.language) for key, title in count.titles.items()}
     shown = count.shown | named
-    set_out = (lambda line: line) if setting_of(document.language).spaced else unspaced
-    return replace(document, blocks=_each(numbered, lambda line: set_out(_filled(line, shown))))
+    return replace(document, blocks=_each(numbered, lambda line: set_out(_filled(line, shown), document.language)))
 
 
 def unreferenced(document: tree.Document) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ import re
 from collections.abc import Mapping
 
 from reportgen import report as tree
+from reportgen.base.languages import Language, setting_of
 from reportgen.formula import Symbol
 
 _NARROW, _FORMULAS, _WIDE = 0xF0000, 0xF8000, 0x100000
@@ -40,6 +41,16 @@ def unspaced(inlines: tree.Inlines) -> tree.Inlines:
         return inlines
     symbols = {chr(_FORMULAS + n) for n, one in enumerate(held) if _is_symbol(one)}
     return tuple(_inlines(_set(line, symbols), held))
+
+
+def set_out(inlines: tree.Inlines, language: Language) -> tree.Inlines:
+    """A line with the marks of its language."""
+    return inlines if setting_of(language).spaced else unspaced(inlines)
+
+
+def plain(inlines: tree.Inlines, language: Language) -> str:
+    """The text of a line with the marks of its language."""
+    return tree.plain(set_out(inlines, language), language)
 
 
 def _set(line: str, symbols: set[str]) -> str:
