@@ -74,8 +74,9 @@ TELLING: list[tuple[Path, Language]] = [
     (by_name("cam/knife-01"), "en"),
     (by_name("plane-motion/05"), "vi"),
     (by_name("gears/train-motor"), "en"),
+    (by_name("plane-motion/18"), "zh"),
 ]
-"""What is known of vectors, letters that differ in size, a matrix, indices with signs."""
+"""What is known of vectors, letters that differ in size, a matrix, indices with signs, words without blanks."""
 
 
 @pytest.fixture(
