@@ -225,7 +225,7 @@ class SolutionPage(Solution):
 
     def _typed(self, id: str, given: Given) -> Chain:
         """What is given, by its size: the formula of one that is stated by symbols."""
-        unit = self.case.unit_names.get(given.unit, pretty(given.unit))
+        unit = self.case.unit_names.get(pretty(given.unit))
         size = Number(float(f"{abs(given.value):.{TYPED}g}"), None, unit)
         if not isinstance(given, Literal):
             if given.unit != "rpm" or id not in self.worked.printed:

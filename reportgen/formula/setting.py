@@ -174,7 +174,7 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
             case Number(value, decimals, unit) if parts := by_power_of_ten(value, decimals):
                 factor = Written(write(parts.factor, parts.decimals, language), "")
                 power = of(Power(Number(10.0), Number(float(parts.exponent))))
-                return MathRow((factor, DOT, power, *([Written("", unit)] if unit else [])))
+                return MathRow((factor, DOT, power, *([Written("", unit_names(language).get(unit))] if unit else [])))
             case Number():
                 return written(node, language)
             case Ref(id):

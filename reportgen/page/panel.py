@@ -308,7 +308,7 @@ class PanelWriter:
     def chart(self, chart: Chart) -> _Charted:
         scene = chart.plotted.scene
         return _Charted(
-            within(self.words["curves"], sentences(scene.description, self.phrases, self.language)),
+            within(self.words["curves"], sentences(scene.description, self.phrases, self.language), self.language),
             decimal(scene.width),
             decimal(scene.height),
             self.painter.items(scene.items, scene.height),

@@ -15,7 +15,8 @@ from reportgen.drawing.description import Fact, PaperLength, Told
 from reportgen.formula import Number, Symbol
 from reportgen.formula.plain import Plain
 from reportgen.formula.setting import PRIMES, parted
-from reportgen.report import Figure, InlineMath, Inlines, Plate, Words, plain
+from reportgen.report import Figure, InlineMath, Inlines, Plate, Text, Words, plain
+from reportgen.report.unspaced import set_out
 
 MOST = 600
 """Characters of the text of a drawing."""
@@ -42,7 +43,7 @@ def figure_text(block: Figure | Plate, scene: Scene, words: Words, language: Lan
     titled = ", ".join(filter(None, (head, scene.title)))
     phrase = words.phrases["rest-in-table" if block.rest else "rest-in-text"]
     rest = phrase.format(words.table, block.rest)
-    return within(titled, sentences(scene.description, words.phrases, language), rest)
+    return within(titled, sentences(scene.description, words.phrases, language), language, rest)
 
 
 def sentences(description: Description, words: Mapping[str, str], language: Language) -> Iterator[str]:
@@ -55,8 +56,8 @@ def sentences(description: Description, words: Mapping[str, str], language: Lang
         yield _phrase(fact, words, spoken)
 
 
-def within(head: str, facts: Iterable[str], rest: str = "") -> str:
-    """Head and facts as one text of `MOST` characters; what is left out is told by the `rest`."""
+def within(head: str, facts: Iterable[str], language: Language, rest: str = "") -> str:
+    """Head and facts as one text of `MOST` characters, with the language's marks; the `rest` tells what is left out."""
     kept, facts = [], list(facts)
     room = MOST - len(head) - 3
     whole = "; ".join(facts)
@@ -71,7 +72,7 @@ def within(head: str, facts: Iterable[str], rest: str = "") -> str:
             kept.append(fact)
         kept += [rest] if rest else []
     text = "; ".join(kept)
-    joined = ": ".join(filter(None, (head, text)))
+    joined = plain(set_out((Text(": ".join(filter(None, (head, text)))),), language), language)
     return joined if len(joined) < MOST else joined[: MOST - 1] + "…"
 
 

@@ -116,7 +116,7 @@ def write_sheet(
         items = tuple(moved(item, part.at) for part in plate for item in part.scene.items)
         drawing = paint_typst(Scene(sheet.width, sheet.height, items), formulas)
         facts = [said for part in plate for said in sentences(part.scene.description, phrases, language)]
-        text = literal(within("", facts, phrases["rest-in-report"]))
+        text = literal(within("", facts, language, phrases["rest-in-report"]))
         shown = f"D({text},{drawing})" if facts else f"pdf.artifact({drawing})"
         figures.append(f"#place(top+left,{shown})")
     page = f"#page(width:{sheet.width:g}mm,height:{sheet.height:g}mm,margin:0pt)[{''.join(figures)}]"

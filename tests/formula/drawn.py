@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import unicodedata
 
+from reportgen.base.languages import Language, unit_names
 from reportgen.base.units import by_power_of_ten, write
 from reportgen.formula import (
     Call,
@@ -105,6 +106,16 @@ def _symbol(node: Symbol) -> Heard:
     if heard.isdigit() and not node.over:
         return ("n", float(heard), "")
     return ("neg", ("s", node.over, heard[1:], marks)) if heard[0] == "−" else ("s", node.over, heard, marks)
+
+
+def in_units(formula: Heard, language: Language) -> Heard:
+    """A formula with its units as a language writes them, м/с for m/s."""
+    if not isinstance(formula, tuple):
+        return formula
+    *parts, last = formula
+    if parts and parts[0] in ("n", "unit"):
+        return (*parts, unit_names(language).get(last))
+    return tuple(in_units(part, language) for part in formula)
 
 
 def opened(formula: Heard) -> Heard:

@@ -50,7 +50,9 @@ class Listener:
                     self.meanings[literal].add(("pattern", name))
         known = "|".join(map(re.escape, sorted(self.meanings, key=len, reverse=True)))
         word = rf"[^\W\d_{HAN}]+"
-        self.token = re.compile(rf"({known})(?![^\W{HAN}])|({word})|(\d+(?:[.,]\d+)*)|(,)|\s+|(\S)")
+        # Chinese ends a word without a blank; any other goes on to the last of its letters.
+        ends = rf"(?:(?<=[{HAN}])|(?![^\W{HAN}]))"
+        self.token = re.compile(rf"({known}){ends}|({word})|(\d+(?:[.,]\d+)*)|(,)|\s+|(\S)")
 
     # --- words ------------------------------------------------------------------------------------
 

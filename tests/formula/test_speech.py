@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, get_args
+from typing import Any
 
 import pytest
 
 from reportgen.base.errors import TemplateError
-from reportgen.base.template_folders import search_path
+from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import PLAIN, Language, write
 from reportgen.base.words import load_words
 from reportgen.formula import (
@@ -31,10 +31,10 @@ from reportgen.formula import (
 from reportgen.formula.speech import Speech
 from reportgen.formula.vocabulary import KINDS
 from reportgen.report import Words
-from tests.formula.drawn import drawn
+from tests.formula.drawn import drawn, in_units
 from tests.formula.spoken_reader import Listener, Misheard
 
-LANGUAGES: tuple[Language, ...] = get_args(Language)
+LANGUAGES: tuple[Language, ...] = languages()
 A, B, C = map(Symbol, "abc")
 HALF = Number(0.5)
 
@@ -113,7 +113,7 @@ def test_what_is_heard_is_drawn_again(language: Language) -> None:
     heard = {said(node, language): node for node in ALIKE}
     assert len(heard) == len(ALIKE)
     for words_of, node in heard.items():
-        assert listener(language).read(words_of) == (drawn(node), "")
+        assert listener(language).read(words_of) == (in_units(drawn(node), language), "")
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
