@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.units import Language
-from reportgen.writers import typst
+from reportgen.writers import typst_compiler
 from tests.lanes import proof
 from tests.writers.test_archived import DATED, MADE
 
@@ -61,6 +61,6 @@ def test_every_kind_of_document_passes(name: str, language: Language, tmp_path: 
 
 def test_the_validator_sees_what_is_missing(tmp_path: Path) -> None:
     """Neither standard is named, the title is not shown, and a formula has no words (7.7)."""
-    found = judged(typst.compile(f"{DATED}= A $x$", standards=()), tmp_path)
+    found = judged(typst_compiler.compile(f"{DATED}= A $x$", standards=()), tmp_path)
     assert found["PDFUA-1"] == ("fail", ["5-1", "7.1-10", "7.7-1"])
     assert found["PDFA-2A"] == ("fail", ["6.6.4-1"])
