@@ -28,6 +28,7 @@ from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
 from reportgen.base.kinds import kinds
+from reportgen.base.languages import setting_of
 from reportgen.base.template_folders import languages, samples
 from reportgen.base.units import Language
 from reportgen.cases import open_case
@@ -309,7 +310,10 @@ BY_ENGINE, BY_EXTENT = {build, key, task, grade}, {build}
 
 
 def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Extent]]:
-    """Subject, command, language, engine, extent: each briefly in its file's language, then whatever there is."""
+    """Subject, command, language, engine, extent: each briefly in its file's language, then whatever there is.
+
+    A language that no native speaker has read has the engine and extent that are the usual ones alone.
+    """
     for subject in subjects():
         for command in COMMANDS:
             engines = get_args(api.Engine) if command in BY_ENGINE else ("typst",)
@@ -320,6 +324,7 @@ def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Exte
                 for language in languages()
                 for engine in engines
                 for extent in extents
+                if not setting_of(language).is_draft() or (engine, extent) == ("typst", "short")
             )
 
 

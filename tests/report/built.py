@@ -14,6 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment import Assignment
+from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
 from reportgen.cases import MachineCase
 from reportgen.drawing import Scene
@@ -51,6 +52,8 @@ def _first_of_each_kind(files: Iterable[Path]) -> list[Path]:
 
 TYPESET = _first_of_each_kind(FILES)
 """One file a kind is made by both writers."""
+OF_EACH_KIND = {next(iter(api.examples(kind).values())).resolve() for kind in kinds()}
+"""The first file of every kind; the words of a draft are proved with them."""
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 SIBLINGS = _first_of_each_kind(path for path in FILES if path not in TYPESET)
 """Where a kind has further files, one of them is made by one writer; the others differ in numbers only."""

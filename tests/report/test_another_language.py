@@ -257,14 +257,14 @@ def filled(made: Path, name: str, wrong: str) -> bytes:
 
 @proof
 def test_answers_in_it_are_marked_and_told_of(made: Path) -> None:
-    """A sheet with the numbers of the key has nothing wrong; with wrong lengths it has fewer points, told in xx."""
+    """A sheet with the numbers of the key has all points, one with wrong rotations fewer; both are told so in xx."""
     place, name = made.parent, "shaper-01"
     folder, tasks = place / "handed", place / "tasks"
     folder.mkdir()
     tasks.mkdir()
     shutil.copy(place / "assignments" / f"{name}.yaml", tasks)
     points = {}
-    for wrong in ("", "seg."):
+    for wrong in ("", "turn."):
         (folder / f"{name}.xlsx").write_bytes(filled(made, name, wrong))
         out = place / f"graded{wrong}"
         run(place, "grade", f"handed/{name}.xlsx", "--assignments", "tasks", "--lang", "xx", "--out", out.name)
@@ -273,4 +273,6 @@ def test_answers_in_it_are_marked_and_told_of(made: Path) -> None:
         feedback = [READ[path.suffix](path.read_bytes()) for path in out.rglob("*.pdf")]
         assert feedback
         assert [english(text, name) for text in feedback if english(text, name)] == []
-    assert points[""] != points["seg."]
+    given, out_of = told("points"), told("out of")
+    assert points[""][given] == points[""][out_of]
+    assert float(points["turn."][given]) < float(points["turn."][out_of])
