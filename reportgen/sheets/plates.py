@@ -23,7 +23,7 @@ from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
 from reportgen.plans.loads import Polygon
 from reportgen.plans.motion import What
-from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves, running_curves
+from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves, plain, running_curves
 from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis
 from reportgen.report.chapters import spring_lines
@@ -51,6 +51,7 @@ from reportgen.report.result_tables import (
     velocities,
     velocity_segments,
 )
+from reportgen.report.unspaced import set_out
 
 Set = Literal["kinematics", "forces", "balancing"]
 WIDEST, MOST_ROWS = 180.0, 24
@@ -88,7 +89,9 @@ class Sources:
     def place(self, k: int, of: str = "") -> str:
         """Position 2, or of a part: Group (2,3), position 2."""
         word = f"{self.report.words['table']['position']} {self.report.machine.position(k)}"
-        return f"{of}, {word[0].lower()}{word[1:]}" if of else word
+        language = self.report.assignment.language
+        line = Text(f"{of}, {word[0].lower()}{word[1:]}" if of else word)
+        return plain(set_out((line,), language), language)
 
 
 @dataclass(frozen=True, slots=True)
