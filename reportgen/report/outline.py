@@ -380,6 +380,8 @@ def names(report: Report) -> dict[str, Any]:
 
 LISTING = "symbols"
 """The section of what all others use."""
+OWN_LETTERS = "structure"
+"""The section of the formula of mobility, whose letters are its own and told below it: its W is no work."""
 
 
 def compose(case: MachineAnalysis) -> Document:
@@ -392,7 +394,8 @@ def compose(case: MachineAnalysis) -> Document:
         if section == "contents":
             continue
         if section == LISTING:
-            whole = replace(report, used_symbols=used_symbols(chain.from_iterable(written.values())))
+            others = (blocks for name, blocks in written.items() if name != OWN_LETTERS)
+            whole = replace(report, used_symbols=used_symbols(chain.from_iterable(others)))
             named["table"] = partial(table, whole)
         written[section] = report.prose.render(section, named)
     if "contents" in report.sections:
