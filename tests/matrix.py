@@ -271,7 +271,9 @@ def grade(at: Desk) -> None:
     (handed / f"{at.file.stem}.xlsx").write_bytes(filled(at.key))
     arguments = (handed, "--assignments", at.file.parent, "--out", at.out, "--engine", at.engine)
     lines = at.run("grade", *arguments).splitlines()
-    points = next(match for line in lines if (match := re.match(rf"{at.file.stem}[:：] ?([\d.,]*\d)\D+([\d.,]*\d)", line)))
+    points = next(
+        match for line in lines if (match := re.match(rf"{at.file.stem}[:：] ?([\d.,]*\d)\D+([\d.,]*\d)", line))
+    )
     assert points[1] == points[2], lines
     assert (at.out / at.file.stem / "feedback.pdf").read_bytes().startswith(b"%PDF-")
 

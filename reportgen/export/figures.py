@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
+from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from reportgen.drawing.animation import LAYERS, Animation, Pane, Track
 from reportgen.drawing.stills import sample_at, stills
 from reportgen.report.case import Case, bounded
 from reportgen.report.named_figures import NamedFigure, named_figures, safe
+from reportgen.report.telling import sentences
 
 STILL, MOVING = ("svg", "png", "pdf", "eps"), ("gif", "mp4")
 FORMATS = (*STILL, *MOVING)
@@ -111,6 +113,10 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
     if still:
         scenes = dict(drawings(named_figures(case.document()), query, movable, language))
         found = bounded(case.assignment, drawn, tuple(scenes.values()), language, still, query.dpi)
+        if "svg" in found:
+            phrases = case.words["told"]
+            said = (". ".join(sentences(scene.description, phrases, language)) for scene in scenes.values())
+            found["svg"] = list(map(_described, found["svg"], said))
         files |= {f"{name}.{format}": one for format in still for name, one in zip(scenes, found[format], strict=True)}
     for one in _wanted(case, query, movable()) if moved else ():
         frames = one.frames(query.layers)
@@ -133,6 +139,12 @@ def drawn(
         "eps": lambda: _eps(scenes, language),
     }
     return {name: makers[name]() for name in formats}
+
+
+def _described(svg: bytes, text: str) -> bytes:
+    """A picture that says what it shows to whoever does not see it."""
+    head, end, rest = svg.partition(b">")
+    return head + end + f"<desc>{escape(text)}</desc>".encode() + rest if text else svg
 
 
 def _eps(scenes: Sequence[Scene], language: Language) -> list[bytes]:

@@ -7,6 +7,7 @@ import re
 import shutil
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -95,6 +96,16 @@ def test_letters_of_an_svg_are_outlines() -> None:
     assert once == again
     assert b"<text" not in once
     assert b"<symbol" not in once
+
+
+def test_an_svg_says_what_it_shows() -> None:
+    """Its vectors with their lengths, as they are drawn."""
+    file = figure_files(SHAPER, ["v.6"], formats=["svg"])["v.6.svg"]
+    said = ElementTree.fromstring(file).findtext("{http://www.w3.org/2000/svg}desc") or ""
+    vectors = [one for one in figures(SHAPER)["v.6"].scenes[0].items if isinstance(one, Arrow) and one.name]
+    assert len(vectors) > 2
+    for one in vectors:
+        assert f"{abs(one.end - one.start):.2f} mm".replace(".", ",") in said
 
 
 BRIEF = {path.stem: path for path in (TWIN, SHAPER, ROOT / "assignments" / "linkage-8.yaml", SLIDER_CRANK)}
