@@ -45,8 +45,9 @@ bench: $(VENV)/.developing
 	$(BIN)/python -m tests.bench.reading
 	$(BIN)/python -m tests.bench.growth --plot docs/growth.png
 
-# The seed of the day: another ten thousand files each time.
+# The seed of the day: another ten thousand files each time, and new examples of what holds for any numbers.
 fuzz: $(VENV)/.developing
+	$(BIN)/python -m pytest -n auto --hypothesis-profile explore $(shell grep -rl "from hypothesis" tests --include=test_*.py)
 	$(BIN)/python -W ignore -m tests.fuzz 10000 $(shell date +%Y%m%d)
 
 pictures: $(VENV)/.developing

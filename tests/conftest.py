@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import settings
 from xdist.scheduler import LoadScopeScheduling
 
 from reportgen.cli import COLLECTED
@@ -22,6 +23,11 @@ from tests.report import built
 gc.set_threshold(COLLECTED)
 # What is kept between runs is kept here for all processes of the tests, not in the home of whoever runs them.
 os.environ["XDG_CACHE_HOME"] = str(Path(__file__).resolve().parents[1] / ".pytest_cache" / "kept")
+
+# A change is judged by the same examples wherever it is tried; `--hypothesis-profile explore` looks for new ones.
+settings.register_profile("same", derandomize=True)
+settings.register_profile("explore", derandomize=False)
+settings.load_profile("same")
 
 STEM = re.compile("|".join(rf"\b{path.stem}\b" for path in built.FILES))
 
