@@ -54,6 +54,11 @@ const { x, y } = new DOMPoint((a[0] + b[0]) / 2, (a[1] + b[1]) / 2).matrixTransf
 drawing.dispatchEvent(new PointerEvent("pointermove", { clientX: x, clientY: y, bubbles: true }));
 return [...document.querySelectorAll(".field.own [data-w]")].map((one) => one.id);
 """
+HOLD = """
+const fetched = window.fetch;
+window.fetch = (name, ...more) => name === "drag.json" ? fetched(name, ...more) : new Promise(() => {});
+"""
+"""Nothing is answered any more but what a machine with another value looks like."""
 REFUSED = "return document.getElementById('refused').textContent"
 IN_SIGHT = """
 const { left, top } = document.getElementById("refused").getBoundingClientRect();
@@ -120,6 +125,19 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
         until(lambda: browser.run("return document.querySelector('#making a')?.textContent || ''"))
         assert (tmp_path / "out" / "mine" / "report.pdf").read_bytes().startswith(b"%PDF-")
         assert not [message for message in browser.messages() if "favicon" not in message]
+
+
+@proof
+def test_a_typed_value_moves_the_machine_before_anything_is_made_anew(browser: Browser, tmp_path: Path) -> None:
+    file = tmp_path / "mine.yaml"
+    with editing("slider-crank", "-o", file, "--lang", "en") as address:
+        begun = file.read_text(encoding="utf-8")
+        browser.show(address, still=True)
+        browser.run(HOLD)
+        here = browser.run(PLACE)
+        browser.run(TYPE, "f:parameters.r", "160 mm")
+        until(lambda: browser.run(PLACE) != here)
+        assert file.read_text(encoding="utf-8") == begun
 
 
 @proof
