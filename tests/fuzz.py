@@ -47,7 +47,6 @@ from reportgen.marking.sheet import answer_book, read_submission
 from reportgen.report import Figure, Plate
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.key import Key
-from reportgen.report.layout import Letter
 from reportgen.report.outline import names
 from reportgen.report.prose import Prose
 from reportgen.report.report import Report
@@ -324,7 +323,7 @@ def _value(text: str, chance: random.Random) -> str:
 def _word_file() -> bytes:
     """A report as a school may take it for its own look."""
     case = open_case(Path("assignments/plane-motion/01.yaml"), "en")
-    return word.write(replace(case.document(), blocks=()), lambda _: (), Letter(word.FONT, 13.0))
+    return word.write(replace(case.document(), blocks=()), lambda _: ())
 
 
 @cache
@@ -379,7 +378,7 @@ def _report_file() -> bytes:
     case = open_case(Path("assignments/slotted-lever-01.yaml"), "en")
     blocks = (*case.document().blocks, *frame_of(case, _key()[0]).blocks)
     tree = replace(case.document(), blocks=tuple(block for block in blocks if not isinstance(block, Figure | Plate)))
-    return word.write(tree, lambda scenes: [(b"", b"") for _ in scenes], Letter(word.FONT, 13.0))
+    return word.write(tree, lambda scenes: [(b"", b"") for _ in scenes])
 
 
 @cache

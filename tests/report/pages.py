@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -113,9 +113,18 @@ def _glyphs(sheet: Any) -> list[Glyph]:
                     if not char["c"].strip(" \n\t\N{NO-BREAK SPACE}\N{ZERO WIDTH SPACE}\N{WORD JOINER}"):
                         word += 1
                         continue
+                    # A letter that a font makes of two parts is told twice, at its left and its right edge.
+                    if found and is_other_edge(found[-1], char):
+                        continue
                     box, origin = tuple(char["bbox"]), tuple(char["origin"])
                     found.append(Glyph(char["c"], box, span["size"], origin, bold, italic, word, along))
     return found
+
+
+def is_other_edge(last: Glyph, char: Mapping[str, Any]) -> bool:
+    """Whether a character without width repeats the one before it."""
+    left, right = last.box[0], last.box[2]
+    return last.char == char["c"] and left == right and char["bbox"][0] == char["bbox"][2]
 
 
 def without_repeated_head(page: Page, before: Sequence[Glyph]) -> Sequence[Glyph]:

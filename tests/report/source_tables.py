@@ -19,6 +19,8 @@ _HEADS = (['#"Vị trí"'], ['#"Position"'])
 _CELL = re.compile(rf"\[((?:{STRING}|[^\"\[\]])*)\]")
 _LEADING = re.compile(rf"-?{NUMBER}")
 _SYMBOL = re.compile(r"\$(?:abs\((.*)\)|(.*))\$")
+_HEARD = re.compile(rf'#M\({STRING},(\$(?:{STRING}|[^"$])*\$)\)')
+"""A formula with its words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +43,7 @@ def cells(source: str) -> Iterator[Compared]:
     told: dict[tuple[str, str], set[str]] = defaultdict(set)
     shown: list[tuple[str, str, str]] = []
     position = ""
-    for block in source.split("\n\n"):
+    for block in _printed(source):
         if heading := _HEADING.search(block):
             at = _AT.search(_words(heading[1]))
             position = at[1] if at else ""
@@ -63,7 +65,7 @@ def columns(source: str) -> Mapping[str, Sequence[Mapping[str, Decimal]]]:
     What a plan and a formula give stands in two tables under one symbol.
     """
     found: dict[str, list[Mapping[str, Decimal]]] = defaultdict(list)
-    for block in source.split("\n\n"):
+    for block in _printed(source):
         if "#R(" in block:
             table: dict[str, dict[str, Decimal]] = defaultdict(dict)
             for position, symbol, number in _of_table(block, ""):
@@ -76,13 +78,18 @@ def columns(source: str) -> Mapping[str, Sequence[Mapping[str, Decimal]]]:
 
 def extremes(source: str) -> Iterator[tuple[str, Decimal]]:
     """Quantities of the table of largest values with their sizes."""
-    for block in source.split("\n\n"):
+    for block in _printed(source):
         if block.endswith('#label("tab.extremes")'):
             for row in block.split("\n")[1:]:
                 for symbol, cell in pairwise(_CELL.findall(row)):
                     name, number = _SYMBOL.fullmatch(symbol), _LEADING.match(plain(_words(cell)))
                     if name and number:
                         yield name[1] or name[2], abs(Decimal(number[0]))
+
+
+def _printed(source: str) -> list[str]:
+    """The blocks of a source without the words of their formulas."""
+    return _HEARD.sub(r"\1", source).split("\n\n")
 
 
 def _of_table(block: str, position: str) -> Iterator[tuple[str, str, str]]:

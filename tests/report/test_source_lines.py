@@ -68,6 +68,7 @@ def test_tables_agree_with_one_another(path: Path) -> None:
     """The difference of two torques is that of those printed; no extreme lies inside what a table shows."""
     source = typst.write(built.written(path, built.own_language(path)).document)
     shown = columns(source)
+    assert len(shown) > 10
     largest = {symbol: {max(map(abs, one.values())) for one in some} for symbol, some in shown.items()}
     assert {symbol: size for symbol, size in extremes(source) if size not in largest.get(symbol, {size})} == {}
     ways = [column for symbol, some in shown.items() if symbol.endswith(('^("(1)")', '^("(2)")')) for column in some]
