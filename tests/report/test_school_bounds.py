@@ -132,7 +132,7 @@ def test_depth_is_told_with_its_line(school: School, deep: str) -> None:
         api.document(api.load(file))
 
 
-LABOUR = "{% for i in range(3000) %}{{ figure('scheme', 'fig.s.' ~ i, 'A') }}\n\n{% endfor %}"
+LABOUR = "{% for i in range(9000) %}{{ figure('scheme', 'fig.s.' ~ i, 'A') }}\n\n{% endfor %}"
 
 
 @pytest.mark.parametrize("language", matrix(["en", "vi"], ["en"]))
