@@ -13,8 +13,10 @@ import pytest
 from reportgen import api
 from reportgen import report as tree
 from reportgen.balancing import rotor_ids
+from reportgen.balancing.rotor_case import RotorCase
 from reportgen.balancing.rotor_drawings import moments_plan, two_views, unbalance_plan
 from reportgen.balancing.rotor_file import MOST_MASSES
+from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
 from reportgen.catalogue import sample
 from reportgen.drawing import Arrow, Label, Scene
@@ -37,8 +39,14 @@ ROUNDED = 0.005 + 1e-9
 """How far a length on paper is rounded (mm)."""
 
 
-def case_of(name: str, language: str = "en"):  # type: ignore[no-untyped-def]
-    return open_case(FOLDER / f"{name}.yaml", language)  # type: ignore[arg-type]
+def case_of(name: str, language: Language = "en") -> RotorCase:
+    return rotor(FOLDER / f"{name}.yaml", language)
+
+
+def rotor(file: Path, language: Language = "en") -> RotorCase:
+    case = open_case(file, language)
+    assert isinstance(case, RotorCase)
+    return case
 
 
 def recomputes(chain: Chain) -> bool | None:
@@ -59,13 +67,13 @@ TELLING = [("disc", "vi"), ("rotor-one-plane", "en"), ("rotor-two-planes", "vi")
 
 
 @pytest.mark.parametrize(("name", "language"), matrix(CASES, TELLING))
-def test_every_line_recomputes(name: str, language: str) -> None:
+def test_every_line_recomputes(name: str, language: Language) -> None:
     found = [recomputes(chain) for chain in chains(case_of(name, language).document().blocks)]
     assert found.count(True) >= 10
     assert False not in found
 
 
-def table_of(case, key: str) -> list[list[float]]:  # type: ignore[no-untyped-def]
+def table_of(case: RotorCase, key: str) -> list[list[float]]:
     """The numbers of a table of the report."""
     table = next(one for one in case.document().blocks if isinstance(one, tree.Table) and one.key == key)
     return [[cell.inlines[0].number.shown for cell in row[1:]] for row in table.rows]
@@ -175,10 +183,10 @@ def test_the_grade_is_judged_by_what_is_written_down(tmp_path: Path) -> None:
     text = (FOLDER / "rotor-two-planes.yaml").read_text(encoding="utf-8")
     for grade, kept in (("6.3", True), ("0.1", False)):
         file.write_text(text.replace("6.3 mm/s", f"{grade} mm/s"), encoding="utf-8")
-        case = open_case(file, "en")
+        case = rotor(file)
         permitted = case.ledger[rotor_ids.permitted("U")].at(1)
         assert permitted == pytest.approx(40 * float(grade) * 1e-3 / (1500 * math.pi / 30))
-        assert all(case.permitted) is kept  # type: ignore[attr-defined]
+        assert all(case.permitted) is kept
 
 
 def test_many_masses(tmp_path: Path) -> None:
@@ -237,7 +245,7 @@ def test_what_cannot_be_is_located(old: str, new: str, faults: list[str], tmp_pa
     assert TEXT.count(old) == 1
     file.write_text(TEXT.replace(old, new), encoding="utf-8")
     for language in ("vi", "en"):
-        found = api.check(file, language)  # type: ignore[arg-type]
+        found = api.check(file, language)
         assert [f"{one.mark.line}:{one.mark.column} {one.code}" for one in found] == faults
 
 
@@ -262,10 +270,10 @@ def test_a_plane_that_is_in_balance_by_itself(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("language", ["vi", "en"])
-def test_the_file_of_new_is_right(language: str, tmp_path: Path) -> None:
+def test_the_file_of_new_is_right(language: Language, tmp_path: Path) -> None:
     file = tmp_path / "new.yaml"
-    file.write_text(sample("rotor", language), encoding="utf-8")  # type: ignore[arg-type]
-    assert api.check(file, language) == []  # type: ignore[arg-type]
+    file.write_text(sample("rotor", language), encoding="utf-8")
+    assert api.check(file, language) == []
 
 
 def test_masses_in_the_first_plane_need_no_second(tmp_path: Path) -> None:
@@ -278,7 +286,7 @@ def test_a_radius_in_one_plane_and_a_mass_in_the_other(tmp_path: Path) -> None:
     file = tmp_path / "rotor.yaml"
     file.write_text(TEXT.replace("{r: 80 mm}", "{A: {r: 80 mm}, B: {m: 1.5 kg}}"), encoding="utf-8")
     for language in ("vi", "en"):
-        case = open_case(file, language)  # type: ignore[arg-type]
+        case = open_case(file, language)
         for plane, (r, m) in {"A": (0.08, None), "B": (None, 1.5)}.items():
             U = case.ledger[rotor_ids.unbalance(plane)].at(1)
             assert case.ledger[rotor_ids.radius(plane)].at(1) == pytest.approx(r or U / 1.5)
@@ -301,6 +309,6 @@ def test_a_slender_engine_or_rotor_keeps_to_its_page(tmp_path: Path) -> None:
     """Radii far larger than the distances along the shaft: a scheme is no higher than a page."""
     file = tmp_path / "rotor.yaml"
     file.write_text(TEXT.replace("r: 50 mm, angle: 0", "r: 5000 mm, angle: 0"), encoding="utf-8")
-    scene = two_views(open_case(file, "en"))  # type: ignore[arg-type]
+    scene = two_views(open_case(file, "en"))
     assert scene.height < 200
     assert scene.width < 170

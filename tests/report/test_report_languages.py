@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, get_args
 
 import pytest
-from jinja2 import Environment, nodes
 
 from reportgen.base.kinds import SAMPLE, kinds
 from reportgen.base.template_folders import kind_file, search_path
@@ -38,6 +37,7 @@ from reportgen.report import (
     plain,
 )
 from reportgen.report.numbering import unreferenced
+from reportgen.report.translation import SectionContents
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written
@@ -152,36 +152,17 @@ def test_twins_have_the_same_sections_in_the_same_order(name: str) -> None:
     assert vi == en
 
 
-GRAMMAR = {"lowered"}
-"""Functions that only fit a name into a sentence; so do conditions about singular and plural."""
-
-
 def called_sections(file: Path) -> dict[str, Passage]:
     """The sections of a file that are templates."""
     return {name: each for name, each in sections(file).items() if name not in {SECTION, SAMPLE}}
 
 
-def calls(section: Passage) -> set[str]:
-    """Functions, loops, included sections and keys that a section uses; not its texts and grammar."""
-    tree = Environment().parse(section.text)
-    result: set[str] = set()
-    for node in tree.find_all(nodes.Node):
-        match node:
-            case nodes.Call(node=nodes.Name(name=name)) if name not in GRAMMAR:
-                result.add(f"{name}()")
-            case nodes.Const(value=str(value)) if re.fullmatch(r"[a-z]+\.[\w.]*", value):
-                result.add(value)
-            case nodes.For():
-                result.add("for")
-            case nodes.Include():
-                result.add("include")
-    return result
-
-
 @pytest.mark.parametrize("name", FILES)
 def test_twins_call_the_same(name: str) -> None:
     vi, en = (called_sections(templates(language)[name]) for language in ("vi", "en"))
-    assert [section for section in vi if calls(vi[section]) != calls(en[section])] == []
+    assert [
+        section for section in vi if SectionContents.of(vi[section]).calls != SectionContents.of(en[section]).calls
+    ] == []
 
 
 def leaves(words: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
