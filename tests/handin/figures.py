@@ -12,7 +12,7 @@ from pathlib import Path
 from reportgen.handin import FileReading
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
-from tests.handin import reports
+from tests.handin import made_reports, reports
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Read:
     wrong: Mapping[tuple[str, int], str]
 
 
-def judged(made: reports.Report, reading: FileReading) -> Read:
+def judged(made: made_reports.Report, reading: FileReading) -> Read:
     """A value is wrong where something else, or nothing, was put; its size counts, a sense is said nowhere."""
     wrong = {
         place: answer.text
@@ -34,7 +34,7 @@ def judged(made: reports.Report, reading: FileReading) -> Read:
     return Read(len(made.truth), len(reading.values.keys() & made.truth.keys()), wrong)
 
 
-def read(made: reports.Report) -> FileReading:
+def read(made: made_reports.Report) -> FileReading:
     path = Path("report.docx")
     return read_report(open_word(path, made.file()).blocks, made.key, str(path))
 

@@ -20,7 +20,7 @@ from reportgen.handin import FileReading, word_report
 from reportgen.marking.frame import LONGEST, blank_name, bookmark_name
 from reportgen.marking.key import Ask, key_of
 from reportgen.report.key import Key
-from tests.handin import reports
+from tests.handin import made_reports
 from tests.lanes import matrix, proof
 
 CONTROL = re.compile(
@@ -32,12 +32,12 @@ NAMES = ("slotted-lever-01", "four-bar-01", "coursework/shaper", "gears/pair-lea
 
 @cache
 def frame(name: str) -> bytes:
-    return api.frame_files(reports.ROOT / f"{name}.yaml", "typst", "vi")["frame.docx"]
+    return api.frame_files(made_reports.ROOT / f"{name}.yaml", "typst", "vi")["frame.docx"]
 
 
 @cache
 def key(name: str) -> Key:
-    return Ask().of(key_of(open_case(reports.ROOT / f"{name}.yaml", "vi")))
+    return Ask().of(key_of(open_case(made_reports.ROOT / f"{name}.yaml", "vi")))
 
 
 def changed(content: bytes, text: str) -> bytes:

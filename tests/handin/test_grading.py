@@ -24,10 +24,10 @@ from reportgen.marking.policy import Policy, read_policy
 from reportgen.marking.scheme import marking_scheme
 from reportgen.marking.sheet import read_submission
 from reportgen.report.key import Key
-from tests.handin import reports, wml
+from tests.handin import made_reports, reports, wml
 from tests.lanes import proof
 
-FILE = reports.ROOT / "slotted-lever-01.yaml"
+FILE = made_reports.ROOT / "slotted-lever-01.yaml"
 STUDENTS = {"K01": "Nguyễn Văn An", "K02": "Trần Thị Bình", "K03": "Lê Cường"}
 RULES = Policy(guard=False)
 
@@ -73,7 +73,7 @@ def grades(graded: assess.Graded, policy: Policy = RULES) -> list[dict[str, str]
 def test_the_same_values_give_the_same_verdicts_by_sheet_and_by_report() -> None:
     for manner, seed in (("mixed", 5),):
         made = reports.report(manner, "four-bar-01", seed)
-        scheme = marking_scheme(open_case(reports.ROOT / "four-bar-01.yaml", made.key.language), RULES)
+        scheme = marking_scheme(open_case(made_reports.ROOT / "four-bar-01.yaml", made.key.language), RULES)
         scheme = replace(scheme, key=made.key)
         own = submission([word_report.read(Path("r.docx"), made.file(), made.key)], made.key.language)
         typed = {place: Answer(answer.value, answer.text, Mark("s.xlsx")) for place, answer in own.values.items()}

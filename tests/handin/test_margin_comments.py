@@ -18,7 +18,7 @@ from reportgen.marking.marking import mark
 from reportgen.marking.marks import Verdict
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import marking_scheme
-from tests.handin import reports, wml
+from tests.handin import made_reports, reports, wml
 from tests.lanes import matrix
 
 W = f"{{{wml.W}}}"
@@ -55,7 +55,9 @@ def test_every_wrong_number_has_its_comment(manner: str, tmp_path: Path) -> None
     """All values of a made-up report are wrong, so each has a comment with its own number in the run or formula."""
     made = reports.report(manner, "slotted-lever-01", 1)
     content = made.file()
-    scheme = marking_scheme(open_case(reports.ROOT / "slotted-lever-01.yaml", made.key.language), Policy(guard=False))
+    scheme = marking_scheme(
+        open_case(made_reports.ROOT / "slotted-lever-01.yaml", made.key.language), Policy(guard=False)
+    )
     reading = word_report.read(NAME, content, made.key)
     marking = mark(scheme, submission([reading], made.key.language))
     name, copy = word_report.marked(NAME, content, reading, marking, Policy())

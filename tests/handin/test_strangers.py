@@ -13,7 +13,7 @@ from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
 from reportgen.workbook.package import RefusedError
-from tests.handin import reports, wml
+from tests.handin import made_reports, wml
 
 BODY = wml.paragraph(wml.run("v_D = 0,25 m/s"))
 
@@ -114,4 +114,4 @@ def test_a_template_that_stands_elsewhere_is_told_and_dropped_from_the_copy() ->
 def test_a_line_made_to_take_long_is_looked_through_once(text: str) -> None:
     """A pattern that tries all ways to part such a line would take minutes, and the run with it."""
     blocks = open_word(Path("r.docx"), wml.package(wml.paragraph(wml.run(text)))).blocks
-    assert not read_report(blocks, reports.key_for("slotted-lever-01", "vi"), "r.docx").values
+    assert not read_report(blocks, made_reports.key_for("slotted-lever-01", "vi"), "r.docx").values

@@ -15,7 +15,7 @@ from reportgen.handin.word_reader import read_report
 from reportgen.marking.key import Ask, key_of
 from reportgen.report.key import Key
 from reportgen.writers import word
-from tests.handin import figures, reports, wml
+from tests.handin import figures, made_reports, reports, wml
 from tests.lanes import matrix
 
 CASES = [(manner, machine, seed) for manner, machine, seed in reports.each(range(1))]
@@ -46,7 +46,7 @@ OWN_REPORTS = [
 @pytest.mark.parametrize(("name", "language"), matrix(OWN_REPORTS, OWN_REPORTS[:1]))
 def test_our_own_report_is_read(name: str, language: str) -> None:
     """Directions that stand in the drawing alone are no values of the text; what stands there agrees with the key."""
-    case = open_case(reports.ROOT / f"{name}.yaml", language)  # type: ignore[arg-type]
+    case = open_case(made_reports.ROOT / f"{name}.yaml", language)  # type: ignore[arg-type]
     key = Ask().of(key_of(case))
     content = word.write(case.document(), lambda scenes: [(b"", b"") for _ in scenes])
     reading = read_report(open_word(Path("report.docx"), content).blocks, key, "report.docx")
@@ -62,13 +62,13 @@ def test_our_own_report_is_read(name: str, language: str) -> None:
 
 @cache
 def key() -> Key:
-    return reports.key_for("slotted-lever-01", "vi")
+    return made_reports.key_for("slotted-lever-01", "vi")
 
 
 def read(*blocks: str, language: str = "vi") -> FileReading:
     content = wml.package("".join(blocks))
     return read_report(
-        open_word(Path("r.docx"), content).blocks, reports.key_for("slotted-lever-01", language), "r.docx"
+        open_word(Path("r.docx"), content).blocks, made_reports.key_for("slotted-lever-01", language), "r.docx"
     )
 
 
