@@ -2,7 +2,8 @@
 
     python -m tests.house
 
-prints every figure beside its limit, and ends with exit code 1 where one is passed.
+prints every figure beside its limit and exits with code 1 if a figure exceeds it.  Numbers of rooms, arrows and vague
+names are printed without a limit: a cap that equals today's figure punishes any addition, a good one too.
 
 A room is a folder of `reportgen` with all that is in it, or a module beside those folders.  An arrow runs from a room
 to another one that it imports from, wherever the import stands.  A room is a floor above the highest that it imports.
@@ -265,10 +266,10 @@ def _bound(node: ast.AST) -> Iterator[tuple[str, int]]:
         yield from _bound(inner)
 
 
-LIMITS: Mapping[Callable[[House], Counted], int] = {
-    rooms: 27,
+LIMITS: Mapping[Callable[[House], Counted], int | None] = {
+    rooms: None,
     floors: 11,
-    arrows: 145,
+    arrows: None,
     arrows_back_up: 0,
     circles: 0,
     longest_module: 500,
@@ -276,9 +277,9 @@ LIMITS: Mapping[Callable[[House], Counted], int] = {
     ids_by_f_string: 0,
     class_names_twice: 0,
     longest_positional_call: 6,
-    vague_names: 150,
+    vague_names: None,
 }
-"""What no figure may pass."""
+"""The most that each figure may reach; `None`: printed for information, without a limit."""
 
 
 def main(root: Path = ROOT) -> int:
@@ -286,8 +287,9 @@ def main(root: Path = ROOT) -> int:
     for counting, limit in LIMITS.items():
         counted = counting(house)
         count, places = (counted, ()) if isinstance(counted, int) else (len(counted), counted)
-        print(f"{counting.__name__.replace('_', ' '):25}{count:7}   at most {limit}")
-        if count > limit:
+        bound = "" if limit is None else f"   at most {limit}"
+        print(f"{counting.__name__.replace('_', ' '):25}{count:7}{bound}")
+        if limit is not None and count > limit:
             passed += 1
             for place in places[:SHOWN]:
                 print(f"    {place}")

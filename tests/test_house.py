@@ -105,6 +105,8 @@ def test_a_vague_name_counts_where_it_is_bound_and_lives_longer_than_a_line(tmp_
 def test_a_limit_that_is_passed_is_a_fault(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(house, "LIMITS", {house.circles: 0, house.rooms: 1000})
     assert house.main() == 0
+    monkeypatch.setattr(house, "LIMITS", {house.rooms: None})
+    assert house.main() == 0
     monkeypatch.setattr(house, "LIMITS", {house.floors: 1})
     assert house.main() == 1
     assert capsys.readouterr().out.count("at most") == 3
