@@ -1,20 +1,22 @@
-"""A net under a rebuilding: every output of the package, written once and compared with a later one.
+"""Compare every output of the package before and after a change of its structure.
 
     python -m tests.outputs write DIR [PART…]      before and after a change
     python -m tests.outputs write DIR FILE.yaml…   of other assignment files
     python -m tests.outputs compare BEFORE AFTER   what differs, and exit code 1 if anything does
 
-It calls the command line alone, so it stands outside whatever is rebuilt.  Written are, of each file in
-`assignments/` and its folders, in each language: results, tables, key, task and answer sheet, that
-sheet filled in with some mistakes and marked, the drawing sheets (PDF and DXF), the page for a browser with its
-animation; with each typesetter the report's source and its PDF's words and strokes with their places; and the marks
-and feedback of the example class.  A PART is a word of the jobs' names ("engine-twin", "typst", "key", "class",
-"sheet", "page", "marks"); only jobs with all of them are run.
+It calls the command line only, so it does not depend on the code that changes.  For each file in `assignments/` and
+its folders, in Vietnamese and English, it writes: results, tables, key, task and answer sheet, that sheet filled in
+with some mistakes and marked, the drawing sheets (PDF and DXF), the page for a browser with its animation, the Word
+file's text; with each typesetter the report's source and its PDF's words and strokes with their places; and the marks
+and feedback of the example class.  In the other languages it writes the key, the Word file and the report of the first
+file of each kind.  A PART is a word of the jobs' names ("engine-twin", "typst", "key", "class", "sheet", "page",
+"docx", "marks", "zh"); only jobs with all of them are run.
 """
 
 from __future__ import annotations
 
 import base64
+import hashlib
 import json
 import math
 import re
@@ -22,6 +24,7 @@ import shutil
 import struct
 import sys
 import tempfile
+import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from itertools import zip_longest
@@ -29,10 +32,8 @@ from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).parents[1]
-FILES = [
-    path for folder in ("", "plane-motion", "cam") for path in sorted((ROOT / "assignments" / folder).glob("*.yaml"))
-]
 CLASS = ROOT / "assignments" / "class-demo"
+FILES = [path for path in sorted((ROOT / "assignments").rglob("*.yaml")) if CLASS not in path.parents]
 LANGUAGES = ("vi", "en")
 ENGINES = ("typst", "latex")
 
@@ -118,7 +119,24 @@ def _floats(packed: str) -> Iterator[float]:
     return (number for (number,) in struct.iter_unpack("<f", raw[: len(raw) // 4 * 4]))
 
 
-READERS: dict[str, Callable[[Path], str]] = {".pdf": page_text, ".xlsx": workbook_text, ".html": browser_text}
+def word_text(path: Path) -> str:
+    """The elements of the parts of a Word file, a line each; of pictures their digests."""
+    with zipfile.ZipFile(path) as parts:
+        return "".join(f"--- {name}\n{_part(name, parts.read(name))}\n" for name in sorted(parts.namelist()))
+
+
+def _part(name: str, content: bytes) -> str:
+    if name.endswith((".xml", ".rels")):
+        return content.decode("utf-8").replace("><", ">\n<")
+    return hashlib.sha256(content).hexdigest()
+
+
+READERS: dict[str, Callable[[Path], str]] = {
+    ".pdf": page_text,
+    ".xlsx": workbook_text,
+    ".html": browser_text,
+    ".docx": word_text,
+}
 
 
 def take(folder: Path, out: Path) -> None:
@@ -176,6 +194,12 @@ def sheets(out: Path, file: Path, language: str, place: Path) -> None:
 def page(out: Path, file: Path, language: str, place: Path) -> None:
     made = place / "made"
     say(out, "page", run("build", file, "--format", "html", "--lang", language, "--out", made), place)
+    take(made, out)
+
+
+def word(out: Path, file: Path, language: str, place: Path) -> None:
+    made = place / "made"
+    say(out, "docx", run("build", file, "--format", "docx", "--lang", language, "--out", made), place)
     take(made, out)
 
 
@@ -256,9 +280,29 @@ def jobs(files: list[Path]) -> Iterator[tuple[str, Callable[..., None], tuple[ob
             yield f"{file.stem} {language} task", task, (file, language)
             yield f"{file.stem} {language} sheet", sheets, (file, language)
             yield f"{file.stem} {language} page", page, (file, language)
+            yield f"{file.stem} {language} docx", word, (file, language)
             yield f"{file.stem} {language} marks", marks, (file, language)
             for engine in ENGINES:
                 yield f"{file.stem} {language} {engine}", report, (file, engine, language)
+    for language in sorted(set(languages()) - set(LANGUAGES)):
+        for file in first_of_each_kind(files):
+            yield f"{file.stem} {language} key", key, (file, language)
+            yield f"{file.stem} {language} docx", word, (file, language)
+            yield f"{file.stem} {language} typst", report, (file, "typst", language)
+
+
+def languages() -> list[str]:
+    """The languages of the templates, by their folders."""
+    return sorted(path.parent.name for path in (ROOT / "templates").glob("*/language.yaml"))
+
+
+def first_of_each_kind(files: list[Path]) -> list[Path]:
+    """The first file of each kind; a file without a kind, a coursework of parts, counts as a kind."""
+    kinds: dict[str, Path] = {}
+    for file in files:
+        kind = re.search(r"^kind: *(\S+)", file.read_text(encoding="utf-8"), re.MULTILINE)
+        kinds.setdefault(kind[1] if kind else file.stem, file)
+    return list(kinds.values())
 
 
 def do(name: str, job: Callable[..., None], arguments: tuple[object, ...], out: Path) -> str:
