@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import random
@@ -14,7 +13,6 @@ import sys
 import tempfile
 import time
 import traceback
-import zipfile
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -56,7 +54,18 @@ from reportgen.workbook.letterhead import read_letterhead
 from reportgen.writers import word
 from reportgen.writers.word_styles import merged, styles
 from tests.handin.drawings import Manner, draw, true_plans
-from tests.spoiling import EXTREMES, HOSTILE, extreme, letter, scaled, spoilt
+from tests.spoiling import (
+    HOSTILE,
+    element,
+    extreme,
+    letter,
+    scaled,
+    spoilt,
+    spoilt_bytes,
+    spoilt_lines,
+    spoilt_package,
+    value,
+)
 
 ASSIGNMENTS = sorted(Path("assignments").glob("*.yaml"))
 DEMO = Path("assignments/class-demo")
@@ -187,32 +196,10 @@ def _words(number: int, chance: random.Random, folder: Path) -> None:
 
 def _letterhead(number: int, chance: random.Random, folder: Path) -> None:
     """A school's Word file with a part spoilt as a text or as elements, or with some bytes changed."""
-    file, made = folder / "report.docx", io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(_word_file())) as old, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as new:
-        changed = chance.choice([one for one in old.namelist() if re.search(r"document|styles|header|footer", one)])
-        for name in old.namelist():
-            text = old.read(name).decode()
-            for _ in range(chance.choice((1, 1, 3)) if name == changed else 0):
-                text = chance.choice((_element, _value, letter))(text, chance)
-            new.writestr(name, text.encode("utf-8", "surrogatepass"))
-    content = bytearray(made.getvalue())
-    for _ in range(chance.choice((1, 20)) if number % 8 == 0 else 0):
-        content[chance.randrange(len(content))] = chance.randrange(256)
-    file.write_bytes(content)
+    file = folder / "report.docx"
+    content = spoilt_package(_word_file(), r"document|styles|header|footer", (element, value, letter), chance)
+    file.write_bytes(spoilt_bytes(content, chance, (1, 20)) if number % 8 == 0 else content)
     merged(styles("Times New Roman", 13.0, "en", close=False, room=160.0), read_letterhead(file, "en").styles, "en")
-
-
-def _element(text: str, chance: random.Random) -> str:
-    """A tag is left out, there twice, or named as another."""
-    one, other = (chance.choice(list(re.finditer(r"<(/?)([\w:]+)([^<>]*)>", text))) for _ in range(2))
-    new = chance.choice(("", one[0] * 2, f"<{one[1]}{other[2]}{one[3]}>", one[0] + other[0]))
-    return text[: one.start()] + new + text[one.end() :]
-
-
-def _value(text: str, chance: random.Random) -> str:
-    """An attribute has another value."""
-    one = chance.choice(list(re.finditer(r'(?<==")[^"]*', text)))
-    return text[: one.start()] + chance.choice((*EXTREMES, "", "16000", "Normal", "true")) + text[one.end() :]
 
 
 @cache
@@ -242,30 +229,21 @@ def _sheet(number: int, chance: random.Random, folder: Path) -> None:
         _put(file, spoilt(csv, chance))
     else:
         file = folder / "sheet.xlsx"
-        content = bytearray(xlsx)
-        for _ in range(chance.choice((1, 3, 20))):
-            content[chance.randrange(len(content))] = chance.randrange(256)
-        file.write_bytes(content)
+        file.write_bytes(spoilt_bytes(xlsx, chance))
     read_submission(file, key)
 
 
 def _handed_in(number: int, chance: random.Random, folder: Path) -> None:
     """A report that was handed in, with its text spoilt as a text or as elements, or with some bytes changed."""
-    file, made = folder / "handed.docx", io.BytesIO()
-    with zipfile.ZipFile(io.BytesIO(_report_file())) as old, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as new:
-        for name in old.namelist():
-            text = old.read(name).decode()
-            for _ in range(chance.choice((1, 3, 9)) if name == "word/document.xml" else 0):
-                text = chance.choice((_element, _value, letter, scaled, extreme))(text, chance)
-            new.writestr(name, text.encode("utf-8", "surrogatepass"))
-    content = bytearray(made.getvalue())
-    for _ in range(chance.choice((1, 20)) if number % 8 == 0 else 0):
-        content[chance.randrange(len(content))] = chance.randrange(256)
+    file = folder / "handed.docx"
+    changes = (element, value, letter, scaled, extreme)
+    content = spoilt_package(_report_file(), "word/document.xml", changes, chance, (1, 3, 9))
+    content = spoilt_bytes(content, chance, (1, 20)) if number % 8 == 0 else content
     file.write_bytes(content)
     key = _key()[0]
-    reading = read_file(file, bytes(content), key, "en")
+    reading = read_file(file, content, key, "en")
     remarks = [MarginNote(answer.text, getattr(answer.mark, "element", None)) for answer in reading.values.values()]
-    with_comments(open_word(file, bytes(content)), [MarginNote("\0 <&>"), *remarks])
+    with_comments(open_word(file, content), [MarginNote("\0 <&>"), *remarks])
 
 
 @cache
@@ -289,17 +267,7 @@ def _key() -> tuple[Key, str, bytes]:
 def _drawing(number: int, chance: random.Random, folder: Path) -> None:
     """A drawing with some lines of its text changed, or some bytes; what can be read is given back, too."""
     key, plans, data = _drawn()
-    if number % 2:
-        lines = data.splitlines(keepends=True)
-        for _ in range(chance.choice((1, 3, 20))):
-            at = chance.randrange(len(lines))
-            lines[at : at + chance.randrange(3)] = chance.choices((b"0\n", b"1e999\n", b"nan\n", b"INSERT\n"), k=2)
-        data = b"".join(lines)
-    else:
-        content = bytearray(data)
-        for _ in range(chance.choice((1, 3, 20))):
-            content[chance.randrange(len(content))] = chance.randrange(256)
-        data = bytes(content)
+    data = spoilt_lines(data, chance) if number % 2 else spoilt_bytes(data, chance)
     file = folder / "sheet.dxf"
     file.write_bytes(data)
     reading = read_file(file, data, key, "en", plans)

@@ -1,10 +1,12 @@
-"""A text spoilt at random, as hands spoil it: numbers, units, letters, lines, switches, positions."""
+"""Files spoilt at random, as hands and disks spoil them: texts, parts of a package, lines of a drawing, bytes."""
 
 from __future__ import annotations
 
+import io
 import random
 import re
-from collections.abc import Callable
+import zipfile
+from collections.abc import Callable, Sequence
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?[0-9]+(?:\.[0-9]+)?(?![\w.])")
 EXTREMES = ("0", "-0", "1e-300", "1e300", "1e-9", "1e9", "-1", "0.5", "1", "1.0000001", "359.999999", "999999999", "٣")
@@ -108,3 +110,62 @@ def _positions(text: str, chance: random.Random) -> str:
 
 
 CHANGES = (scaled, scaled, scaled, extreme, extreme, _zeros, _unit, letter, _line, _switch, _positions)
+
+
+# --- files of programs ----------------------------------------------------------------------------
+
+Change = Callable[[str, random.Random], str]
+
+
+def element(text: str, chance: random.Random) -> str:
+    """A tag is left out, there twice, or named as another."""
+    tags = list(re.finditer(r"<(/?)([\w:]+)([^<>]*)>", text))
+    if not tags:
+        return text
+    one, other = (chance.choice(tags) for _ in range(2))
+    new = chance.choice(("", one[0] * 2, f"<{one[1]}{other[2]}{one[3]}>", one[0] + other[0]))
+    return text[: one.start()] + new + text[one.end() :]
+
+
+def value(text: str, chance: random.Random) -> str:
+    """An attribute has another value."""
+    values = list(re.finditer(r'(?<==")[^"]*', text))
+    if not values:
+        return text
+    one = chance.choice(values)
+    return text[: one.start()] + chance.choice((*EXTREMES, "", "16000", "Normal", "true")) + text[one.end() :]
+
+
+def spoilt_package(
+    data: bytes, parts: str, changes: Sequence[Change], chance: random.Random, times: Sequence[int] = (1, 1, 3)
+) -> bytes:
+    """A zip package with one of the parts whose names fit a pattern changed so many times."""
+    made = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as new:
+        changed = chance.choice([name for name in old.namelist() if re.search(parts, name)])
+        for name in old.namelist():
+            content = old.read(name)
+            if name == changed:
+                text = content.decode()
+                for _ in range(chance.choice(times)):
+                    text = chance.choice(changes)(text, chance)
+                content = text.encode("utf-8", "surrogatepass")
+            new.writestr(name, content)
+    return made.getvalue()
+
+
+def spoilt_lines(data: bytes, chance: random.Random) -> bytes:
+    """A drawing with some lines of its text replaced."""
+    lines = data.splitlines(keepends=True)
+    for _ in range(chance.choice((1, 3, 20))):
+        at = chance.randrange(len(lines))
+        lines[at : at + chance.randrange(3)] = chance.choices((b"0\n", b"1e999\n", b"nan\n", b"INSERT\n"), k=2)
+    return b"".join(lines)
+
+
+def spoilt_bytes(data: bytes, chance: random.Random, times: Sequence[int] = (1, 3, 20)) -> bytes:
+    """A file with some bytes changed."""
+    content = bytearray(data)
+    for _ in range(chance.choice(times)):
+        content[chance.randrange(len(content))] = chance.randrange(256)
+    return bytes(content)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path
 
@@ -18,6 +18,7 @@ from reportgen.cases import open_case
 from reportgen.classes.collecting import Collected, Refused, collect, named_after
 from reportgen.classes.corrections import Correction, applied
 from reportgen.classes.gradebooks import Gradebook, Participant
+from reportgen.classes.isolation import isolated
 from reportgen.classes.lateness import Handing, days_late
 from reportgen.classes.own_work import LookedFor, OwnWork, completed, own_works, with_own, without_own
 from reportgen.classes.platforms import Handed, Owner, handed_in
@@ -153,11 +154,19 @@ def grade(
     keys = {comparable(key.id): key for key in room.keys} if own else {}
     looked_for = LookedFor(room.handed_out, room.plans)
     works = own_works(own, keys, lambda file: _student_of(file, room, gradebook), looked_for, policy.twice, language)
-    collected = with_own(collected, works, language)
+    collected = with_own(collected, works, files, language)
     sheets = {name: sheet for name, (sheet, _) in collected.sheets.items()}
     # Whose values a sheet has, shows beside all the others.
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
-    markings = {name: mark(asked_of(room.scheme(name), sheet), sheet, classmates) for name, sheet in sheets.items()}
+    markings: dict[str, Marking] = {}
+    failed: dict[str, Refused] = {}
+    for name, (sheet, file) in collected.sheets.items():
+        judging = partial(_marked, room.scheme(name), sheet, classmates)
+        marking = isolated(judging, file.path, language)
+        if isinstance(marking, list):
+            failed[name] = Refused(file, tuple(marking))
+        else:
+            markings[name] = marking
     order = {name: index for index, name in enumerate(files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
     marked, misfits = applied(marked, room.keys, corrections, language)
@@ -168,6 +177,8 @@ def grade(
         days, late = days_late(policy.late, _handings(collected, known, people), gradebook, language)
         marked = [replace(marking, days_late=days.get(marking.key.id, 0)) for marking in marked]
     reasons = _reasons(collected.refused, room, gradebook)
+    for name, refused in failed.items():
+        reasons[name] = (*reasons.get(name, ()), *refused.reasons)
     too_little = {
         marking.key.id: marking.submission for marking in marked if marking.submission.share_read < policy.least_read
     }
@@ -177,7 +188,9 @@ def grade(
         for key in room.keys
         if key.id not in markings or key.id in too_little
     ]
-    problems = (*collected.problems, *(as_problem(fault, language) for fault in faults), *misfits, *late)
+    unexpected = (problem for refused in failed.values() for problem in refused.problems)
+    archives = (as_problem(fault, language) for fault in faults)
+    problems = (*collected.problems, *unexpected, *archives, *misfits, *late)
     return Graded(tuple(marked), problems, tuple(unmarked), owners, known, own=works.works, kept=collected.readings)
 
 
@@ -213,6 +226,11 @@ def _student_of(handed: Handed, room: Classroom, gradebook: Gradebook | None) ->
         stem = named_after(handed.path, room.files)
         fitting = [key for key in room.keys if comparable(key.id) == stem]
     return fitting[0] if len(fitting) == 1 else None
+
+
+def _marked(scheme: MarkingScheme, sheet: Submission, classmates: Sequence[Classmate]) -> Marking:
+    """The marking of one student's sheet by what is asked of it."""
+    return mark(asked_of(scheme, sheet), sheet, classmates)
 
 
 def asked_of(scheme: MarkingScheme, submission: Submission) -> MarkingScheme:

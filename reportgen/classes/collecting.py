@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, Owner
 from reportgen.classes.reading_sheets import Pages
 from reportgen.classes.roster import comparable
@@ -62,17 +64,10 @@ def collect(
     problems: list[Problem] = []
     readings: dict[str, tuple[Submission, Handed]] = {}
     for file, pages in handed:
-        try:
-            if isinstance(pages, list):
-                raise AssignmentError(pages)
-            submission = read_submission(file.path, key_of, language, pages)
-            name = key_of(submission.assignment).student.get("name", "")
-            if file.owner and not file.owner.may_be(name):
-                fault = Fault("sheet-other-hands", Mark(str(file.path)), {"text": name, "owner": file.owner.name})
-                raise AssignmentError([as_problem(fault, language)])
-        except AssignmentError as error:
-            refused.append(Refused(file, error.problems))
-            problems += error.problems
+        submission = isolated(partial(_submission, file, pages, key_of, language), file.path, language)
+        if isinstance(submission, list):
+            refused.append(Refused(file, tuple(submission)))
+            problems += submission
             continue
         if is_unchanged(submission):
             readings[submission.assignment] = submission, file
@@ -89,6 +84,20 @@ def collect(
         sheets[assignment] = next(pair for pair in several if pair[1] is chosen)
         problems += [as_problem(fault, language) for fault in left]
     return Collected(sheets, tuple(refused), tuple(problems), readings)
+
+
+def _submission(
+    file: Handed, pages: Pages | list[Problem], key_of: Callable[[str], Key], language: Language | None
+) -> Submission:
+    """The sheet of a file, handed in by whoever it belongs to; raises `AssignmentError`."""
+    if isinstance(pages, list):
+        raise AssignmentError(pages)
+    submission = read_submission(file.path, key_of, language, pages)
+    name = key_of(submission.assignment).student.get("name", "")
+    if file.owner and not file.owner.may_be(name):
+        fault = Fault("sheet-other-hands", Mark(str(file.path)), {"text": name, "owner": file.owner.name})
+        raise AssignmentError([as_problem(fault, language)])
+    return submission
 
 
 def chosen_of(

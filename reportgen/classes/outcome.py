@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from itertools import groupby
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import replace
+from itertools import groupby, islice
 from pathlib import Path
 
 from reportgen import api
@@ -17,11 +19,13 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult
+from reportgen.classes.isolation import isolated
 from reportgen.classes.own_work import renewable
-from reportgen.classes.platforms import zipped
+from reportgen.classes.platforms import Handed, zipped
+from reportgen.classes.reading_sheets import marked_copies
 from reportgen.classes.roster import folder_name
+from reportgen.handin import FileReading
 from reportgen.handin.checking import summary as summary_of_reading
-from reportgen.handin.files import marked_copies
 from reportgen.handin.reading_book import NAME, reading_book
 from reportgen.marking.class_page import class_document
 from reportgen.marking.comment import comment
@@ -35,6 +39,8 @@ from reportgen.marking.variant_marks import groups, variant_rows
 from reportgen.report.key import Key
 from reportgen.workbook import write_csv, write_xlsx
 
+CLASS_PAGE = Path("class.pdf")
+
 
 def files_of(
     graded: Graded,
@@ -43,38 +49,49 @@ def files_of(
     language: Language | None,
     out: Path | None = None,
     standards: Standards = STANDARDS,
+    problems: list[Problem] | None = None,
 ) -> Iterator[tuple[Path, bytes]]:
     """Every file of a graded class with its content: three for each student, and those of the instructor.
 
     Of a student's own files there are marked copies, too, and the sheet of what was read of them, but for one that was
-    completed below `out`.
+    completed below `out`.  What cannot be written for a student is left out, added to `problems` and reported in the
+    student's row of grades.csv.
 
     What goes back to a learning platform is also put into `feedback.zip`, under the names by which it knows its
     students.  A PDF of typst keeps the `standards`.
     """
     returned: dict[str, bytes] = {}
+    markings: list[Marking] = []
+    problems = [] if problems is None else problems
+    copied = marked_copies(_own_files(graded), policy, language)
     for marking in graded.markings:
         key = marking.key
+        files, missing = _feedback(marking, policy, engine, standards, language)
+        copies, refused = _copies(
+            islice(copied, len(graded.own[key.id].files) if key.id in graded.own else 0), language
+        )
+        missing += refused
+        problems += missing
+        said = (f"{Path(problem.mark.file).name}: {problem.message}" for problem in missing)
+        markings.append(replace(marking, unwritten=tuple(said)))
         folder = _folder(key)
-        files = dict(_feedback(marking, policy, engine, standards))
-        copies = dict(_copies(graded, marking, policy, language))
         yield from ((folder / name, content) for name, content in {**copies, **files}.items())
         if owner := graded.owners.get(key.id):
-            given_back = {name: files[name] for name in ("feedback.xlsx", "feedback.pdf")} | copies
+            given_back = {name: files[name] for name in ("feedback.xlsx", "feedback.pdf") if name in files} | copies
             returned |= {f"{owner.prefix}{name}": content for name, content in given_back.items()}
-    yield from _readings(graded, policy, out)
+    yield from _readings(graded, policy, out, language)
     if returned:
         yield Path("feedback.zip"), zipped(returned)
-    if graded.markings:
-        key = graded.markings[0].key
+    if markings:
+        key = markings[0].key
         spoken = language or key.language
-        yield Path("grades.csv"), write_csv(grade_rows(graded.markings, spoken, graded.unmarked, policy))
-        yield Path("questions.csv"), write_csv(question_rows(graded.markings, spoken))
-        if compared := groups(graded.markings, policy, spoken):
+        yield Path("grades.csv"), write_csv(grade_rows(markings, spoken, graded.unmarked, policy))
+        yield Path("questions.csv"), write_csv(question_rows(markings, spoken))
+        if compared := groups(markings, policy, spoken):
             yield Path("by-variant.csv"), write_csv(variant_rows(compared, spoken))
         named = title(key.kind, spoken)
-        overview = class_document(graded.markings, named, spoken, graded.unmarked, policy)
-        yield Path("class.pdf"), api.typeset(overview, engine, None, standards)[1]
+        overview = class_document(markings, named, spoken, graded.unmarked, policy)
+        yield CLASS_PAGE, api.typeset(overview, engine, None, standards)[1]
 
 
 def _folder(key: Key) -> Path:
@@ -82,13 +99,39 @@ def _folder(key: Key) -> Path:
     return Path(folder_name(key.student["id"]) if "id" in key.student else key.id)
 
 
-def _copies(graded: Graded, marking: Marking, policy: Policy, language: Language | None) -> Iterator[tuple[str, bytes]]:
-    """The own files of a student with what was found written into them."""
-    if (work := graded.own.get(marking.key.id)) is not None:
-        yield from marked_copies(list(work.contents(language)), marking, policy)
+def _own_files(graded: Graded) -> Iterator[tuple[Handed, FileReading, Marking]]:
+    """The own files of the students who are marked, in their order."""
+    for marking in graded.markings:
+        if (work := graded.own.get(marking.key.id)) is not None:
+            yield from ((file, reading, marking) for file, reading in work.files)
 
 
-def _readings(graded: Graded, policy: Policy, out: Path | None) -> Iterator[tuple[Path, bytes]]:
+def _copies(
+    copied: Iterable[tuple[Handed, tuple[str, bytes] | list[Problem]]], language: Language | None
+) -> tuple[dict[str, bytes], list[Problem]]:
+    """The marked copies of one student's files by their names, and what could not be written into."""
+    files: dict[str, bytes] = {}
+    problems: list[Problem] = []
+    numbers: Counter[str] = Counter()
+    for _, copy in copied:
+        if isinstance(copy, list):
+            problems += (_unwritten(problem, language) for problem in copy)
+            continue
+        name, content = copy
+        numbers[name] += 1
+        files[name.format(number=numbers[name])] = content
+    return files, problems
+
+
+def _unwritten(problem: Problem, language: Language | None) -> Problem:
+    """The warning that a file is marked but not given back, with the reason."""
+    fault = Fault("own-not-written", problem.mark, {"text": problem.message})
+    return replace(as_problem(fault, language, "warning"), hint=problem.hint)
+
+
+def _readings(
+    graded: Graded, policy: Policy, out: Path | None, language: Language | None
+) -> Iterator[tuple[Path, bytes]]:
     """What was read of own files, as sheets to be completed; one that somebody has changed stays."""
     read = [(marking.key, marking.submission) for marking in graded.markings]
     read += [(one.key, one.unsettled) for one in graded.unmarked if one.unsettled is not None]
@@ -102,13 +145,31 @@ def _readings(graded: Graded, policy: Policy, out: Path | None) -> Iterator[tupl
             yield target, reading_book(key_asked(policy, key, submission)[0], submission)
 
 
-def _feedback(marking: Marking, policy: Policy, engine: Engine, standards: Standards) -> Iterator[tuple[str, bytes]]:
-    """The files of one student: the own sheet, a page, and a text to paste."""
+def _feedback(
+    marking: Marking, policy: Policy, engine: Engine, standards: Standards, language: Language | None
+) -> tuple[dict[str, bytes], list[Problem]]:
+    """The files of one student, the own sheet, a page, and a text to paste; and why one of them is missing."""
     key = marking.key
-    yield "feedback.xlsx", write_xlsx(feedback_book(marking, policy.show_answers))
-    tree = feedback_document(marking, title(key.kind, key.language), policy)
-    yield "feedback.pdf", api.typeset(tree, engine, None, standards)[1]
-    yield "feedback.txt", "".join(f"{line}\n" for line in comment(marking, policy)).encode()
+
+    def page() -> bytes:
+        return api.typeset(feedback_document(marking, title(key.kind, key.language), policy), engine, None, standards)[
+            1
+        ]
+
+    makers: Mapping[str, Callable[[], bytes]] = {
+        "feedback.xlsx": lambda: write_xlsx(feedback_book(marking, policy.show_answers)),
+        "feedback.pdf": page,
+        "feedback.txt": lambda: "".join(f"{line}\n" for line in comment(marking, policy)).encode(),
+    }
+    files: dict[str, bytes] = {}
+    problems: list[Problem] = []
+    for name, make in makers.items():
+        made = isolated(make, _folder(key) / name, language)
+        if isinstance(made, list):
+            problems += made
+        else:
+            files[name] = made
+    return files, problems
 
 
 def put(
@@ -118,11 +179,17 @@ def put(
     engine: Engine,
     language: Language | None,
     standards: Standards = STANDARDS,
+    problems: list[Problem] | None = None,
 ) -> Iterator[Path]:
-    """Write every file of a graded class below `out`, those of a folder together; raises `OutputError`."""
+    """Write every file of a graded class below `out`, those of a folder together, the page of the class last.
+
+    What could not be written for a single student is added to `problems`.  Raises `OutputError`, and `TypesetterError`
+    if the page of the class cannot be typeset.
+    """
     with reported(out), scratch(out):
-        made = files_of(graded, policy, engine, language, out, standards)
-        for folder, files in groupby(made, key=lambda file: file[0].parent):
+        made = files_of(graded, policy, engine, language, out, standards=standards, problems=problems)
+        # The marks are written even if the typesetter fails.
+        for (folder, _), files in groupby(made, key=lambda file: (file[0].parent, file[0] == CLASS_PAGE)):
             yield from put_files(out / folder, {path.name: content for path, content in files})
 
 

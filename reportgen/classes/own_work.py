@@ -6,20 +6,22 @@ by the number of one student of the class, and no other, that stands in it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
-from reportgen.classes.collecting import Collected, Refused, chosen_of
+from reportgen.classes.collecting import Collected, Refused, chosen_of, named_after
+from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, changed
 from reportgen.classes.reading_sheets import names_in, read_own
 from reportgen.classes.roster import comparable
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_reader import WantedPlans
-from reportgen.handin.files import DRAWING, content, kinds
+from reportgen.handin.files import DRAWING, kinds
 from reportgen.handin.reading_book import NAME
 from reportgen.marking.marks import Submission
 from reportgen.marking.policy import Twice
@@ -35,11 +37,6 @@ class OwnWork:
     def submission(self, language: Language | None) -> Submission:
         """What is marked where no sheet stands beside them."""
         return submission([reading for _, reading in self.files], language)
-
-    def contents(self, language: Language | None) -> Iterator[tuple[Path, bytes, FileReading]]:
-        """The files with their bytes, to write into a copy."""
-        for file, reading in self.files:
-            yield file.path, content(file.path, file.data, language), reading
 
 
 @dataclass
@@ -100,15 +97,19 @@ def own_works(
     drawings = [file for file in chosen if file[1].path.suffix.lower() == DRAWING]
     # A report says by which values its drawings may be found.
     for several in ([file for file in chosen if file not in drawings], drawings):
-        calls = [
-            (file, looked_for.asked(known[assignment]), looked_for.plans(known[assignment], before(assignment)))
-            if several is drawings
-            else (file, looked_for.asked(known[assignment]), None)
-            for assignment, file in several
-        ]
-        assignments = iter([assignment for assignment, _ in several])
-        for file, reading in read_own(calls, language):
-            assignment = next(assignments)
+        calls: list[tuple[Handed, Key, WantedPlans | None]] = []
+        assignments: list[str] = []
+        for assignment, file in several:
+            plans = None
+            if several is drawings:
+                finding = partial(looked_for.plans, known[assignment], before(assignment))
+                plans = isolated(finding, file.path, language)
+            if isinstance(plans, list):
+                gathered.refuse(file, plans)
+                continue
+            calls.append((file, looked_for.asked(known[assignment]), plans))
+            assignments.append(assignment)
+        for assignment, (file, reading) in zip(assignments, read_own(calls, language), strict=True):
             if isinstance(reading, list):
                 gathered.refuse(file, reading)
             else:
@@ -167,17 +168,26 @@ def without_own(handed: Iterable[Handed], own: list[Handed]) -> Iterator[Handed]
             yield file
 
 
-def with_own(collected: Collected, own: OwnWorks, language: Language | None) -> Collected:
+def with_own(collected: Collected, own: OwnWorks, known: Container[str], language: Language | None) -> Collected:
     """What is marked: the sheets, and the own files of those who handed none in.
 
-    A reading that nobody has changed counts only where the files that it was read of are not there.
+    A reading that nobody has changed counts only where the files that it was read of are not there.  A sheet that is
+    named after another of the `known` assignments does not displace what its student handed in.
     """
     sheets = dict(collected.sheets)
     told: list[Problem] = []
     for assignment, work in own.works.items():
         first = work.files[0][0]
-        if assignment not in sheets:
-            sheets[assignment] = work.submission(language), first
+        stray = assignment in sheets and named_after(sheets[assignment][1].path, known) not in (
+            None,
+            comparable(assignment),
+        )
+        if assignment not in sheets or stray:
+            submission = isolated(partial(work.submission, language), first.path, language)
+            if isinstance(submission, list):
+                own.refuse(first, submission)
+            else:
+                sheets[assignment] = submission, first
         elif not sheets[assignment][0].fingerprint:
             about = {"text": assignment, "sheet": sheets[assignment][1].path.name}
             told.append(as_problem(Fault("own-beside-sheet", Mark(str(first.path)), about), language, "note"))

@@ -1,4 +1,4 @@
-"""Sheets and own files read as they were handed in, each in a process of its own time and memory.
+"""Sheets and own files read as they were handed in, and given back, each in a process of its own time and memory.
 
 A file may be made so that reading it takes hours or all memory; that is the fault of whoever handed it in, and must
 not keep the others from their marks.
@@ -6,17 +6,22 @@ not keep the others from their marks.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from pathlib import Path
+from typing import TypeVar
 
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.limits import Limits
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed
 from reportgen.classes.pool import each_within
 from reportgen.handin import FileReading, files
 from reportgen.handin.drawing_reader import WantedPlans
+from reportgen.marking.marks import Marking
+from reportgen.marking.policy import Policy
 from reportgen.report.key import Key
 from reportgen.workbook import Page, read
 
@@ -24,59 +29,73 @@ LIMITS = Limits(seconds=60.0, megabytes=1000)
 """For one sheet: the largest that is not refused anyhow takes about an eighth of them."""
 
 Pages = tuple[Page, ...]
+Result = TypeVar("Result")
+_Work = Callable[[Language | None], Result]
+"""Reads or writes one file; its arguments are bound, so that it can go to another process."""
 
 
 def read_sheets(handed: Iterable[Handed], language: Language | None) -> Iterator[tuple[Handed, Pages | list[Problem]]]:
     """Each file with its pages, in their order, or with the faults for which it cannot be read."""
-    calls = ((one, language) for one in handed)
-    for (sheet, _), pages in each_within(LIMITS, _read, calls, __name__):
-        yield sheet, [_beyond(sheet.path, language)] if pages is None else pages
+    return _each(((sheet, partial(_read, sheet)) for sheet in handed), language)
 
 
 def read_own(
     handed: Iterable[tuple[Handed, Key, WantedPlans | None]], language: Language | None
 ) -> Iterator[tuple[Handed, FileReading | list[Problem]]]:
     """Each student's own file, read for a key and its plans, or with the faults for which it cannot be read."""
-    calls = ((one, key, plans, language) for one, key, plans in handed)
-    for (file, _, _, _), reading in each_within(LIMITS, _read_own, calls, __name__):
-        yield file, [_beyond(file.path, language)] if reading is None else reading
+    return _each(((file, partial(_read_own, file, key, plans)) for file, key, plans in handed), language)
 
 
 def names_in(
     handed: Iterable[Handed], names: frozenset[str], language: Language | None
 ) -> Iterator[tuple[Handed, frozenset[str] | list[Problem]]]:
     """Each student's own file with those of some names that stand in it."""
-    calls = ((one, names, language) for one in handed)
-    for (file, _, _), standing in each_within(LIMITS, _names_in, calls, __name__):
-        yield file, [_beyond(file.path, language)] if standing is None else standing
+    return _each(((file, partial(_names_in, file, names)) for file in handed), language)
 
 
-def _read_own(call: tuple[Handed, Key, WantedPlans | None, Language | None]) -> FileReading | list[Problem]:
-    file, key, plans, language = call
-    try:
-        return files.read_file(file.path, files.content(file.path, file.data, language), key, language, plans)
-    except AssignmentError as error:
-        return list(error.problems)
+def marked_copies(
+    marked: Iterable[tuple[Handed, FileReading, Marking]], policy: Policy, language: Language | None
+) -> Iterator[tuple[Handed, tuple[str, bytes] | list[Problem]]]:
+    """Each student's own file with the name and content of its marked copy, or the faults for which there is none."""
+    works = ((file, partial(_marked_copy, file, reading, marking, policy)) for file, reading, marking in marked)
+    return _each(works, language)
 
 
-def _names_in(call: tuple[Handed, frozenset[str], Language | None]) -> frozenset[str] | list[Problem]:
-    file, names, language = call
-    try:
-        data = files.content(file.path, file.data, language)
-        return frozenset(files.names_in(file.path, data, names, language))
-    except AssignmentError as error:
-        return list(error.problems)
+def _each(
+    works: Iterable[tuple[Handed, _Work[Result]]], language: Language | None
+) -> Iterator[tuple[Handed, Result | list[Problem]]]:
+    """Each file with what comes of it within the limits, or with its problems, in their order."""
+    calls = ((file, work, language) for file, work in works)
+    for (file, _, _), result in each_within(LIMITS, _isolated, calls, __name__):
+        yield file, [_beyond(file.path, language)] if result is None else result
 
 
-def _read(call: tuple[Handed, Language | None]) -> Pages | list[Problem]:
-    """The pages of a file, in the process that reads it."""
-    sheet, language = call
+def _isolated(call: tuple[Handed, _Work[Result], Language | None]) -> Result | list[Problem]:
+    """What comes of a file, in the process that reads it."""
+    file, work, language = call
+    return isolated(lambda: work(language), file.path, language)
+
+
+def _read(sheet: Handed, language: Language | None) -> Pages:
     if sheet.fault:
-        return [as_problem(sheet.fault, language)]
-    try:
-        return read(sheet.path, language, sheet.data)
-    except AssignmentError as error:
-        return list(error.problems)
+        raise AssignmentError([as_problem(sheet.fault, language)])
+    return read(sheet.path, language, sheet.data)
+
+
+def _read_own(file: Handed, key: Key, plans: WantedPlans | None, language: Language | None) -> FileReading:
+    return files.read_file(file.path, files.content(file.path, file.data, language), key, language, plans)
+
+
+def _names_in(file: Handed, names: frozenset[str], language: Language | None) -> frozenset[str]:
+    data = files.content(file.path, file.data, language)
+    return frozenset(files.names_in(file.path, data, names, language))
+
+
+def _marked_copy(
+    file: Handed, reading: FileReading, marking: Marking, policy: Policy, language: Language | None
+) -> tuple[str, bytes]:
+    data = files.content(file.path, file.data, language)
+    return files.marked_copy(file.path, data, reading, marking, policy)
 
 
 def _beyond(path: Path, language: Language | None) -> Problem:

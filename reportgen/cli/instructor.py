@@ -245,7 +245,7 @@ def grade(
             submissions, assignments, rules, lang, roster, corrections=judged, gradebook=table, out=out
         )
         problems = list(graded.problems)
-        for path in outcome.put(graded, rules, out, engine, lang, standards):
+        for path in outcome.put(graded, rules, out, engine, lang, standards, problems=problems):
             print(path, flush=True)
         if table is not None:
             written, unknown = outcome.put_gradebook(graded, table, rules, out, lang)

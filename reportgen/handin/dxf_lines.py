@@ -61,7 +61,7 @@ def read_lines(data: bytes, file: str) -> DrawnLines:
     unfolding = _Unfolding(contents, encoding, file)
     unfolding.check(model)
     whole = unfolding.unfolded(model)
-    unit = UNITS.get(int(float(contents.header.get(b"$INSUNITS", b"0") or 0)))
+    unit = UNITS.get(contents.number(b"$INSUNITS"))
     mark = Mark(file)
     notes = [Fault("drawing-pictures", mark, {"count": f"{contents.pictures}"})] if contents.pictures else []
     names = [name.decode(encoding, "replace") for name, block in contents.blocks.items() if block.external]
@@ -75,8 +75,10 @@ def encoding_of(header: Mapping[bytes, bytes]) -> str:
         return "utf-8"
     page = header.get(b"$DWGCODEPAGE", b"").decode("ascii", "replace").upper().replace("ANSI_", "cp")
     try:
+        # Python also knows encodings that are not of texts, and some that refuse to replace what they cannot read.
+        bytes(range(256)).decode(page or "cp1252", "replace")
         return codecs.lookup(page or "cp1252").name
-    except LookupError:
+    except (LookupError, UnicodeError, ValueError):
         return "cp1252"
 
 

@@ -70,6 +70,11 @@ class Entities:
     model: list[Entity] = field(default_factory=list)
     pictures: int = 0
 
+    def number(self, variable: bytes) -> int:
+        """Return a whole number of the header, 0 where it has none."""
+        value = self.header.get(variable, b"")
+        return int(float(value)) if _is_number(value) else 0
+
 
 def read_entities(data: bytes, file: str) -> Entities:
     """The entities of a drawing.  Raises `RefusedError` for what is no DXF, is damaged or too large."""

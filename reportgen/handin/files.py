@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -112,12 +111,10 @@ def names_in(path: Path, data: bytes, names: Collection[str], language: Language
         raise as_error([refused.fault], language) from None
 
 
-def marked_copies(
-    files: Collection[tuple[Path, bytes, FileReading]], marking: Marking, policy: Policy
-) -> Iterator[tuple[str, bytes]]:
-    """The files of a student with what was found written into them, by their new names."""
-    numbers: Counter[str] = Counter()
-    for path, data, reading in files:
-        name, copy = kinds()[path.suffix.lower()].marked(path, data, reading, marking, policy)
-        numbers[name] += 1
-        yield name.format(number=numbers[name]), copy
+def marked_copy(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
+    """Return the name and the content of a student's file with what was found written into it.
+
+    The name has a {number} where a student may have several of the kind.  Raises `RefusedError` where nothing can be
+    written into the file.
+    """
+    return kinds()[path.suffix.lower()].marked(path, data, reading, marking, policy)

@@ -8,6 +8,8 @@ from the copy that is given back.
 from __future__ import annotations
 
 import posixpath
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -87,16 +89,19 @@ def resolved(part: str, target: str) -> str:
     return posixpath.normpath(joined).lstrip("/")
 
 
-def open_word(path: Path, data: bytes) -> WordFile:
-    """A Word file that may be read; raises `RefusedError` with a fault of Word files."""
+@contextmanager
+def word_faults() -> Iterator[None]:
+    """Raise the faults of packages as those of Word files, whichever part is read."""
     try:
-        return _opened(path, data)
+        yield
     except RefusedError as refused:
         fault = refused.fault
         raise RefusedError(_CODES.get(fault.code, fault.code), fault.mark, **fault.arguments) from None
 
 
-def _opened(path: Path, data: bytes) -> WordFile:
+@word_faults()
+def open_word(path: Path, data: bytes) -> WordFile:
+    """Return a Word file that may be read; raises `RefusedError` with a fault of Word files."""
     if len(data) > LARGEST:
         raise RefusedError("word-large", Mark(str(path)), largest=str(LARGEST // 1_000_000))
     package = Package(data, str(path), BOUNDS)

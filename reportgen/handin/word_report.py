@@ -9,7 +9,7 @@ from pathlib import Path
 
 from reportgen.handin import FileReading, agree
 from reportgen.handin.word_comments import MarginNote, with_comments
-from reportgen.handin.word_file import open_word
+from reportgen.handin.word_file import open_word, word_faults
 from reportgen.handin.word_reader import lines_of, read_report
 from reportgen.handin.word_text import WordMark
 from reportgen.marking.comment import comment
@@ -22,6 +22,7 @@ from reportgen.report.key import Key
 MARKED = "marked.docx"
 
 
+@word_faults()
 def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading:
     """What a report says of the quantities that a key asks for; raises `RefusedError`."""
     file = open_word(path, data)
@@ -29,12 +30,14 @@ def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading
     return replace(reading, notes=(*file.notes, *reading.notes))
 
 
+@word_faults()
 def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
     """Which of some names stand in a report as words; raises `RefusedError`."""
     text = "\n".join(line.text for line in lines_of(open_word(path, data).blocks)).casefold()
     return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
 
 
+@word_faults()
 def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, policy: Policy) -> tuple[str, bytes]:
     """The report with a comment at each number that there is something to say of, and a summary at its head."""
     words = words_of(marking.key)

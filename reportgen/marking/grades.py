@@ -29,7 +29,8 @@ def grade_rows(
 ) -> tuple[tuple[Value, ...], ...]:
     """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks,
     what was handed in, how late and for how much off the mark, the instructor's corrections.  Where reports or drawings
-    were read in place of sheets, two more columns say how much of each was read and how many values are open.
+    were read in place of sheets, two more columns say how much of each was read and how many values are open; where
+    feedback could not be written, the last one says of which file and why.
 
     The points of those who are `unmarked` stay empty.
     """
@@ -52,6 +53,7 @@ def grade_rows(
     submissions |= {one.key.id: one.unsettled for one in unmarked if one.unsettled is not None}
     of_files = any(submission.own_files for submission in submissions.values())
     head += tuple(names[name] for name in ("read", "to_settle")) if of_files else ()
+    head += (names["unwritten"],) if (unwritten := any(marking.unwritten for marking in markings)) else ()
     keys = (*(marking.key for marking in markings), *(one.key for one in unmarked))
     people = {key.id: person(key) for key in keys}
     rows: list[tuple[Value, ...]] = [head]
@@ -91,6 +93,9 @@ def grade_rows(
     if of_files:
         ids = [*(marking.key.id for marking in markings), *(one.key.id for one in unmarked)]
         rows[1:] = [(*row, *_read(submissions.get(id))) for row, id in zip(rows[1:], ids, strict=True)]
+    if unwritten:
+        told = ["; ".join(marking.unwritten) for marking in markings] + [""] * len(unmarked)
+        rows[1:] = [(*row, text) for row, text in zip(rows[1:], told, strict=True)]
     return tuple(rows)
 
 

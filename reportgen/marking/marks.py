@@ -182,7 +182,7 @@ TAKEN = "taken"
 class Marking:
     """All verdicts on a submission, in the order of the key's rows, and what the lecturer should look at.
 
-    `days_late` are the days begun since it was due.
+    `days_late` are the days begun since it was due.  `unwritten` says of which files nothing could be given back.
     """
 
     key: Key
@@ -191,6 +191,7 @@ class Marking:
     flags: tuple[Notice, ...] = ()
     amendments: tuple[Amendment, ...] = ()
     days_late: int = 0
+    unwritten: tuple[str, ...] = ()
 
     def points_at(self, places: Container[Place]) -> tuple[float, float]:
         """The points that the cells of some places earned, and those that they are worth."""

@@ -47,8 +47,15 @@ def key() -> Key:
     return Ask().of(key_of(open_case(FILE, "vi")))
 
 
-def report(key: Key, but: dict[str, str] | None = None, left: int = 0, head: str = "") -> bytes:
-    """A report of all right values; `but` some by id, and `left` of them without a position."""
+def report(
+    key: Key,
+    but: dict[str, str] | None = None,
+    left: int = 0,
+    head: str = "",
+    parts: dict[str, str] | None = None,
+    relations: str = "",
+) -> bytes:
+    """A report of all right values; `but` some by id, `left` of them without a position, with further `parts`."""
     lines = [wml.paragraph(wml.run(head))]
     later: list[str] = []
     for row in key.asked:
@@ -62,7 +69,7 @@ def report(key: Key, but: dict[str, str] | None = None, left: int = 0, head: str
         else:
             lines.append(wml.paragraph(wml.run(f"Vị trí 2: {written}")))
     ended = wml.paragraph(wml.run("Phần khác"), "u1")
-    return wml.package("".join((*lines, ended, *later)))
+    return wml.package("".join((*lines, ended, *later)), parts, relations)
 
 
 def grades(graded: assess.Graded, policy: Policy = RULES) -> list[dict[str, str]]:

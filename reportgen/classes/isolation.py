@@ -1,0 +1,44 @@
+"""The boundary around one student's files: whatever they do, the marking of the class goes on.
+
+Every step that takes in what one student handed in runs through `isolated`.  A file that is refused, and any exception
+that nobody expected, become problems of that file.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeVar
+
+from reportgen.base.errors import AssignmentError, Fault, Mark, OutputError, Problem, ReportgenError
+from reportgen.base.units import Language
+from reportgen.base.words import as_problem
+from reportgen.workbook.package import RefusedError
+
+Result = TypeVar("Result")
+
+
+def isolated(work: Callable[[], Result], path: Path, language: Language | None) -> Result | list[Problem]:
+    """Return what `work` makes of one student's file, or the problems that kept it from making anything.
+
+    Raises only what concerns the whole class: `OutputError` where nothing can be written, and `MemoryError`, for which
+    the process that reads the file has a limit.
+    """
+    try:
+        return work()
+    except (MemoryError, OutputError):
+        raise
+    except AssignmentError as error:
+        return list(error.problems)
+    except RefusedError as error:
+        problem = as_problem(error.fault, language)
+        return [problem if problem.mark.file else problem.in_file(str(path))]
+    except ReportgenError as error:
+        return [_failed(path, str(error), language)]
+    except Exception as error:
+        return [_failed(path, f"{type(error).__name__}: {error}", language)]
+
+
+def _failed(path: Path, text: str, language: Language | None) -> Problem:
+    """The problem of a file that something unforeseen happened to, in one line."""
+    return as_problem(Fault("own-failed", Mark(str(path)), {"text": " ".join(text.split())}), language)
