@@ -180,7 +180,8 @@ class MachineCase(MachineAnalysis):
 
     def fault(self) -> str:
         try:
-            if not _turns(self.analysis.machine):
+            machine = self.analysis.machine
+            if not (machine.instants or _turns(machine)):
                 return "not-turning"
             return "" if _finite(self.analysis) else "not-finite-results"
         except np.linalg.LinAlgError:

@@ -155,7 +155,9 @@ class Model:
 
     @cached_property
     def _dense(self) -> Case:
-        return opened(curves.dense(self.assignment))
+        case = opened(curves.dense(self.assignment))
+        curves.check_turning([case])
+        return case
 
     def plot(self, *of: str, ax: Any = None, over: Over = "phi", label: str = "", **look: Any) -> Any:
         """Draw quantities of one unit on axes of matplotlib, on the current ones without `ax`, and give the axes back.

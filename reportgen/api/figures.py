@@ -66,6 +66,7 @@ def plot_files(
     `UnknownNameError`, `NotOfferedError`, `AssignmentError` also for the table.
     """
     cases = [opened(curves.dense(load(path, language))) for path in paths]
+    curves.check_turning(cases)
     points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
     spoken = cases[0].assignment.language
     made = {safe(name): figure.chart(one, spoken) for name, one in curves.diagrams(cases, of, over, points).items()}

@@ -23,6 +23,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
+
 from reportgen.assignment import parts, reading
 from reportgen.assignment.common import Assignment, Kind, named_worked
 from reportgen.assignment.fields import UNIT_KEY
@@ -48,7 +50,7 @@ from reportgen.catalogue import (
 )
 from reportgen.catalogue.parameters import Driven, UnderGravity
 from reportgen.machine.analysis import Machine
-from reportgen.machine.laws import FULL_TURN
+from reportgen.machine.laws import FULL_TURN, STEPS
 
 
 def module(kind: str) -> ModuleType:
@@ -113,8 +115,12 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
 
 def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     """Whether a machine comes too near to a dead point on its way, or is too large to draw."""
+    angles, whole = machine.angles(machine.cycle_angles), np.linspace(0.0, FULL_TURN, STEPS + 1)
     if machine.instants:
-        yield from assembly.at_instants(machine.linkage, machine.angles(machine.cycle_angles), not machine.span)
+        beyond = tuple(assembly.at_instants(machine.linkage, angles, not machine.span))
+        yield from beyond
+        if machine.drawn and not beyond:
+            yield from assembly.too_large(machine.linkage, angles, machine.drawn, ("drawing", "crank"))
         return
     driven_through = (
         assembly.Way(machine.start, machine.start + machine.turn * machine.span, False)
@@ -123,7 +129,7 @@ def _out_of_reach(machine: Machine) -> Iterator[Finding]:
     )
     yield from assembly.near_dead_point(machine.linkage, driven_through, ("parameters",))
     if machine.drawn:
-        yield from assembly.too_large(machine.linkage, machine.drawn, ("drawing", "crank"))
+        yield from assembly.too_large(machine.linkage, whole, machine.drawn, ("drawing", "crank"))
 
 
 def load(path: Path | str, language: Language | None = None, whole: Path | None = None) -> Assignment:

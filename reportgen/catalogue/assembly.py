@@ -142,13 +142,21 @@ def turns(linkage: Linkage) -> bool:
     return bool(solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0).reachable.all())
 
 
-def too_large(linkage: Linkage, drawn: float, where: Where) -> Iterator[Finding]:
-    """A mechanism that no sheet A0 holds when its crank is drawn `drawn` long (m on paper)."""
-    motion = solve_motion(linkage, np.linspace(0.0, FULL_TURN, STEPS + 1), 1.0)
-    places = np.array([np.broadcast_to(point.p, (STEPS + 1,)) for point in motion.points.values()])
+def room(linkage: Linkage, angles: Floats) -> tuple[float, float]:
+    """Width and height (m) of all that the points of a linkage reach at angles [N] of its driver; 0 if it reaches none.
+
+    Only positions count at which all groups assemble.
+    """
+    motion = solve_motion(linkage, angles, 1.0)
+    places = np.array([point.p for point in motion.points.values()])[:, motion.reachable]
+    return (float(np.ptp(places.real)), float(np.ptp(places.imag))) if places.size else (0.0, 0.0)
+
+
+def too_large(linkage: Linkage, angles: Floats, drawn: float, where: Where) -> Iterator[Finding]:
+    """A mechanism that no sheet A0 holds at angles [N] of its crank, which is drawn `drawn` long (m on paper)."""
     assert isinstance(linkage.driver, Crank)
     scale = drawn / linkage.driver.length
-    width, height = float(np.ptp(places.real)) * scale, float(np.ptp(places.imag)) * scale
+    width, height = (size * scale for size in room(linkage, angles))
     excess = min(max(width / across, height / up) for across, up in (SHEET, SHEET[::-1]))
     if excess > 1:
         sizes = {

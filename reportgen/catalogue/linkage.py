@@ -17,6 +17,7 @@ from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.errors import Finding
 from reportgen.base.units import nice_up
 from reportgen.catalogue import (
+    assembly,
     declared_loads,
     given_balancing,
     given_friction,
@@ -214,10 +215,12 @@ def _sheet(given: Parameters, linkage: Linkage, built: Machine, drawn: float | N
 
 
 def _drawn(built: Machine, crank: float) -> float:
-    """The drawn length of the crank (m): μ_l is the least of the series with which the mechanism fits its box."""
-    motion = _motion_at(built)(np.linspace(0.0, FULL_TURN, STEPS))
-    places = np.array([point.p for point in motion.points.values()])
-    width, height = np.ptp(places.real), np.ptp(places.imag)
+    """The drawn length of the crank (m): μ_l is the least of the series with which the mechanism fits its box.
+
+    A crank that is drawn at instants need not get round.
+    """
+    angles = np.union1d(np.linspace(0.0, FULL_TURN, STEPS), built.cycle_angles)
+    width, height = assembly.room(built.linkage, built.angles(angles))
     return crank / nice_up(max(width / BOX[0], height / BOX[1], crank / LARGEST_CRANK))
 
 

@@ -67,8 +67,9 @@ def machine(assignment: Assignment) -> Machine:
     q.speed()
     q.drawn("A", "B", assignment.drawing.crank)
     q.set_out("places")
+    q.set_out("rod")
     if has_centre:
-        q.set_out("places", q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l))
+        q.set_out("rod", q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l))
     if isinstance(given.force, given_loads.ConstantForce):
         q.datum("P.given", given.force.F, "P", "force")
     q.gravity()

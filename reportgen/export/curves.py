@@ -54,6 +54,13 @@ class Measured:
     name: str
 
 
+def check_turning(cases: Sequence[Case]) -> None:
+    """Raise `NotOfferedError` for a case whose driver, once asked for single instants, does not go all its way."""
+    for case in cases:
+        if any(one.fault() for one in case.parts.values() or [case]):
+            raise NotOfferedError(word("no_turn", cases[0].assignment.language, text=case.assignment.id))
+
+
 def diagrams(
     cases: Sequence[Case], of: Sequence[str], over: Over = "phi", measured: Sequence[Measured] = ()
 ) -> dict[str, Diagram]:

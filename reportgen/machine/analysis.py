@@ -28,7 +28,7 @@ from reportgen.machine.forces import (
 )
 from reportgen.machine.gas import indicated_work, stroke_at
 from reportgen.machine.joint_friction import Friction, FrictionForces, solve_with_friction
-from reportgen.machine.laws import FULL_TURN, Stroke
+from reportgen.machine.laws import FULL_TURN, STEPS, Stroke
 from reportgen.machine.loads import Applied, Piston, Torque, carriers
 from reportgen.machine.motion import Motion, cross, solve_motion
 from reportgen.machine.quadrature import mean_over
@@ -153,6 +153,20 @@ def breaks(machine: Machine) -> np.ndarray:
     return np.array(sorted(set(np.mod(corners, whole).round(13).tolist())))
 
 
+ROUNDING = 1e-13
+"""A torque below this share of what the loads could do is rounding of the sum that it is."""
+
+
+def possible(motion: Motion, loads: Iterable[Load]) -> float:
+    """The torque (N·m) of loads if all acted on the fastest point and link, along their motion."""
+    loads = tuple(loads)
+    fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
+    turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
+    force = sum(float(np.abs(load.force).max()) for load in loads)
+    couple = sum(float(np.abs(load.couple).max()) for load in loads)
+    return (force * fastest + couple * turning) / float(np.abs(motion.rate).max())
+
+
 def _work(machine: Machine) -> float:
     """The work of the loads over the cycle (J): of gas exact from its table, else ∫ F·v dt and ∫ M ω dt."""
     whole = machine.turns * FULL_TURN
@@ -168,7 +182,9 @@ def _work(machine: Machine) -> float:
             return load.load(angle, motion).power(motion)
 
         corners = load.law.breaks(partial(motion_at, machine))
-        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole) * machine.way / machine.speed
+        motion = motion_at(machine, angle := np.linspace(0.0, whole, STEPS))
+        least = ROUNDING * possible(motion, [load.load(angle, motion)]) * machine.speed
+        total += mean_over(power, np.mod(list(corners), whole), 0.0, whole, least) * machine.way / machine.speed
     return total
 
 
@@ -196,10 +212,11 @@ def _energy_gained(machine: Machine) -> float:
 def summarise(machine: Machine) -> Summary:
     """Mean, extremes and energy balance over the cycle: sgn(ω1)·mean(M_cb) = −W/(2π·turns)."""
     whole = machine.turns * FULL_TURN
-    mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, breaks(machine), 0.0, whole)
-    work, gained = _work(machine), _energy_gained(machine)
     fine = np.linspace(0.0, whole, 360 * machine.turns, endpoint=False)
-    torque = analyse(machine, fine).torque
+    sampled = analyse(machine, fine)
+    torque, least = sampled.torque, ROUNDING * possible(sampled.motion, sampled.loads)
+    mean = mean_over(lambda angle: analyse(machine, angle).torque_by_work, breaks(machine), 0.0, whole, least)
+    work, gained = _work(machine), _energy_gained(machine)
     return Summary(
         float(mean),
         abs(float(mean)) * machine.speed,

@@ -9,14 +9,12 @@ J_d = (a − b)/(δ ω_m²).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.machine.analysis import Analysis, Machine, analyse, breaks
-from reportgen.machine.forces import Load
+from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, possible
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia, reduced_torque
@@ -90,16 +88,6 @@ SAME_ANGLE = 1e-9
 """Angles nearer than this (rad) are one; a torque below this share of what the loads could do is none."""
 
 
-def possible(analysis: Analysis, loads: Sequence[Load]) -> float:
-    """The torque (N·m) of these loads if all acted on the fastest point and link, along their motion."""
-    motion = analysis.motion
-    fastest = max(float(np.abs(point.v).max()) for point in motion.points.values())
-    turning = max(float(np.abs(link.omega).max()) for link in motion.links.values())
-    force = sum(float(np.abs(load.force).max()) for load in loads)
-    couple = sum(float(np.abs(load.couple).max()) for load in loads)
-    return (force * fastest + couple * turning) / float(np.abs(motion.rate).max())
-
-
 def _torque(analysis: Analysis) -> Floats:
     """M_r [N] (N·m) of weights and applied loads."""
     return reduced_torque(analysis.machine, analysis.motion, (*analysis.weights, *analysis.applied))
@@ -113,7 +101,7 @@ def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
     every = np.sort(np.concatenate((grid, own)))
     angle = every[np.concatenate(([True], np.diff(every) > SAME_ANGLE))]
     analysis = analyse(machine, angle)
-    torque, least = _torque(analysis), SAME_ANGLE * possible(analysis, (*analysis.weights, *analysis.applied))
+    torque, least = _torque(analysis), SAME_ANGLE * possible(analysis.motion, (*analysis.weights, *analysis.applied))
     idle = np.abs(torque).max() <= least
     return regulate(
         angle,

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.machine import Joint
-from reportgen.machine.analysis import Machine, analyse, breaks, motion_at
+from reportgen.machine.analysis import ROUNDING as OF_TORQUE
+from reportgen.machine.analysis import Machine, analyse, breaks, motion_at, possible
 from reportgen.machine.forces import Load
 from reportgen.machine.joint_friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
-from reportgen.machine.laws import FULL_TURN, Stroke, halved, opposing
+from reportgen.machine.laws import FULL_TURN, STEPS, Stroke, halved, opposing
 from reportgen.machine.motion import Flags, Floats
 from reportgen.machine.quadrature import mean_over
 
@@ -53,7 +54,9 @@ def mean_torque(machine: Machine) -> float:
         return np.nan_to_num(solved.torque)
 
     whole = machine.turns * FULL_TURN
-    mean = mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole)
+    sampled = analyse(machine, np.linspace(0.0, whole, STEPS))
+    least = OF_TORQUE * possible(sampled.motion, sampled.loads)
+    mean = mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole, least)
     return mean if all(standing) else np.nan
 
 

@@ -41,18 +41,24 @@ def accumulated(function: Callable[[Floats], Floats], at: Floats, order: int = O
     return np.concatenate(([0.0], np.cumsum(parts)))
 
 
-def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float) -> float:
+def mean_over(
+    function: Callable[[Floats], Floats], breaks: Iterable[float], start: float, stop: float, rounding: float = 0.0
+) -> float:
     """∫ f dx / (stop − start) by composite Gauss–Legendre quadrature, split at `breaks`, in the unit of f.
 
     Every part between breaks must be smooth.  Parts are halved, those alone where it matters, as beside a dead point,
     until halving no longer changes them: by 1e-12 of the mean of |f| in all, or by 1e-9 where rounding allows no more.
-    Raises `ValueError` on an empty interval or when it does not settle.
+    A change of less than `rounding`, in the unit of f, is rounding of what f is the sum of; a function that is no larger
+    has the mean 0.  Raises `ValueError` on an empty interval or when it does not settle.
     """
     if not stop > start:
         raise ValueError("the interval is empty")
     edges = np.array(sorted({start, stop, *(float(x) for x in breaks if start < x < stop)}))
     low, high = edges[:-1], edges[1:]
-    whole, _ = integrals(function, low, high)
+    whole, sizes = integrals(function, low, high)
+    noise = rounding * (stop - start)
+    if sizes.sum() <= noise:
+        return 0.0
     settled = settled_size = 0.0
     best, least = np.nan, np.inf
     for _ in range(MOST_HALVINGS):
@@ -63,10 +69,11 @@ def mean_over(function: Callable[[Floats], Floats], breaks: Iterable[float], sta
         off = np.abs(halves[::2] + halves[1::2] - whole)
         if off.sum() < least * size:
             best, least = (settled + float(halves.sum())) / (stop - start), float(off.sum()) / size
-        if off.sum() <= CONVERGED * size:
+        allowed = max(CONVERGED * size, noise)
+        if off.sum() <= allowed:
             return best if size else 0.0
         # A part that is off by less than its even share of all that is allowed is not halved again.
-        open_ = np.repeat(off > CONVERGED * size / MOST_PARTS, 2)
+        open_ = np.repeat(off > allowed / MOST_PARTS, 2)
         settled += float(halves[~open_].sum())
         settled_size += float(sizes[~open_].sum())
         low, high, whole = low[open_], high[open_], halves[open_]

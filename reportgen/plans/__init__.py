@@ -15,7 +15,7 @@ from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
-from reportgen.machine.analysis import Analysis, GasState, no_formulas
+from reportgen.machine.analysis import Analysis, GasState, no_formulas, possible
 from reportgen.machine.balance import BalancedTurn, balanced_turn
 from reportgen.machine.loads import Applied, Piston, Torque
 from reportgen.machine.true_motion import TrueMotion, true_motion
@@ -204,10 +204,10 @@ def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol |
 def _cycle(q: Sheet, analysis: Analysis) -> None:
     """Mean, extremes, power and energy of the cycle."""
     machine = analysis.machine
-    size, possible = float(np.nanmax(np.abs(analysis.torque))), flywheel.possible(analysis, analysis.loads)
-    if size < ZERO * possible:
+    size, most = float(np.nanmax(np.abs(analysis.torque))), possible(analysis.motion, analysis.loads)
+    if size < ZERO * most:
         # All of it is rounding, as where a guide takes the whole load.
-        size = possible
+        size = most
     # A sliding driver is balanced by a force, and its way takes the place of the angle.
     letter, kind = ("P", "force") if machine.span else ("M", "torque")
     q.define("M.difference", abs(q["M.eq"] - q["M.vw"]), Symbol(f"Δ{letter}", "cb"), kind, scale=size, residue=True)

@@ -1,0 +1,78 @@
+"""Machines of which only some links have mass: every subset of what a file may leave out has a report."""
+
+from __future__ import annotations
+
+import math
+from importlib import import_module
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from reportgen import api
+from reportgen.base.kinds import kinds
+from reportgen.cases import opened
+from reportgen.catalogue import sample
+from reportgen.marking.key import key_of
+from reportgen.report import text_of
+from tests.lanes import matrix
+
+CRANK: dict[str, Any] = {"r": "90 mm", "l": "330 mm", "n": "150 rpm", "m1": "8 kg", "s1": "0.4"}
+
+
+def written(folder: Path, kind: str, parameters: dict[str, Any], language: str = "en") -> Path:
+    path = folder / "massless.yaml"
+    file = {"kind": kind, "report": {"language": language}, "positions": {"count": 6}, "parameters": parameters}
+    path.write_text(yaml.safe_dump(file, sort_keys=False), encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("language", ["vi", "en"])
+def test_a_crank_and_a_slider_without_a_rod_between(tmp_path: Path, language: str) -> None:
+    """P_in1 = m₁ω₁² s₁r; the place that is worked out is that of the crank's mass centre, and there is no S₂."""
+    assignment = api.load(written(tmp_path, "slider-crank", CRANK | {"m3": "6 kg"}, language))
+    case = opened(assignment)
+    text = text_of(case.document())
+    arm = 0.4 * 0.09
+    assert abs(case.ledger["l.AS1"].values[0] - arm) < 1e-15
+    assert abs(case.ledger["Pqt1"].values[0]) == pytest.approx(8 * (2 * math.pi * 150 / 60) ** 2 * arm)
+    assert "S_2" not in text and "S2" not in text
+    assert {"vi": "trọng tâm của thanh truyền", "en": "mass centre of the connecting rod"}[language] not in text
+
+
+def test_a_load_without_torque(tmp_path: Path) -> None:
+    """A mass on the crank alone needs no torque at a constant speed in a horizontal plane: what is left is rounding."""
+    assignment = api.load(written(tmp_path, "slider-crank", CRANK | {"J1": "0.02 kg m2", "plane": "horizontal"}))
+    assert opened(assignment).ledger["M.mean"].values == 0
+
+
+KINDS = sorted(name for name in kinds() if name != "linkage" and "# plane: horizontal" in sample(name, "en"))
+
+
+def subsets(kind: str) -> list[tuple[str, ...]]:
+    """The masses of a kind that a file gives, beside those that it must give; the crank's with and without its place."""
+    Parameters = import_module(kinds()[kind]).Parameters
+    links = Parameters.links["m"]
+    needed = tuple(f"m{link}" for link in Parameters.required)
+    free = [(f"m{link}",) for link in links if link not in Parameters.required]
+    free += [("m1", "s1")]
+    chosen = (sum(some, ()) for count in range(len(free) + 1) for some in combinations(free, count))
+    return sorted({tuple(dict.fromkeys((*needed, *some))) for some in chosen} - {()})
+
+
+CASES = [(kind, given) for kind in KINDS for given in subsets(kind)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "given"), matrix(CASES, [("slotted-lever", ("m1",)), ("four-bar", ("m3", "m1", "s1"))])
+)
+def test_any_subset_of_the_masses(tmp_path: Path, kind: str, given: tuple[str, ...]) -> None:
+    """It has a report and a key."""
+    new = yaml.load(sample(kind, "en"), yaml.BaseLoader)["parameters"]
+    kept = {key: value for key, value in new.items() if key[0] not in "GmJs" or not key[1:].isdigit()}
+    masses = {key: "0.4" if key[0] == "s" else "3 kg" for key in given}
+    case = opened(api.load(written(tmp_path, kind, kept | masses)))
+    assert case.document().blocks
+    assert key_of(case)
