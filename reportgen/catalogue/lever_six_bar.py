@@ -222,6 +222,7 @@ def machine(assignment: Assignment) -> Machine:
     q = _sheet(given, assignment.drawing.crank)
     linkage, start = _linkage(given, q), positions.start_or()
     q.construct("guide.5.at", turned(q["F.y"]))
+    q.set_out("extremes")
     motion_at = crank_motion(linkage, positions, start)
     whole = not positions.at or assembly.turns(linkage)
     to_and_fro = whole and len(turning_points(linkage, 5, motion_at)) == 2

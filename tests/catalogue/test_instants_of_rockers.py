@@ -10,11 +10,13 @@ import math
 from pathlib import Path
 
 import pytest
+import yaml
 
 from reportgen import api
 from reportgen.api.figures import plot_files
 from reportgen.base.errors import NotOfferedError
 from reportgen.cases import opened
+from reportgen.catalogue import sample
 from reportgen.report import text_of
 
 HEAD = """
@@ -84,3 +86,13 @@ def test_curves_and_variants(tmp_path: Path) -> None:
     assert opened(api.load(path)).fault() == ""
     with pytest.raises(NotOfferedError):
         plot_files([path], ["v.C"], "phi", None)
+
+
+def test_a_lever_mechanism_whose_rocker_has_no_extreme_positions(tmp_path: Path) -> None:
+    """A coupler of 1.5 times the length: the crank does not get round, and no chapter is about what the rocker swings."""
+    file = yaml.load(sample("lever-six-bar", "en"), yaml.BaseLoader)
+    file["parameters"]["AC"] = "135 mm"
+    file |= {"positions": {"at": ["50 deg", "310 deg"]}, "report": {"language": "en"}}
+    path = tmp_path / "lever.yaml"
+    path.write_text(yaml.safe_dump(file, sort_keys=False), encoding="utf-8")
+    assert "Extreme positions of the rocker" not in text_of(api.document(api.load(path)))

@@ -22,9 +22,13 @@ from tests.lanes import matrix
 CRANK: dict[str, Any] = {"r": "90 mm", "l": "330 mm", "n": "150 rpm", "m1": "8 kg", "s1": "0.4"}
 
 
-def written(folder: Path, kind: str, parameters: dict[str, Any], language: str = "en") -> Path:
+def written(
+    folder: Path, kind: str, parameters: dict[str, Any], language: str = "en", new: dict[str, Any] | None = None
+) -> Path:
+    """A file of a kind with these parameters; `new` has its other sections."""
     path = folder / "massless.yaml"
-    file = {"kind": kind, "report": {"language": language}, "positions": {"count": 6}, "parameters": parameters}
+    file = {**(new or {"kind": kind}), "parameters": parameters}
+    file |= {"report": {"language": language}, "positions": {"count": "6"}}
     path.write_text(yaml.safe_dump(file, sort_keys=False), encoding="utf-8")
     return path
 
@@ -70,9 +74,9 @@ CASES = [(kind, given) for kind in KINDS for given in subsets(kind)]
 )
 def test_any_subset_of_the_masses(tmp_path: Path, kind: str, given: tuple[str, ...]) -> None:
     """It has a report and a key."""
-    new = yaml.load(sample(kind, "en"), yaml.BaseLoader)["parameters"]
-    kept = {key: value for key, value in new.items() if key[0] not in "GmJs" or not key[1:].isdigit()}
+    new = yaml.load(sample(kind, "en"), yaml.BaseLoader)
+    kept = {key: value for key, value in new["parameters"].items() if key[0] not in "GmJs" or not key[1:].isdigit()}
     masses = {key: "0.4" if key[0] == "s" else "3 kg" for key in given}
-    case = opened(api.load(written(tmp_path, kind, kept | masses)))
+    case = opened(api.load(written(tmp_path, kind, kept | masses, new=new)))
     assert case.document().blocks
     assert key_of(case)
