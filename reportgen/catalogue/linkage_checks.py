@@ -212,26 +212,33 @@ def _declared(given: file.Parameters) -> Iterator[Finding]:
 
 
 def _assembly(given: file.Parameters, positions: Positions) -> Iterator[Finding]:
-    """The first group that does not follow the driver; else blocks that leave their slots, sliders of tables."""
+    """The first group that does not follow the driver; else blocks that leave their slots, sliders of tables.
+
+    At single instants the crank need not get round, unless a load goes by the stroke of a slider.
+    """
     made = given.linkage
     members = {
         (group.links[0], group.links[1]): Member(_rods(group), (*TOP, "groups", index))
         for index, group in enumerate(given.groups)
     }
-    if positions.at:
-        return
     if isinstance(given.driver, file.SlideDriver):
-        yield from _along_the_way(given, given.driver, made, members)
+        if not positions.at:
+            yield from _along_the_way(given, given.driver, made, members)
+        return
+    by_stroke = {
+        index: load.link for index, load in enumerate(given.loads) if isinstance(load, file.OverStroke | file.Gas)
+    }
+    if positions.at and not by_stroke:
         return
     obstacles = list(assembly.findings(made, members))
     yield from obstacles
     if obstacles:
         return
     motion_at = crank_motion(made, positions, positions.start_or())
-    yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
-    for index, load in enumerate(given.loads):
-        if isinstance(load, file.OverStroke | file.Gas):
-            yield from assembly.to_and_fro(made, load.link, motion_at, (*TOP, "loads", index, "link"))
+    if not positions.at:
+        yield from _slots(given, made, motion_at(np.linspace(0.0, 2 * np.pi, STEPS + 1)))
+    for index, slider in by_stroke.items():
+        yield from assembly.to_and_fro(made, slider, motion_at, (*TOP, "loads", index, "link"))
 
 
 def _along_the_way(

@@ -48,8 +48,8 @@ def mean_over(
 
     Every part between breaks must be smooth.  Parts are halved, those alone where it matters, as beside a dead point,
     until halving no longer changes them: by 1e-12 of the mean of |f| in all, or by 1e-9 where rounding allows no more.
-    A change of less than `rounding`, in the unit of f, is rounding of what f is the sum of; a function that is no larger
-    has the mean 0.  Raises `ValueError` on an empty interval or when it does not settle.
+    What changes f by less than `rounding`, in its own unit, is rounding; a function that is no larger has the mean 0.
+    Raises `ValueError` on an empty interval or when it does not settle.
     """
     if not stop > start:
         raise ValueError("the interval is empty")

@@ -14,7 +14,7 @@ import yaml
 
 from reportgen import api
 from reportgen.api.figures import plot_files
-from reportgen.base.errors import NotOfferedError
+from reportgen.base.errors import AssignmentError, NotOfferedError
 from reportgen.cases import opened
 from reportgen.catalogue import sample
 from reportgen.report import text_of
@@ -89,10 +89,23 @@ def test_curves_and_variants(tmp_path: Path) -> None:
 
 
 def test_a_lever_mechanism_whose_rocker_has_no_extreme_positions(tmp_path: Path) -> None:
-    """A coupler of 1.5 times the length: the crank does not get round, and no chapter is about what the rocker swings."""
+    """With a coupler of 1.5 times the length the crank does not get round, and the chapter of its swing is left out."""
     file = yaml.load(sample("lever-six-bar", "en"), yaml.BaseLoader)
     file["parameters"]["AC"] = "135 mm"
     file |= {"positions": {"at": ["50 deg", "310 deg"]}, "report": {"language": "en"}}
     path = tmp_path / "lever.yaml"
     path.write_text(yaml.safe_dump(file, sort_keys=False), encoding="utf-8")
     assert "Extreme positions of the rocker" not in text_of(api.document(api.load(path)))
+
+
+def test_a_load_by_the_stroke_needs_a_whole_turn(tmp_path: Path) -> None:
+    """A slider has a stroke only if the crank gets round: the group that does not follow it is named."""
+    slider = """
+    - {type: RRP, links: [4, 5], joints: [C, E], length: 300 mm, guide: {at: [0 mm, 300 mm], angle: 0 deg}}
+  loads:
+    - {by: stroke, link: 5, unit: N, s: [0, 1], inward: [50, 50], outward: [0, 0]}
+"""
+    path = tmp_path / "rocker.yaml"
+    path.write_text(HEAD + FOUR_BAR.rstrip() + slider, encoding="utf-8")
+    with pytest.raises(AssignmentError, match="no-assembly"):
+        api.load(path)
