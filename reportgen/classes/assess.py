@@ -23,7 +23,7 @@ from reportgen.classes.lateness import Handing, days_late
 from reportgen.classes.own_work import LookedFor, OwnWork, completed, own_works, with_own, without_own
 from reportgen.classes.platforms import Handed, Owner, handed_in
 from reportgen.classes.reading_sheets import read_sheets
-from reportgen.classes.roster import RosterEntry, assignment_files, comparable, read_roster
+from reportgen.classes.roster import Roster, RosterEntry, assignment_files, comparable, read_roster
 from reportgen.handin import FileReading, submission
 from reportgen.handin.drawing_file import wanted_plans
 from reportgen.handin.drawing_reader import WantedPlans
@@ -141,7 +141,8 @@ def grade(
     `AssignmentError` if `assignments` or `roster` is at fault, or the policy asks for what there is not.
     """
     files = assignment_files(assignments, language)
-    students = read_roster(roster, language).students if roster else ()
+    listed = read_roster(roster, language) if roster else Roster(())
+    students = listed.students
     people = {comparable(name): student for student in students for name in (student.folder, student.id)}
     room = Classroom(files, policy, language, people)
     policy.ask.check(room.keys, language)
@@ -190,7 +191,7 @@ def grade(
     ]
     unexpected = (problem for refused in failed.values() for problem in refused.problems)
     archives = (as_problem(fault, language) for fault in faults)
-    problems = (*collected.problems, *unexpected, *archives, *misfits, *late)
+    problems = (*listed.notes, *collected.problems, *unexpected, *archives, *misfits, *late)
     return Graded(tuple(marked), problems, tuple(unmarked), owners, known, own=works.works, kept=collected.readings)
 
 

@@ -113,7 +113,7 @@ def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: li
         refused: set[str] = set()
         present = [(column, row[column.index]) for column in headings if column.index < len(row)]
         for column, cell in present:
-            text = cell.text.strip()
+            text = (cell.label if column.name in PERSONAL else cell.text).strip()
             if not (text or cell.kind == "formula"):
                 continue
             if cell.kind in ("error", "formula") and (cell.value is None or str(cell.value).startswith("#")):
@@ -175,6 +175,8 @@ class Roster:
 
     students: tuple[RosterEntry, ...]
     columns: tuple[RosterColumn, ...] = ()
+    notes: tuple[Problem, ...] = ()
+    """Which rows are no students'."""
 
 
 Assigned = tuple[RosterEntry, Path | Problem]
@@ -199,6 +201,7 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     if of_canvas:
         # Points possible, and a student for trying out, have no student number.
         rows = [_in_spoken_order(row) for row in rows if "id" in row.values]
+    rows, left_out = _students_rows(rows)
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _id_faults(rows)
     if not rows:
@@ -206,7 +209,30 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     if faults:
         raise as_error(faults, language)
     overriding = tuple(column for column in used if _PATH.fullmatch(column.name))
-    return Roster(tuple(map(_student, rows)), overriding)
+    notes = (as_problem(Fault("roster-row-left", row.mark, {"text": _said(row)}), language, "note") for row in left_out)
+    return Roster(tuple(map(_student, rows)), overriding, tuple(notes))
+
+
+def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
+    """The rows of students, and those that have neither an id nor a name, or stand apart below the table.
+
+    Below the table, after an empty row, stand the date, who drew the list up, and signatures: names without ids.
+    """
+    last = max((number for number, row in enumerate(rows) if "id" in row.values or row.refused), default=len(rows))
+    apart = False
+    students: list[Record] = []
+    left_out: list[Record] = []
+    for number, row in enumerate(rows):
+        apart |= number > last and row.mark.line > rows[number - 1].mark.line + 1
+        named = any(name in row.values for name in ("name", *NAME_PARTS))
+        is_student = "id" in row.values or row.refused or (named and not apart)
+        (students if is_student else left_out).append(row)
+    return students, left_out
+
+
+def _said(row: Record) -> str:
+    """What stands in a row, as it may be quoted."""
+    return " ".join(value.text for value in row.values.values())
 
 
 def _in_spoken_order(row: Record) -> Record:

@@ -285,7 +285,7 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
     if order.assignments is None:
         raise ValueError("assignments are either drawn or given")
     assigned, unused = match_files(roster.students, order.assignments, order.language)
-    notes = [word("batch_nobodys", order.language, path=path) for path in unused]
+    notes = [*map(str, roster.notes), *(word("batch_nobodys", order.language, path=path) for path in unused)]
     if roster.columns:
         names = ", ".join(column.name for column in roster.columns)
         notes.append(word("batch_columns", order.language, columns=names))

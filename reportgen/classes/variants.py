@@ -174,7 +174,12 @@ def make_variants(
     out.mkdir(parents=True, exist_ok=True)
     made = [file.files for file in files if file.state in ("new", "changed")]
     put_set({**{path: content for one in made for path, content in one.items()}, out / TABLE: _csv(files, efforts)})
-    remarks = (*_doubts(spec), *_remarks(files, efforts, spec.language), *_sharing(draw, files, spec))
+    remarks = (
+        *map(str, roster.notes),
+        *_doubts(spec),
+        *_remarks(files, efforts, spec.language),
+        *_sharing(draw, files, spec),
+    )
     known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
     return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
 

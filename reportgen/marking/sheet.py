@@ -283,7 +283,7 @@ def _beside(pages: Sequence[Page], label: str) -> tuple[str, Mark] | None:
         for row in page.rows:
             for label_cell, cell in pairwise(row):
                 if _says(label_cell, label) and cell.text.strip():
-                    return cell.text.strip(), cell.mark
+                    return cell.label.strip(), cell.mark
     return None
 
 

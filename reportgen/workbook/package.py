@@ -329,13 +329,15 @@ class SheetCell:
     """A cell as it shows: `value` is a number of kind "number", None of kind "empty", else text.
 
     A date is ISO text, a boolean TRUE or FALSE, an error its code (#DIV/0!).  Of a formula, `formula` is its
-    text with the equals sign and `value` the result stored beside it, None if there is none.
+    text with the equals sign and `value` the result stored beside it, None if there is none.  `code` is how a number is
+    displayed that its format makes a code, "" of any other cell.
     """
 
     value: str | float | None
     mark: Mark
     kind: CellKind
     formula: str = ""
+    code: str = ""
 
     @property
     def text(self) -> str:
@@ -343,6 +345,11 @@ class SheetCell:
         if self.value is None:
             return ""
         return self.value if isinstance(self.value, str) else number_text(self.value)
+
+    @property
+    def label(self) -> str:
+        """The value as a name or a number by which somebody is known: with the zeros that its cell displays."""
+        return self.code or self.text
 
     @property
     def blank(self) -> bool:

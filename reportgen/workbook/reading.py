@@ -25,6 +25,7 @@ from reportgen.base.files import contents
 from reportgen.base.source import decoded
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
+from reportgen.workbook.number_format import displayed
 from reportgen.workbook.package import (
     CONTENT_TYPES,
     LONGEST_CELL,
@@ -46,6 +47,8 @@ if TYPE_CHECKING:
 
 
 MOST_SHEETS = 100
+GENERAL = "General"
+"""The number format of cells that have none of their own."""
 _ESCAPE = re.compile(r"_x([0-9A-Fa-f]{4})_")
 
 Row = tuple[Any, ...]
@@ -200,11 +203,20 @@ def _whole(read: Iterator[tuple[Row, Row]], mark: Marks) -> Iterator[tuple[Row, 
 
 def _cell(typed: Any, stored: Any, mark: CellMark) -> SheetCell:
     value, kind = _value(stored.value, stored.data_type, mark)
+    code = displayed(value, _format(stored)) if isinstance(value, float) else ""
     if typed.data_type != "f":
-        return SheetCell(value, mark, kind)
+        return SheetCell(value, mark, kind, code=code)
     # The formula of an array is an object with its text, that of a table of data one without.
     text = typed.value if isinstance(typed.value, str) else getattr(typed.value, "text", "=")
-    return SheetCell(value, mark, "formula", text)
+    return SheetCell(value, mark, "formula", text, code)
+
+
+def _format(cell: Any) -> str:
+    """The number format of a cell; that of any number where the workbook names one that it does not have."""
+    try:
+        return str(cell.number_format or GENERAL)
+    except (IndexError, KeyError):
+        return GENERAL
 
 
 def _value(value: object, type: str, mark: CellMark) -> tuple[str | float | None, CellKind]:

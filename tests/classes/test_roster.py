@@ -191,6 +191,56 @@ def test_cells_without_a_value_are_faults(put: Put) -> None:
     assert faults_of(put(stream.getvalue(), "r.xlsx")) == ["FILE:Sheet!B2 no-cell-value", "FILE:Sheet!A3 no-cell-value"]
 
 
+@pytest.mark.parametrize(
+    ("value", "number_format", "id"),
+    [
+        (125040, "00000000", "00125040"),
+        (20125040, "00000000", "20125040"),
+        (120125040, "00000000", "120125040"),
+        (225520103001, '"K"000000000000', "K225520103001"),
+        (123456, "000-000", "123-456"),
+        (1234, r"00\.00", "12.34"),
+        (42, "0000;-0000", "0042"),
+        (125040, "General", "125040"),
+        (125040, "0", "125040"),
+        (125040, "#,##0", "125040"),
+        (125040, "0.00", "125040"),
+    ],
+)
+def test_an_id_is_read_as_its_cell_displays_it(put: Put, value: int, number_format: str, id: str) -> None:
+    """Number formats by ECMA-376, 18.8.31: 0 is a digit with leading zeros, other signs stand where they are."""
+    book = openpyxl.Workbook()
+    page = book.worksheets[0]
+    page.append(["id", "name", "parameters.H"])
+    page.append([value, "An", 0.354])
+    page["A2"].number_format, page["C2"].number_format = number_format, '00.0" mm"'
+    stream = io.BytesIO()
+    book.save(stream)
+    (student,) = read_roster(put(stream.getvalue(), "r.xlsx")).students
+    # A quantity keeps all its decimals, whatever its format shows.
+    assert (student.id, student.overrides["parameters.H"].text) == (id, "0.354")
+
+
+@pytest.mark.parametrize(
+    "footer",
+    [
+        ",,Người lập danh sách\n",
+        '\n,,"Thái Nguyên, ngày 5 tháng 9"\n,Người lập danh sách,\n,Lê Thị Hoa,\n',
+        "\n,Tổng số: 2 sinh viên,\n",
+    ],
+)
+def test_rows_below_the_students_are_left_out_with_a_note(put: Put, footer: str) -> None:
+    roster = read_roster(put("MSSV,Họ tên,Lớp\nK1,An,56A\nK2,Bình,56A\n" + footer), "en")
+    assert [student.id for student in roster.students] == ["K1", "K2"]
+    assert {(note.code, note.level) for note in roster.notes} == {("roster-row-left", "note")}
+    assert len(roster.notes) == footer.strip().count("\n") + 1
+
+
+def test_a_student_without_an_id_within_the_table_is_a_fault(put: Put) -> None:
+    """So is the last row of the table, unless an empty row parts it from the others."""
+    assert faults_of(put("id,name\nK1,An\n,Bình\n\nK3,Chi\n,Dung\n")) == ["FILE:3:1 missing-id", "FILE:6:1 missing-id"]
+
+
 # --- classes of China -------------------------------------------------------------------------------
 
 CHINESE = (
