@@ -149,7 +149,9 @@ def grade(
     check_shares(policy, room.keys, language)
     faults: list[Fault] = []
     own: list[Handed] = []
-    came = chain(handed_in(submissions, faults), completed(out, submissions))
+    names = [key.student.get("name", "") for key in room.keys]
+    named = (_without_hidden_name(file, gradebook) for file in handed_in(submissions, faults, names))
+    came = chain(named, completed(out, submissions))
     handed = read_sheets(without_own(came, own), language)
     collected = collect(handed, lambda name: room.scheme(name).key, files, policy.twice, language)
     keys = {comparable(key.id): key for key in room.keys} if own else {}
@@ -193,6 +195,13 @@ def grade(
     archives = (as_problem(fault, language) for fault in faults)
     problems = (*listed.notes, *collected.problems, *unexpected, *archives, *misfits, *late)
     return Graded(tuple(marked), problems, tuple(unmarked), owners, known, own=works.works, kept=collected.readings)
+
+
+def _without_hidden_name(file: Handed, gradebook: Gradebook | None) -> Handed:
+    """A file whose owner's name says nothing if it is what the gradebook calls everybody: "Participant"."""
+    if file.owner is None or gradebook is None or file.owner.name.casefold() not in gradebook.hidden_names:
+        return file
+    return replace(file, owner=replace(file.owner, name=""))
 
 
 def _handings(

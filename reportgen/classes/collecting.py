@@ -11,6 +11,7 @@ from pathlib import Path
 from reportgen.base.errors import AssignmentError, Fault, Mark, Problem
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
+from reportgen.classes.archives import ARCHIVE
 from reportgen.classes.isolation import isolated
 from reportgen.classes.platforms import Handed, Owner
 from reportgen.classes.reading_sheets import Pages
@@ -110,8 +111,9 @@ def chosen_of(
 
 
 def named_after(path: Path, known: Container[str]) -> str | None:
-    """The assignment that a sheet's file, or else its folder, is named after, as a `comparable` stem."""
-    return next((name for name in map(comparable, (path.stem, path.parent.name)) if name in known), None)
+    """The assignment that a sheet's file, its folder or the archive that it lies in is named after, `comparable`."""
+    archives = (above.stem for above in path.parents if above.suffix.lower() == ARCHIVE)
+    return next((name for name in map(comparable, (path.stem, path.parent.name, *archives)) if name in known), None)
 
 
 def _in_order(

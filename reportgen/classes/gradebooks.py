@@ -81,10 +81,14 @@ class _Row:
 
 @dataclass(frozen=True, slots=True)
 class _Table:
-    """The table's students and the greatest grade, as the table writes it."""
+    """The table's students and the greatest grade, as the table writes it.
+
+    `called` is the word before the number of each student, in small letters.
+    """
 
     rows: tuple[_Row, ...]
     highest: str
+    called: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +129,11 @@ class Gradebook:
     def names(self, number: str) -> frozenset[str]:
         """What the row of a platform's number says of its student."""
         return next((row.names for row in self.table.rows if number and row.number == number), frozenset())
+
+    @property
+    def hidden_names(self) -> frozenset[str]:
+        """What it calls the students of whom it knows a number alone, in small letters."""
+        return frozenset({self.table.called}) - {""}
 
     def _row_of(self, student: Participant) -> _Row | None:
         """The one row that is a student's: by the platform's number if it is known, else by id or e-mail."""
@@ -206,6 +215,7 @@ def _moodle(rows: Sequence[Sequence[_Cell]], path: Path) -> _Table | Fault:
             for row, number in zip(full, numbers, strict=True)
         ),
         columns[greatest][0],
+        full[0][0].text.strip().rstrip("0123456789").strip().casefold(),
     )
 
 

@@ -17,11 +17,12 @@ from reportgen.base.kinds import title
 from reportgen.base.standards import STANDARDS, Standards
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
+from reportgen.classes.archives import zipped
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult
 from reportgen.classes.isolation import isolated
 from reportgen.classes.own_work import renewable
-from reportgen.classes.platforms import Handed, zipped
+from reportgen.classes.platforms import Handed
 from reportgen.classes.reading_sheets import marked_copies
 from reportgen.classes.roster import folder_name
 from reportgen.handin import FileReading

@@ -3,45 +3,43 @@ download, also as a zip.
 
 Moodle puts the files of a student into a folder `Name_4711_assignsubmission_file`, or before the names of the files;
 Canvas names each file `name_userid_attachmentid_file`.  What is given back to the student must carry the same
-beginning.  An archive is read in place, member by member: nothing of it is written to disk.
+beginning.  Moodle may hide names (`Participant_4711_assignsubmission_file`): then the number is all that is known.
 """
 
 from __future__ import annotations
 
-import io
 import re
-import stat
 import time
 import unicodedata
-import zipfile
-from bisect import bisect_right
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.base.files import cause, leads_out
+from reportgen.base.files import leads_out
+from reportgen.base.template_folders import languages
+from reportgen.base.words import messages
+from reportgen.classes.archives import ARCHIVE, LARGEST_INSIDE, opened
+from reportgen.classes.roster import folded
 from reportgen.handin import files as own_files
-from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP
+from reportgen.workbook.package import RefusedError
 from reportgen.workbook.reading import BOOKS, LARGEST
-from reportgen.workbook.writing import MOMENT
 
 SHEETS = BOOKS | {".csv"}
 """Endings of files that may be meant as sheets; a fault is reported for those that cannot be read."""
 SUBMISSIONS = SHEETS | own_files.OWN
 """Those of all files that are read: sheets, and a student's own report and drawings."""
-ARCHIVE = ".zip"
-MOST_MEMBERS = 20_000
-MOST_BYTES = 2_000_000_000
-"""Of all members of an archive, unpacked; only its sheets are read, one at a time."""
+DEEPEST = 1
+"""Archives in an archive that was handed in are not opened, only those in a download of a class."""
 
 _MOODLE_FOLDER = re.compile(r"(?P<name>.+)_(?P<number>\d+)_assignsubmission_file_?")
 _MOODLE_FILE = re.compile(r"(?P<prefix>(?P<name>.+?)_(?P<number>\d+)_assignsubmission_file_).+")
 _CANVAS = re.compile(r"(?P<prefix>(?P<name>\w+?)(?P<late>_LATE)?_(?P<number>\d+)_\d+_).+")
+_LOST = "?_\ufffd"
+"""What programs write for letters of a name that their encoding does not have."""
 _CANVAS_BLIND = re.compile(r"(?P<prefix>(?P<late>LATE_)?anon_(?P<number>[A-Za-z0-9]+)_\d+_).+")
-_DRIVE = re.compile(r"[A-Za-z]:")
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,10 +57,16 @@ class Owner:
 
     def may_be(self, name: str) -> bool:
         """Whether it can be the student of that name, whatever the order of names, case and accents."""
-        if not self.name or not name:
+        if not self.name or not name or self.is_hidden:
             return True
         own, given = _words(self.name), _words(name)
-        return sorted("".join(own)) == sorted("".join(given)) or not (own - given and given - own)
+        same = sorted("".join(own)) == sorted("".join(given)) or not (own - given and given - own)
+        return same or _fits(self.name, name)
+
+    @property
+    def is_hidden(self) -> bool:
+        """Whether the platform hides the name and writes "Participant", also behind a group: "Group A-Participant"."""
+        return folded(self.name.rpartition("-")[2]) in _hidden_names()
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,11 +89,13 @@ class Handed:
         return self.fault is None and self.path.suffix.lower() in own_files.OWN
 
 
-def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
-    """The answer sheets among files, in folders and archives, one at a time.
+def handed_in(paths: Sequence[Path], faults: list[Fault], names: Collection[str] = ()) -> Iterator[Handed]:
+    """The answer sheets among files, in folders and archives, one at a time; archives in hand-ins are opened, too.
 
-    Faults are added for archives that are refused.
+    `names` are those of the students, by which the names of an archive are decoded that does not say how.  Faults are
+    added for archives that are refused.
     """
+    people = frozenset(map(_words_of, filter(None, names)))
     for path in paths:
         if path.is_dir():
             files = sorted(file for file in path.rglob("*") if file.is_file())
@@ -98,13 +104,65 @@ def handed_in(paths: Sequence[Path], faults: list[Fault]) -> Iterator[Handed]:
             faults += [Fault("path-outside", Mark(str(file)), {"text": file.name}) for file in strays]
             named = [(file.relative_to(path.parent).as_posix(), file) for file in inside]
             owners = _owners([name for name, _ in named])
-            yield from (Handed(file, owners[name], when=changed(file)) for name, file in named if _is_sheet(name))
-            yield from _without_sheet(path.parent, owners)
+            with_work: set[str] = set()
+            for name, file in named:
+                if _is_sheet(name):
+                    yield from _noted(iter([Handed(file, owners[name], when=changed(file))]), with_work)
+                elif _is_archive(name):
+                    yield from _noted(_from_archive(Handed(file, owners[name]), people, 0), with_work)
+            yield from _without_sheet(path.parent, owners, with_work)
         elif path.suffix.lower() == ARCHIVE and path.is_file():
-            yield from _from_archive(path, faults)
+            try:
+                yield from _members(Handed(path), people, 0)
+            except RefusedError as refused:
+                faults.append(refused.fault)
         else:
             fault = own_files.not_read(path)
             yield Handed(path, owner_of(path.as_posix()), when=changed(path), fault=fault)
+
+
+def _noted(handed: Iterator[Handed], with_work: set[str]) -> Iterator[Handed]:
+    """What was handed in; the numbers of those who did are added to `with_work`."""
+    for file in handed:
+        if file.owner:
+            with_work.add(file.owner.number)
+        yield file
+
+
+def _from_archive(archive: Handed, people: Collection[Words], depth: int) -> Iterator[Handed]:
+    """The sheets in an archive that a student handed in, or the fault for which it is not read."""
+    try:
+        if depth > DEEPEST:
+            raise RefusedError("archive-nested", Mark(str(archive.path)))
+        if archive.data is not None and len(archive.data) > LARGEST_INSIDE:
+            raise RefusedError("archive-bomb", Mark(str(archive.path)))
+        yield from _members(archive, people, depth)
+    except RefusedError as refused:
+        yield replace(archive, data=None, fault=refused.fault)
+
+
+def _members(handed: Handed, people: Collection[Words], depth: int) -> Iterator[Handed]:
+    """The sheets among the members of an archive, all of whoever handed it in; raises `RefusedError`."""
+
+    def judge(names: Sequence[str]) -> int:
+        owners = {owner.name for name in names if (owner := owner_of(name))}
+        return sum(_words_of(name) in people for name in owners)
+
+    with opened(handed.path, handed.data, judge) as archive:
+        owners = _owners([member.name for member in archive.members])
+        if handed.owner is not None:
+            owners = dict.fromkeys(owners, handed.owner)
+        with_work: set[str] = set()
+        for member in archive.members:
+            name, owner, when = handed.path / member.name, owners[member.name], member.info.date_time
+            if _is_sheet(member.name):
+                own = PurePosixPath(member.name).suffix.lower() in own_files.OWN
+                content = archive.content(member, own_files.LARGEST if own else LARGEST)
+                yield from _noted(iter([Handed(name, owner, content, when)]), with_work)
+            elif _is_archive(member.name):
+                content = archive.content(member, LARGEST_INSIDE)
+                yield from _noted(_from_archive(Handed(name, owner, content, when), people, depth + 1), with_work)
+        yield from _without_sheet(handed.path, owners, with_work)
 
 
 def changed(path: Path) -> tuple[int, ...]:
@@ -118,7 +176,7 @@ def files_read(paths: Sequence[Path]) -> Iterator[Path]:
     """The files that answer sheets are read from: those given, archives too, and what may be a sheet in a folder."""
     for path in paths:
         if path.is_dir():
-            yield from (file for file in path.rglob("*") if _is_sheet(file.as_posix()))
+            yield from (one for one in path.rglob("*") if _is_sheet(one.as_posix()) or _is_archive(one.as_posix()))
         else:
             yield path
 
@@ -137,7 +195,7 @@ def owner_of(name: str) -> Owner | None:
 
 
 def _owners(names: Sequence[str]) -> dict[str, Owner | None]:
-    """Who handed in each file; where all have one name, they are hidden ("Participant") and it says nothing."""
+    """Who handed in each file; a name that all have, or the word for a participant, hides names and says nothing."""
     owners = {name: owner_of(name) for name in names}
     known = {(owner.number, owner.name) for owner in owners.values() if owner}
     if len({number for number, _ in known}) > 1 and len({name for _, name in known}) == 1:
@@ -147,17 +205,25 @@ def _owners(names: Sequence[str]) -> dict[str, Owner | None]:
 
 def _is_sheet(name: str) -> bool:
     """Whether it may be a sheet: not what a spreadsheet or a system keeps beside its files."""
+    return PurePosixPath(name).suffix.lower() in SUBMISSIONS and not _is_hidden(name)
+
+
+def _is_hidden(name: str) -> bool:
+    """Whether a program or a system keeps it beside its own files."""
     path = PurePosixPath(name)
-    hidden = path.name.startswith((".", "~$")) or "__MACOSX" in path.parts
-    return path.suffix.lower() in SUBMISSIONS and not hidden
+    return path.name.startswith((".", "~$")) or "__MACOSX" in path.parts
 
 
-def _without_sheet(place: Path, owners: dict[str, Owner | None]) -> Iterator[Handed]:
-    """Students who handed in something, but nothing that can be a sheet."""
-    sheets = {owner.number for name, owner in owners.items() if owner and _is_sheet(name)}
+def _is_archive(name: str) -> bool:
+    """Whether it is an archive that somebody handed in."""
+    return PurePosixPath(name).suffix.lower() == ARCHIVE and not _is_hidden(name)
+
+
+def _without_sheet(place: Path, owners: dict[str, Owner | None], with_work: Collection[str]) -> Iterator[Handed]:
+    """Students who handed in something, but nothing that can be a sheet; `with_work` are the numbers of the others."""
     seen: set[str] = set()
     for name, owner in owners.items():
-        if owner and owner.number not in sheets and owner.number not in seen:
+        if owner and owner.number not in with_work and owner.number not in seen:
             seen.add(owner.number)
             own = (one for one, owned in owners.items() if owned and owned.number == owner.number)
             works = sorted(one for one in own if PurePosixPath(one).suffix.lower() in own_files.NOT_READ)
@@ -168,83 +234,32 @@ def _without_sheet(place: Path, owners: dict[str, Owner | None]) -> Iterator[Han
             yield Handed(place / name, owner, fault=fault)
 
 
-# --- archives ---------------------------------------------------------------------------------------
+Words = tuple[str, ...]
 
 
-def _from_archive(path: Path, faults: list[Fault]) -> Iterator[Handed]:
-    mark = Mark(str(path))
-    try:
-        with zipfile.ZipFile(path) as archive:
-            members = [info for info in archive.infolist() if not info.is_dir()]
-            refused = _refused(members, path)
-            if refused:
-                faults.append(refused)
-                return
-            owners = _owners([info.filename for info in members])
-            for info in members:
-                if _is_sheet(info.filename):
-                    content = _content(archive, info)
-                    yield Handed(path / info.filename, owners[info.filename], content, info.date_time)
-            yield from _without_sheet(path, owners)
-    except UNREADABLE_ZIP:
-        faults.append(Fault("archive-damaged", mark))
-    except OSError as error:
-        faults.append(Fault("unreadable", mark, {"reason": cause(error)}))
+def _words_of(name: str) -> Words:
+    """The words of a name in one order, by which names are compared."""
+    return tuple(sorted(_words(name)))
 
 
-def _content(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:
-    """What a member holds, but no more than a sheet may have and one byte, which shows that it has too many."""
-    own = PurePosixPath(info.filename).suffix.lower() in own_files.OWN
-    with archive.open(info) as stream:
-        return stream.read((own_files.LARGEST if own else LARGEST) + 1)
-
-
-def _refused(members: Sequence[zipfile.ZipInfo], path: Path) -> Fault | None:
-    """Why an archive is not read: names that lead out of it, links, encryption, or more than a class hands in."""
-    for info in members:
-        mark = Mark(str(path / PurePosixPath(info.filename).name))
-        if not _is_harmless(info.filename) or stat.S_ISLNK(info.external_attr >> 16):
-            return Fault("archive-path", mark, {"text": info.filename})
-        if info.flag_bits & 1:
-            return Fault("archive-encrypted", mark)
-        if info.file_size > SMALL and info.file_size > MOST_RATIO * max(info.compress_size, 1):
-            return Fault("archive-bomb", mark)
-    twice = [name for name, count in Counter(info.filename for info in members).items() if count > 1]
-    if twice:
-        return Fault("archive-path", Mark(str(path)), {"text": twice[0]})
-    # Members that share their bytes unpack to more than any one of them shows.
-    ordered = sorted(members, key=lambda info: info.header_offset)
-    starts = [info.header_offset for info in ordered]
-    for info in ordered:
-        following = bisect_right(starts, info.header_offset)
-        if following < len(starts) and info.header_offset + info.compress_size > starts[following]:
-            return Fault("archive-bomb", Mark(str(path)))
-    if len(members) > MOST_MEMBERS or sum(info.file_size for info in members) > MOST_BYTES:
-        return Fault("archive-bomb", Mark(str(path)))
-    return None
-
-
-def _is_harmless(name: str) -> bool:
-    """Whether a member's name stays inside the folder that it is unpacked to, on any system."""
-    parts = PurePosixPath(name).parts
-    strange = "\\" in name or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name)
-    return bool(parts) and not (name.startswith("/") or ".." in parts or strange or _DRIVE.match(name))
-
-
-def zipped(files: Mapping[str, bytes]) -> bytes:
-    """Files as an archive, the same files the same bytes."""
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in sorted(files.items()):
-            member = zipfile.ZipInfo(name, MOMENT)
-            member.compress_type = zipfile.ZIP_DEFLATED
-            member.external_attr = 0o644 << 16
-            archive.writestr(member, content)
-    return stream.getvalue()
+@cache
+def _hidden_names() -> frozenset[str]:
+    """What a platform calls a student whose name it hides, in every language."""
+    return frozenset(folded(name) for language in languages() for name in messages(language)["hidden_names"])
 
 
 def _words(name: str) -> set[str]:
     """The words of a name without case and accents: {"nguyen", "van", "an"}."""
-    bare = unicodedata.normalize("NFD", name.casefold().replace("đ", "d"))
-    letters = "".join(letter for letter in bare if not unicodedata.combining(letter))
-    return set(re.findall(r"[^\W_]+", letters))
+    return set(re.findall(r"[^\W_]+", _bare(name)))
+
+
+def _bare(name: str) -> str:
+    """A name without case and accents."""
+    letters = unicodedata.normalize("NFD", name.casefold().replace("đ", "d"))
+    return "".join(letter for letter in letters if not unicodedata.combining(letter))
+
+
+def _fits(damaged: str, name: str) -> bool:
+    """Whether a name with lost letters, "Nguy?n V?n An", can be that of a student."""
+    pattern = "".join(".?" if letter in _LOST else re.escape(letter) for letter in _bare(damaged))
+    return any(letter in damaged for letter in _LOST) and re.fullmatch(pattern, _bare(name)) is not None

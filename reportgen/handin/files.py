@@ -36,6 +36,8 @@ NOT_READ = frozenset(
         ".rtf",
         ".dwg",
         ".pages",
+        ".rar",
+        ".7z",
     }
 )
 """Endings of what may well be somebody's work, and is not read."""

@@ -35,7 +35,7 @@ LETTERED = frozenset({"symbol()", "letters()"})
 """What prints the letter of a quantity as the language has it, where the reference has a formula."""
 GRAMMAR = frozenset({"loop", "lowered", "turn_words", "words"})
 """Names that only fit a word into a sentence."""
-FREE_LISTS = frozenset({"columns", "dates", "judgements", "counted"})
+FREE_LISTS = frozenset({"columns", "dates", "judgements", "counted", "hidden_names"})
 """Words under these keys are as many as the language has: ways to be read, forms for one and for several."""
 ONE_SIDED = frozenset({("cover", "months"), ("units",), ("symbols",), ("frame", "pieces"), ("texts",)})
 """Tables that a language may have as it wants: some dates count the month, some indices are their own."""

@@ -21,8 +21,9 @@ import pytest
 from reportgen.base.errors import AssignmentError, Fault
 from reportgen.base.units import Language
 from reportgen.classes import assess, outcome
+from reportgen.classes.archives import MOST_MEMBERS
 from reportgen.classes.gradebooks import Participant, StudentResult, read_gradebook
-from reportgen.classes.platforms import MOST_MEMBERS, Owner, handed_in, owner_of
+from reportgen.classes.platforms import Owner, handed_in, owner_of
 from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.policy import Policy, Scale
@@ -152,6 +153,29 @@ def test_hidden_names_tell_nothing(tmp_path: Path) -> None:
     members = {f"Participant_{n}_assignsubmission_file/a.csv": b"x" for n in (1, 2)}
     found = list(handed_in([archive(tmp_path / "d.zip", members)], []))
     assert [one.owner.name for one in found if one.owner] == ["", ""]
+
+
+@pytest.mark.parametrize("word", ["Participant", "Участник", "Teilnehmer"])
+def test_a_hand_in_without_a_name_is_matched_by_its_number(word: str, assignments: Path, tmp_path: Path) -> None:
+    """With blind marking Moodle writes "Participant_553_assignsubmission_file" and "Participant 553"; one is alone."""
+    suffix, content = sheet(BAO)
+    members = {f"{word}_553_assignsubmission_file/phiếu{suffix}": content}
+    worksheet = tmp_path / "worksheet.csv"
+    rows = "".join(f"{word} {n},Submitted for grading,,10.00,Yes,-,-\n" for n in (552, 553))
+    worksheet.write_text(
+        "Identifier,Status,Grade,Maximum Grade,Grade can be changed,Last modified (submission),"
+        f"Last modified (grade)\n{rows}",
+        encoding="utf-8",
+    )
+    table = read_gradebook(worksheet)
+    graded = assess.grade([archive(tmp_path / "d.zip", members)], assignments, Policy(guard=False), gradebook=table)
+    assert [marking.key.id for marking in graded.markings] == [BAO]
+    written, unknown = outcome.put_gradebook(graded, table, Policy(), tmp_path / "out", None)
+    mark = Policy().mark(graded.markings[0].share, 0)
+    assert (
+        written.read_text(encoding="utf-8").splitlines()[2].startswith(f"{word} 553,Submitted for grading,{mark:.2f},")
+    )
+    assert [problem.code for problem in unknown] == ["gradebook-no-comments"]
 
 
 # --- hostile archives -------------------------------------------------------------------------------

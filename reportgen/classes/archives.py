@@ -1,0 +1,163 @@
+"""Archives as a stranger sends them: judged, their names decoded, read in place member by member.
+
+Nothing of an archive is written to disk.  An archive without the mark of UTF-8 does not say how its names are encoded:
+`decoded_names` finds out.
+"""
+
+from __future__ import annotations
+
+import io
+import stat
+import struct
+import unicodedata
+import zipfile
+from bisect import bisect_right
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from reportgen.base.errors import Fault, Mark
+from reportgen.base.files import cause
+from reportgen.workbook.package import MOST_RATIO, SMALL, UNREADABLE_ZIP, RefusedError
+from reportgen.workbook.writing import MOMENT
+
+ARCHIVE = ".zip"
+MOST_MEMBERS = 20_000
+MOST_BYTES = 2_000_000_000
+"""Of all members of an archive, unpacked; only its sheets are read, one at a time."""
+LARGEST_INSIDE = 100_000_000
+"""Bytes of an archive within another one."""
+ENCODINGS = ("utf-8", "cp437", "cp866", "cp1251", "gbk", "cp1258", "cp850", "cp1252")
+"""Of names, in the order in which they are tried: that of all systems of today, of the standard, of old programs."""
+_UTF_8 = 1 << 11
+"""The mark that a member's name is in UTF-8."""
+_UNICODE_PATH = 0x7075
+"""The extra field in which Info-ZIP writes the name in UTF-8."""
+_DRIVES = frozenset("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz")
+
+Judge = Callable[[Sequence[str]], int]
+"""How many of some names are those of students."""
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A file in an archive by its decoded name."""
+
+    name: str
+    info: zipfile.ZipInfo
+
+
+@dataclass(frozen=True, slots=True)
+class Archive:
+    """An opened archive that has been found harmless."""
+
+    members: tuple[Member, ...]
+    file: zipfile.ZipFile
+
+    def content(self, member: Member, most: int) -> bytes:
+        """Return what a member holds, up to `most` bytes and one, which shows that there are more."""
+        with self.file.open(member.info) as stream:
+            return stream.read(most + 1)
+
+
+@contextmanager
+def opened(path: Path, data: bytes | None, judge: Judge) -> Iterator[Archive]:
+    """Open an archive on disk, or one whose content `data` is; `path` names it.
+
+    Raises `RefusedError` for one that is damaged, encrypted, unpacks to too much or has names that lead elsewhere; also
+    while its members are read.
+    """
+    mark = Mark(str(path))
+    try:
+        with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as file:
+            infos = [info for info in file.infolist() if not info.is_dir()]
+            names = decoded_names(infos, judge)
+            members = tuple(Member(name, info) for name, info in zip(names, infos, strict=True))
+            if fault := _fault(members, path):
+                raise RefusedError(fault.code, fault.mark, **fault.arguments)
+            yield Archive(members, file)
+    except UNREADABLE_ZIP:
+        raise RefusedError("archive-damaged", mark) from None
+    except OSError as error:
+        raise RefusedError("unreadable", mark, reason=cause(error)) from None
+
+
+def decoded_names(infos: Sequence[zipfile.ZipInfo], judge: Judge) -> list[str]:
+    """Return the names of members, by the encoding that gives most students; at a tie by the first."""
+    known = [_stated(info) for info in infos]
+    raw = {k: infos[k].orig_filename.encode("cp437", "replace") for k, name in enumerate(known) if name is None}
+    if not any(not content.isascii() for content in raw.values()):
+        return [info.filename if name is None else name for info, name in zip(infos, known, strict=True)]
+    best: Mapping[int, str] = {}
+    most = -1
+    for encoding in ENCODINGS:
+        # No other encoding has the patterns of UTF-8, and cp437 reads all bytes.
+        with suppress(UnicodeError):
+            names = {k: content.decode(encoding) for k, content in raw.items()}
+            count = judge(list(names.values()))
+            if count > most:
+                best, most = names, count
+        if encoding == "utf-8" and best:
+            break
+    return [name if name is not None else best[k].partition("\0")[0] for k, name in enumerate(known)]
+
+
+def _stated(info: zipfile.ZipInfo) -> str | None:
+    """The name of a member whose encoding the archive states."""
+    if info.flag_bits & _UTF_8:
+        return info.filename
+    extra = info.extra
+    while len(extra) >= 4:
+        kind, length = struct.unpack_from("<HH", extra)
+        if kind == _UNICODE_PATH and length > 5:
+            with suppress(UnicodeError):
+                return extra[9 : 4 + length].decode("utf-8")
+        extra = extra[4 + length :]
+    return None
+
+
+def _fault(members: Sequence[Member], path: Path) -> Fault | None:
+    """Why an archive is not read: names that lead out of it, links, encryption, or more than a class hands in."""
+    for member in members:
+        info, mark = member.info, Mark(str(path / PurePosixPath(member.name).name))
+        if not _is_harmless(member.name) or stat.S_ISLNK(info.external_attr >> 16):
+            return Fault("archive-path", mark, {"text": member.name})
+        if info.flag_bits & 1:
+            return Fault("archive-encrypted", mark)
+        if info.file_size > SMALL and info.file_size > MOST_RATIO * max(info.compress_size, 1):
+            return Fault("archive-bomb", mark)
+    twice = [name for name, count in Counter(member.name for member in members).items() if count > 1]
+    if twice:
+        return Fault("archive-path", Mark(str(path)), {"text": twice[0]})
+    # Members that share their bytes unpack to more than any one of them shows.
+    ordered = sorted((member.info for member in members), key=lambda info: info.header_offset)
+    starts = [info.header_offset for info in ordered]
+    for info in ordered:
+        following = bisect_right(starts, info.header_offset)
+        if following < len(starts) and info.header_offset + info.compress_size > starts[following]:
+            return Fault("archive-bomb", Mark(str(path)))
+    if len(members) > MOST_MEMBERS or sum(member.info.file_size for member in members) > MOST_BYTES:
+        return Fault("archive-bomb", Mark(str(path)))
+    return None
+
+
+def _is_harmless(name: str) -> bool:
+    """Whether a member's name stays inside the folder that it is unpacked to, on any system."""
+    parts = PurePosixPath(name).parts
+    strange = "\\" in name or any(unicodedata.category(letter) in ("Cc", "Cs") for letter in name)
+    has_drive = name[1:2] == ":" and name[0] in _DRIVES
+    return bool(parts) and not (name.startswith("/") or ".." in parts or strange or has_drive)
+
+
+def zipped(files: Mapping[str, bytes]) -> bytes:
+    """Files as an archive, the same files the same bytes."""
+    stream = io.BytesIO()
+    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in sorted(files.items()):
+            member = zipfile.ZipInfo(name, MOMENT)
+            member.compress_type = zipfile.ZIP_DEFLATED
+            member.external_attr = 0o644 << 16
+            archive.writestr(member, content)
+    return stream.getvalue()
