@@ -42,7 +42,7 @@ Judge = Callable[[Sequence[str]], int]
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class ArchiveMember:
     """A file in an archive by its decoded name."""
 
     name: str
@@ -53,10 +53,10 @@ class Member:
 class Archive:
     """An opened archive that has been found harmless."""
 
-    members: tuple[Member, ...]
+    members: tuple[ArchiveMember, ...]
     file: zipfile.ZipFile
 
-    def content(self, member: Member, most: int) -> bytes:
+    def content(self, member: ArchiveMember, most: int) -> bytes:
         """Return what a member holds, up to `most` bytes and one, which shows that there are more."""
         with self.file.open(member.info) as stream:
             return stream.read(most + 1)
@@ -74,7 +74,7 @@ def opened(path: Path, data: bytes | None, judge: Judge) -> Iterator[Archive]:
         with zipfile.ZipFile(path if data is None else io.BytesIO(data)) as file:
             infos = [info for info in file.infolist() if not info.is_dir()]
             names = decoded_names(infos, judge)
-            members = tuple(Member(name, info) for name, info in zip(names, infos, strict=True))
+            members = tuple(ArchiveMember(name, info) for name, info in zip(names, infos, strict=True))
             if fault := _fault(members, path):
                 raise RefusedError(fault.code, fault.mark, **fault.arguments)
             yield Archive(members, file)
@@ -118,7 +118,7 @@ def _stated(info: zipfile.ZipInfo) -> str | None:
     return None
 
 
-def _fault(members: Sequence[Member], path: Path) -> Fault | None:
+def _fault(members: Sequence[ArchiveMember], path: Path) -> Fault | None:
     """Why an archive is not read: names that lead out of it, links, encryption, or more than a class hands in."""
     for member in members:
         info, mark = member.info, Mark(str(path / PurePosixPath(member.name).name))
