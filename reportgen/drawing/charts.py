@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import chain, count
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -66,6 +67,10 @@ BEYOND = 4.0
 MARK, DOT = 0.75, 0.45
 """Radius of the circle at a marked point, and of one that was measured, mm."""
 TICKS = 6
+MOST_TURNED = 10
+"""Steps of an axis of angles at most."""
+LEAST_POWER = 12
+"""Powers of ten through which the steps of an axis of angles are tried; what is shorter is within rounding."""
 BETWEEN = 1.0
 """White between the figures of an axis at least, mm."""
 
@@ -136,7 +141,7 @@ def chart(diagram: Diagram, *, half: bool = False, area: Area | None = None) -> 
 
 
 def plotted(diagram: Diagram, *, half: bool = False, height: float = HEIGHT, area: Area | None = None) -> Plotted:
-    """A diagram on paper.  An angle has ticks at multiples of 45, 90 or 180 degrees.
+    """A diagram on paper.  An angle has the ticks of `angle_ticks`.
 
     With `half` two charts stand side by side; with an `area` both scales are round and printed.  Raises `ValueError`
     if no value is finite.
@@ -224,7 +229,7 @@ def _window(
     *,
     zero: bool = True,
 ) -> tuple[_Window, list[float], list[float]]:
-    """Ranges and ticks: whole multiples of 45, 90 or 180 degrees across, of a round step upwards."""
+    """Ranges and ticks: across those of `angle_ticks` for an angle, upwards of a round step."""
     x = np.concatenate([np.asarray(one.x, dtype=np.float64) for one in series])
     values = np.concatenate([np.asarray(one.y, dtype=np.float64) for one in series])
     if not (np.isfinite(x).any() and np.isfinite(values).any()):
@@ -233,8 +238,7 @@ def _window(
     x0, x1 = float(np.nanmin(x)), float(np.nanmax(x))
     y_ticks = _ticks(float(np.nanmin(y)), float(np.nanmax(y)), 6 if half else 7)
     if turn:
-        step = (45.0 if x1 - x0 <= 450 else 90.0) * (2 if half else 1)
-        x_ticks = [tick for tick in _around(x0, x1, step) if x0 - 1e-6 <= tick <= x1 + 1e-6]
+        x_ticks = angle_ticks(x0, x1, MOST_TURNED // 2 if half else MOST_TURNED)
     else:
         x_ticks = _ticks(x0, x1, 5 if half else 9)
         x0, x1 = x_ticks[0], x_ticks[-1]
@@ -272,6 +276,21 @@ def _ticks(low: float, high: float, most: int) -> list[float]:
     return _around(low, high, nice_up((high - low) / most, STEPS) if high > low else 1.0)
 
 
+def angle_ticks(low: float, high: float, most: int) -> list[float]:
+    """Ticks (degrees) within a range: of 45° doubled until there are at most so many steps; at least three ticks.
+
+    A range too short for three of these takes the largest step that serves of 30°, 15°, 10°, 5°, 2°, 1°, 0.5°, …
+    """
+
+    def within(step: float) -> list[float]:
+        slack = 1e-6 * step
+        return [tick for tick in _around(low, high, step) if low - slack <= tick <= high + slack]
+
+    step = next(step for step in (45.0 * 2**k for k in count()) if high - low <= most * step)
+    finer = chain((step, 30.0, 15.0), (size * 10.0**-k for k in range(LEAST_POWER) for size in (10.0, 5.0, 2.0)))
+    return next((ticks for ticks in map(within, finer) if len(ticks) > 2), [low, high])
+
+
 def _around(low: float, high: float, step: float) -> list[float]:
     """Whole steps around a range; at least one."""
     first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
@@ -302,7 +321,7 @@ def _with_room(window: _Window, ticks: Sequence[float], unit: str) -> list[float
     apart = step / (window.x[1] - window.x[0]) * window.width
     widest = max(box(_figure(tick, ticks, unit), style.SMALL).width for tick in ticks)
     stride = next((every for every in (1, 2, 5) if every * apart >= widest + BETWEEN), 10)
-    return [tick for tick in ticks if round(tick / step) % stride == 0]
+    return [tick for tick in ticks if round(tick / step) % stride == 0] or [ticks[0]]
 
 
 def framed(low: complex, high: complex, pen: Pen, fill: str | None = None) -> Polyline:

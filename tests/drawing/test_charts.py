@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from reportgen.drawing import Circle, Diagram, Label, PlottedCurve, Polyline, Scene
-from reportgen.drawing.charts import CLOSE, HEIGHT, WIDTH, Area, _telling, _ticks, chart, polar
+from reportgen.drawing.charts import CLOSE, HEIGHT, WIDTH, Area, _telling, _ticks, angle_ticks, chart, polar
 from reportgen.drawing.counts import bars, histogram
 from reportgen.formula import Chain, Number, Symbol
 from tests.drawing.overlaps import overlaps
@@ -37,6 +37,28 @@ def test_a_chart_is_clear_and_of_its_size() -> None:
 def test_angles_have_ticks_at_whole_multiples() -> None:
     ticks = [item.content for item in torque().items if isinstance(item, Label) and isinstance(item.content, Number)]
     assert [tick.value for tick in ticks if tick.unit == "°"] == [90.0 * k for k in range(9)]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "ticks"),
+    [
+        (0.0, 360.0, [0, 90, 180, 270, 360]),
+        (0.0, 108.1, [0, 45, 90]),
+        (0.0, 88.0, [0, 30, 60]),
+        (30.0, 74.0, [30, 45, 60]),
+        (100.0, 107.0, [100, 102, 104, 106]),
+        (90.0, 90.0007, [90, 90.0002, 90.0004, 90.0006]),
+        (0.0, 7200.0, [0, 1440, 2880, 4320, 5760, 7200]),
+    ],
+)
+@pytest.mark.parametrize("half", [True, False])
+def test_an_axis_of_angles_has_three_ticks_at_least(low: float, high: float, ticks: list[float], half: bool) -> None:
+    """However short a start or a stop is, and however long; each curve of it can be drawn."""
+    if half:
+        assert angle_ticks(low, high, 5) == pytest.approx(ticks)
+    scene = chart(Diagram((PlottedCurve("", (low, high), (20.0, 0.0)),), "φ", "ω", turn=True), half=half)
+    figures = [item for item in scene.items if isinstance(item, Label) and getattr(item.content, "unit", "") == "°"]
+    assert 1 <= len(figures) <= 11
 
 
 def test_the_simplified_curve_stays_within_the_pen() -> None:

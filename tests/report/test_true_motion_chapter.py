@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from reportgen.cases import MachineCase, open_case
+from reportgen.drawing import Label
+from reportgen.formula import Number
 from reportgen.machine.true_motion import at_positions
 from reportgen.report import Table, text_of
 from reportgen.report.report import Report
 from reportgen.report.result_tables import residuals
+from reportgen.report.running_curves import stopping
 from tests.report import built, trees
 from tests.report.calculator import misses
 
@@ -73,3 +79,17 @@ def test_the_verdict_names_both(lines: list[str]) -> None:
     (verdict,) = (line for line in lines if line.startswith("Verdict."))
     assert "0.048997, without it 0.19233; the permissible one is 1/20" in verdict
     assert verdict.endswith("the condition is fulfilled.")
+
+
+@pytest.mark.parametrize("brake", [300, 3000])
+def test_a_stop_within_a_few_degrees_has_its_curves(brake: int, tmp_path: Path) -> None:
+    """55° and 7°: the axis of angles has its ticks all the same."""
+    text = FILE.read_text(encoding="utf-8").replace("brake: 80 N m", f"brake: {brake} N m")
+    file = tmp_path / "stop.yaml"
+    file.write_text(text, encoding="utf-8")
+    case = open_case(file)
+    assert isinstance(case, MachineCase)
+    scenes = stopping(Report(case)).scenes
+    over_angle = [item.content for item in scenes[0].items if isinstance(item, Label)]
+    angles = [content.value for content in over_angle if isinstance(content, Number) and content.unit == "°"]
+    assert len(angles) > 2
