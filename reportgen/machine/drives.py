@@ -48,7 +48,7 @@ class Drive(ABC):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        """Speeds (rad/s) at which the characteristic bends or has an end."""
+        """Speeds (rad/s) at which the characteristic bends, crosses zero, or has an extreme."""
         return ()
 
 
@@ -113,7 +113,7 @@ class KlossDrive(Drive):
 
     @property
     def corners(self) -> tuple[float, ...]:
-        return (self.synchronous * (1 - self.slip), self.synchronous)
+        return tuple(self.synchronous * (1 + sense * self.slip) for sense in (-1, 0, 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,19 +165,6 @@ class Geared(Drive):
     @property
     def corners(self) -> tuple[float, ...]:
         return tuple(corner * self.ratio for corner in self.motor.corners)
-
-
-@dataclass(frozen=True, slots=True)
-class Backwards(Drive):
-    """A drive as a crank has it that turns the wrong way round: torque and speed count against the rotation."""
-
-    forwards: Drive
-
-    def torque(self, speed: Floats) -> Floats:
-        return -self.forwards.torque(-np.asarray(speed))
-
-    def slope(self, speed: Floats) -> Floats:
-        return self.forwards.slope(-np.asarray(speed))
 
 
 @dataclass(frozen=True, slots=True)

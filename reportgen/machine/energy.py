@@ -3,8 +3,8 @@
 With J the moment of inertia reduced to the crank and M = M_r(φ) + M_d(ω) the torque on it, T = ½Jω².  The way is
 split where loads jump, and T is a polynomial in each part that fulfils the equation at the places of Gauss and
 Legendre (collocation).  Newton's method makes the equation linear about the T found before: each part then takes T to
-αT + β, and so does the whole cycle, whose fixed point β/(1 − α) is the steady motion.  Beside rest φ is φ₀ ± u²: T and
-ω are smooth over u.
+αT + β, and so does the whole cycle, whose fixed point β/(1 − α) is the steady motion.  Beside rest T is no polynomial
+of the angle: there the motion is integrated in time (`machine.time_steps`).
 """
 
 from __future__ import annotations
@@ -34,9 +34,12 @@ SETTLED = 1e-13
 ROUNDING = 1e-9
 """What moves less than this and no longer less from step to step is rounding."""
 MOST_STEPS = 60
-MOST_HALVINGS = 16
 MOST_CHANGE = 2.5
 """By what factor T may change in a part."""
+ACCURATE = 1e-8
+"""What the highest polynomials in a part may add to T and to the time, as a share; at its end both are far better."""
+FEW = 8
+"""Parts that are tried at once first."""
 LEAST_ENERGY = 1e-12
 """The share of the greatest energy below which none is taken, since the torque of a drive is told at a speed."""
 LEFT = 1 / 4
@@ -53,6 +56,13 @@ def _stages() -> tuple[Floats, Floats, Floats]:
 
 
 C, B, A = _stages()
+MODES = np.linalg.inv(np.polynomial.legendre.legvander(2 * C - 1, STAGES - 1))
+"""Coefficients of Legendre's polynomials from the values at the places of a part."""
+
+
+def tail(values: Floats) -> float:
+    """The two highest of Legendre's polynomials in values at the places of a part [s]: what the others leave out."""
+    return float(np.abs(MODES[-2:] @ values).max())
 
 
 # --- the machine over the way ------------------------------------------------------------------------
@@ -113,20 +123,6 @@ class ReducedMachine:
             edges, edges[:-1, None] + np.diff(edges)[:, None] * C, np.diff(edges)[:, None] * np.ones(STAGES)
         )
 
-    def from_rest(self, edges: Floats) -> ReducedWay:
-        """The way from rest at the first edge: φ = φ₀ + u², dφ = 2u du."""
-        u = np.sqrt(np.maximum(edges - edges[0], 0.0))
-        length = np.diff(u)[:, None]
-        inside = u[:-1, None] + length * C
-        return self._way(edges, edges[0] + inside**2, 2 * inside * length)
-
-    def to_rest(self, edges: Floats) -> ReducedWay:
-        """The way to rest at the last edge: φ = φ_s − u², backwards from there, so that its edges fall."""
-        u = np.sqrt(np.maximum(edges[-1] - edges[::-1], 0.0))
-        length = np.diff(u)[:, None]
-        inside = u[:-1, None] + length * C
-        return self._way(edges[::-1], edges[-1] - inside**2, -2 * inside * length)
-
     def _way(self, edges: Floats, angle: Floats, measure: Floats) -> ReducedWay:
         every = np.concatenate((angle.ravel(), edges))
         order = np.argsort(every, kind="stable")
@@ -152,21 +148,6 @@ class ReducedMachine:
         return kept
 
 
-@dataclass(frozen=True)
-class TurnedBack(ReducedMachine):
-    """A machine that swings back from the cycle angle `about` (rad): its way x = φ_s − φ grows meanwhile."""
-
-    about: float = 0.0
-
-    def reduced(self, angle: Floats) -> tuple[Floats, Floats, Floats]:
-        inertia, slope, torque = (values[::-1] for values in ReducedMachine.reduced(self, self.about - angle[::-1]))
-        return inertia, -slope, -torque
-
-    def parted(self, start: float, own: Sequence[float] = ()) -> Floats:
-        """The edges (rad) of its way back through a cycle."""
-        return np.asarray(start + self.about - super().parted(self.about - self.whole, own)[::-1])
-
-
 # --- the equation of energy --------------------------------------------------------------------------
 
 
@@ -176,6 +157,10 @@ class EnergyAlong:
 
     edges: Floats
     inside: Floats
+
+    def first(self, count: int) -> EnergyAlong:
+        """That of the first parts."""
+        return EnergyAlong(self.edges[: count + 1], self.inside[:count])
 
 
 def linear(path: ReducedWay, drive: Drive, energy: Floats) -> tuple[Floats, Floats, Floats, Floats]:
@@ -203,27 +188,45 @@ def _first_empty(edges: Floats, inside: Floats) -> int:
     return int(empty.argmax()) if empty.any() else len(empty)
 
 
-def follow(path: ReducedWay, drive: Drive, first: float, guess: Floats | None = None) -> tuple[EnergyAlong, int]:
-    """T along a way from T = `first`, and how many of its parts the machine comes through before T is used up.
+def follow(path: ReducedWay, drive: Drive, first: float) -> tuple[EnergyAlong, int]:
+    """T along a way from T = `first`, and over how many of its parts it is accurate.
 
-    Since no part asks what follows, those before it stand where Newton's way fails; the rest is tried in fewer parts.
+    It ends before the first part in which T changes too much for a polynomial, is used up, or Newton's method fails.
+    Since no part depends on those behind it, few are tried first, then more and more.
     """
     edges, inside = [np.array([first])], []
-    done, size = 0, path.size
+    done, size, start = 0, min(FEW, path.size), first
     while done < path.size:
         part = path.parts(done, done + size)
-        begun = np.full(part.angle.shape, float(edges[-1][-1])) if guess is None else guess[done : done + size]
-        result, reached = _newton(part, drive, float(edges[-1][-1]), begun)
-        edges.append(result.edges[1 : reached + 1])
-        inside.append(result.inside[:reached])
-        done += reached
-        if reached < size:
-            if size == 1:
+        result, reached = _newton(part, drive, start, np.full(part.angle.shape, start))
+        accurate = smooth(part.parts(0, reached), drive, result.first(reached))
+        kept = reached if accurate.all() else int(accurate.argmin())
+        if kept:
+            edges.append(result.edges[1 : kept + 1])
+            inside.append(result.inside[:kept])
+            start = float(result.edges[kept])
+        done += kept
+        if kept < size:
+            if kept < reached or size == 1:
                 break
             size = 1 if reached else size // 2
         else:
             size = min(2 * size, path.size - done)
     return EnergyAlong(np.concatenate(edges), np.concatenate((*inside, np.empty((0, STAGES))))), done
+
+
+def smooth(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> NDArray[np.bool_]:
+    """In which parts [n] polynomials serve: T changes little, their highest terms hardly count in T nor in the time."""
+    every = np.column_stack((energy.edges[:-1], energy.inside, energy.edges[1:]))
+    most, least = every.max(axis=1, initial=0.0), every.min(axis=1, initial=np.inf)
+    speed = np.sqrt(2 * np.maximum(energy.inside, LEAST_ENERGY * most[:, None]) / path.inertia)
+    work, time = path.measure * (path.torque + drive.torque(speed)), path.measure / speed
+
+    def left_out(values: Floats) -> Floats:
+        return np.asarray(np.abs(values @ MODES[-2:].T).max(axis=1, initial=0.0))
+
+    accurate = (left_out(work) <= ACCURATE * most) & (left_out(time) <= ACCURATE * time.sum(axis=1))
+    return np.asarray((least > 0) & (most <= MOST_CHANGE * least) & accurate)
 
 
 def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tuple[EnergyAlong, int]:
@@ -241,36 +244,6 @@ def _newton(path: ReducedWay, drive: Drive, first: float, energy: Floats) -> tup
             return EnergyAlong(edges, inside), reached
         energy = np.maximum(inside, LEFT * energy)
     return EnergyAlong(edges, inside), sure
-
-
-def march(
-    body: ReducedMachine,
-    edges: Floats,
-    drive: Drive,
-    first: float,
-    *,
-    rest: bool = False,
-    known: ReducedWay | None = None,
-) -> tuple[ReducedWay, EnergyAlong, int]:
-    """T along the way between edges (rad), if it is `known`, from T = `first`, or from `rest` at the first of them.
-
-    Parts in which T changes too much are halved, as where the machine all but stalls: √T is no polynomial.
-    """
-    for _ in range(MOST_HALVINGS):
-        path = known or (body.from_rest(edges) if rest else body.along(edges))
-        torque = float(path.at_edges[2][0] + drive.torque(np.zeros(1))[0])
-        guess = torque * (path.angle - edges[0]) if rest else None
-        energy, reached = follow(path, drive, first, guess)
-        every = np.column_stack((energy.edges[:-1], energy.inside, energy.edges[1:]))
-        with np.errstate(divide="ignore"):
-            uneven = every.max(axis=1, initial=0.0) > MOST_CHANGE * every.min(axis=1, initial=np.inf)
-        if rest:
-            uneven[:1] = False
-        if not uneven.any():
-            break
-        at = np.flatnonzero(uneven)
-        edges, known = np.sort(np.concatenate((edges, (edges[at] + edges[at + 1]) / 2))), None
-    return path, energy, reached
 
 
 def closed(path: ReducedWay, drive: Drive, guess: Floats) -> tuple[EnergyAlong, float] | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from reportgen.machine.energy import (
     LEAST_ENERGY,
     LEFT,
     MOST_STEPS,
+    ROUNDING,
     SAME_ANGLE,
     SETTLED,
     STAGES,
@@ -29,15 +31,22 @@ from reportgen.machine.energy import (
     energy_at_edges,
     follow,
     linear,
+    smooth,
 )
+from reportgen.machine.time_steps import TimeStepper, UnsettledError, times
 
 Floats = NDArray[np.float64]
 BALANCED = 1e-9
 """A mean torque below this share of the mean of its size is none."""
 MOST_CYCLES = 400
 """A start that takes more cycles than this is told of instead."""
-LOOKED_AT = 400
-"""Speeds at which a drive is compared with the mean of the loads."""
+MOST_REFINED = 12
+"""How often a part of the cycle is halved in which T changes too much."""
+HEAVIER = 4.0
+"""By what factor the inertia grows until the steady motion is found, from which that of the machine itself follows."""
+MOST_HEAVIER = 12
+NEAREST = 1.01
+"""Inertias nearer than by this factor are not tried between."""
 
 
 class NoMotionError(Exception):
@@ -109,14 +118,9 @@ class MotionRun:
         """The same further on by an angle (rad)."""
         return replace(self, angle=self.angle + angle)
 
-    def backwards(self, about: float) -> MotionRun:
-        """The run of a machine that goes back over the way x = φ_s − φ from φ_s = `about` (rad)."""
-        turned = {name: -getattr(self, name) for name in ("slope", "torque", "drive", "speed", "acceleration")}
-        return replace(self, angle=about - self.angle, **turned)
 
-
-def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong, backwards: bool = False) -> MotionRun:
-    """The run along a way with the energy found; one that was followed `backwards` is turned round."""
+def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong) -> MotionRun:
+    """The run along a way with the energy found."""
     n = path.size
 
     def woven(edges: Floats, inside: Floats) -> Floats:
@@ -131,7 +135,7 @@ def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong, backwards: bo
     inside = speed[:-1].reshape(n, STAGES + 1)[:, 1:]
     step = path.measure / inside
     time = np.concatenate(([0.0], np.cumsum(step @ B)))
-    every = MotionRun(
+    return MotionRun(
         angle=woven(path.edges, path.angle),
         inertia=inertia,
         slope=slope,
@@ -143,10 +147,61 @@ def run_along(path: ReducedWay, drive: Drive, energy: EnergyAlong, backwards: bo
         time=woven(time, time[:-1, None] + step @ A.T),
         at=np.arange(n + 1) * (STAGES + 1),
     )
-    if not backwards:
-        return every
-    turned = {name: values[::-1] for name, values in vars(every).items() if name not in ("at", "time")}
-    return MotionRun(**turned, time=(every.time - every.time[-1])[::-1], at=every.at)
+
+
+def run_in_time(stepper: TimeStepper, angle: float, speed: float, edge: float) -> tuple[MotionRun, bool]:
+    """The run from an angle (rad) to an edge, integrated in time, and whether the crank rests before it.
+
+    Raises `NoMotionError` where the machine creeps towards a place without ever coming there.
+    """
+    try:
+        leg = stepper.leg(angle, speed, edge)
+    except UnsettledError as error:
+        raise NoMotionError("stalls", angle=float(np.mod(error.angle, stepper.body.whole)), missing=0.0) from error
+    steps = leg.steps
+    angles = np.concatenate(([angle], *(np.append(step.angle, step.end_angle) for step in steps)))
+    speeds = np.concatenate(([speed], *(np.append(step.speed, step.end_speed) for step in steps)))
+    inertia, slope, torque = stepper.reduced(angles)
+    driven = stepper.drive.torque(speeds)
+    run = MotionRun(
+        angle=angles,
+        inertia=inertia,
+        slope=slope,
+        torque=torque,
+        drive=driven,
+        energy=inertia * speeds**2 / 2,
+        speed=speeds,
+        acceleration=(torque + driven - speeds**2 * slope / 2) / inertia,
+        time=times(steps),
+        at=np.arange(len(steps) + 1) * (STAGES + 1),
+    )
+    return run, leg.rests
+
+
+def passage(
+    body: ReducedMachine, edges: Floats, drive: Drive, speed: float, known: ReducedWay | None = None
+) -> tuple[MotionRun, bool]:
+    """The run forward between edges (rad), along their way if it is `known`, and whether it comes to the last of them.
+
+    The speed at the first may be 0; then the torque there is positive.  The equation of energy serves as long as T is
+    as good as a polynomial of the angle, time for the rest.  Raises `NoMotionError`.
+    """
+    path = known or body.along(edges)
+    runs, at, stepper = list[MotionRun](), 0, TimeStepper(body, drive)
+    while at < path.size:
+        if speed > 0:
+            left = path.parts(at, path.size)
+            energy, count = follow(left, drive, speed**2 / 2 * float(left.at_edges[0][0]))
+            if count:
+                runs.append(run_along(left.parts(0, count), drive, energy))
+                at, speed = at + count, float(runs[-1].speed[-1])
+        if at < path.size:
+            run, rests = run_in_time(stepper, float(path.edges[at]), speed, float(path.edges[at + 1]))
+            runs.append(run)
+            if rests:
+                return runs[0].joined(*runs[1:]), False
+            at, speed = at + 1, float(run.speed[-1])
+    return runs[0].joined(*runs[1:]), True
 
 
 # --- steady motion -----------------------------------------------------------------------------------
@@ -228,17 +283,27 @@ def mean_torque(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
 
 
 def levels(drive: Drive, mean: float, speed: float) -> list[float]:
-    """Speeds (rad/s) at which a drive balances a mean torque of the loads and returns to it, the highest first."""
+    """Speeds (rad/s) at which a drive balances a mean torque of the loads and returns to it, the highest first.
+
+    Between the corners of a characteristic its torque rises or falls throughout, and beyond the last it goes on.
+    """
+
+    def rest(at: float) -> float:
+        return mean + float(drive.torque(np.array([at]))[0])
+
     most = 2 * max((speed, *drive.corners))
-    rest = mean + drive.torque(np.array([most]))[0]
-    while rest > 0 and most < 1e3 * max((speed, *drive.corners)):
+    while rest(most) > 0 and most < 1e3 * max((speed, *drive.corners)):
         most *= 2
-        rest = mean + drive.torque(np.array([most]))[0]
-    at = np.linspace(0.0, most, LOOKED_AT + 1)
-    left = mean + drive.torque(at)
-    falls = np.flatnonzero((left[:-1] > 0) & (left[1:] <= 0))
-    result = at[falls] + (at[1] - at[0]) * left[falls] / (left[falls] - left[falls + 1])
-    return [float(each) for each in result[::-1]]
+    marks = sorted({0.0, most, *(corner for corner in drive.corners if corner > 0)})
+    result = []
+    for low, high in pairwise(marks):
+        if rest(low) > 0 >= rest(high):
+            inside, outside = low, high
+            while outside - inside > SETTLED * most:
+                middle = (inside + outside) / 2
+                inside, outside = (middle, outside) if rest(middle) > 0 else (inside, middle)
+            result.append((inside + outside) / 2)
+    return result[::-1]
 
 
 def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float] = ()) -> SteadyMotion:
@@ -253,9 +318,9 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
         return _level(body, path, drive, speed, mean, size)
     guesses = levels(drive, mean, speed)
     for guess in guesses:
-        result = closed(path, drive, guess**2 / 2 * np.full(path.angle.shape, float(path.inertia.mean())))
-        if result is not None and abs(result[1]) < 1:
-            return _described(path, drive, *result)
+        result = _cycle(path, drive, guess)
+        if result is not None:
+            return _refined(body, path, drive, *result)
     if not guesses:
         at_rest = mean + float(drive.torque(np.zeros(1))[0])
         raise NoMotionError("runs-away" if at_rest > 0 else "runs-down", missing=-at_rest)
@@ -263,22 +328,68 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
     raise NoMotionError("no-steady-motion", speed=guesses[0])
 
 
+def _cycle(path: ReducedWay, drive: Drive, speed: float) -> tuple[EnergyAlong, float] | None:
+    """T along a steady cycle about a speed (rad/s), and what is left of a deviation; None where none is found.
+
+    Where Newton's method does not find it at once, that of a machine with more inertia leads to it.
+    """
+
+    def of(extra: float, squared: Floats) -> tuple[EnergyAlong, float] | None:
+        heavier = replace(path, inertia=path.inertia + extra)
+        result = closed(heavier, drive, squared * heavier.inertia / 2)
+        return None if result is None or abs(result[1]) >= 1 else result
+
+    even = np.full(path.angle.shape, speed**2)
+    if (result := of(0.0, even)) is not None:
+        return result
+    mean = float(path.inertia.mean())
+    sizes = [mean * HEAVIER**k for k in range(MOST_HEAVIER)]
+    extra, result = next(((size, of(size, even)) for size in sizes if of(size, even)), (0.0, None))
+    step = HEAVIER
+    while result is not None and extra:
+        squared = 2 * result[0].inside / (path.inertia + extra)
+        lighter = extra / step if extra / step > mean / 1e3 else 0.0
+        if (nearer := of(lighter, squared)) is not None:
+            extra, result, step = lighter, nearer, min(step**2, HEAVIER)
+        elif step > NEAREST:
+            step = float(np.sqrt(step))
+        else:
+            return None
+    return result
+
+
+def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, settles: float) -> SteadyMotion:
+    """The steady motion, with parts halved as often as T changes too much in them."""
+    for _ in range(MOST_REFINED):
+        rough = np.flatnonzero(~smooth(path, drive, energy))
+        if not rough.size:
+            break
+        edges = np.sort(np.concatenate((path.edges, (path.edges[rough] + path.edges[rough + 1]) / 2)))
+        finer = body.along(edges)
+        before = np.interp(finer.angle, path.angle.ravel(), energy.inside.ravel())
+        result = closed(finer, drive, before)
+        if result is None:
+            break
+        path, (energy, settles) = finer, result
+    return _described(path, drive, energy, settles)
+
+
 def _simulated(body: ReducedMachine, path: ReducedWay, drive: Drive, speed: float) -> None:
     """Raises `NoMotionError` where the machine stalls in the cycles after it had this speed (rad/s)."""
-    energy = speed**2 / 2 * float(path.at_edges[0][0])
     for _ in range(MOST_CYCLES // 4):
-        result, reached = follow(path, drive, energy)
-        if reached < path.size:
-            stalled(body, path, drive, result, reached)
-        energy = float(result.edges[-1])
+        before = speed
+        run, arrives = passage(body, path.edges, drive, speed, path)
+        if not arrives:
+            raise stalled(body, run)
+        speed = float(run.speed[-1])
+        if abs(speed - before) <= ROUNDING * speed:
+            break
 
 
-def stalled(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int) -> None:
-    """Raises `NoMotionError` for a machine that comes to a stop in part number `reached`."""
-    last = to_the_stop(body, path, drive, energy, reached)
-    angle = float(last.angle[-1])
-    missing = -float(last.torque[-1] + last.drive[-1])
-    raise NoMotionError("stalls", angle=float(np.mod(angle, body.whole)), missing=missing)
+def stalled(body: ReducedMachine, run: MotionRun) -> NoMotionError:
+    """The error of a machine that comes to rest at the end of a run."""
+    missing = -float(run.torque[-1] + run.drive[-1])
+    return NoMotionError("stalls", angle=float(np.mod(run.angle[-1], body.whole)), missing=missing)
 
 
 def _level(
@@ -325,34 +436,3 @@ def _emptiest(path: ReducedWay, edges: Floats, inside: Floats) -> float:
     return float(
         path.edges[int(edges.argmin())] if edges.min() < inside.min() else path.angle.ravel()[int(inside.argmin())]
     )
-
-
-def to_the_stop(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int) -> MotionRun:
-    """The run to where the energy is used up in part number `reached`, found backwards from there.
-
-    It begins a part earlier, so that no part is left in which T changes much.
-    """
-    begin = max(reached - 1, 0)
-    before, low, high = path.edges[begin : reached + 1], float(path.edges[reached]), float(path.edges[reached + 1])
-    first = float(energy.edges[begin])
-
-    def from_stop(at: float) -> tuple[ReducedWay, EnergyAlong]:
-        back = body.to_rest(np.append(before, at))
-        return back, follow(back, drive, 0.0, first * (at - back.angle) / (at - before[0]))[0]
-
-    inside, outside = low, high
-    at = (low + high) / 2
-    for _ in range(MOST_STEPS):
-        back, result = from_stop(at)
-        left = float(result.edges[-1]) - first
-        # The farther the stop, the more energy it takes to get there.
-        inside, outside = (at, outside) if left < 0 else (inside, at)
-        speed = np.sqrt(2 * result.edges[-1:] / back.at_edges[0][-1:])
-        torque = float(back.at_edges[2][-1] + drive.torque(speed)[0])
-        better = at + left / torque if torque < 0 else np.nan
-        if not inside < better < outside:
-            better = (inside + outside) / 2
-        if abs(better - at) <= SETTLED * max(1.0, at):
-            break
-        at = better
-    return run_along(back, drive, result, backwards=True)

@@ -8,26 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.machine.drives import Backwards, Drive
-from reportgen.machine.energy import PARTS, SAME_ANGLE, EnergyAlong, ReducedMachine, ReducedWay, TurnedBack, march
-from reportgen.machine.running import (
-    MOST_CYCLES,
-    MotionRun,
-    NoMotionError,
-    SteadyMotion,
-    run_along,
-    stalled,
-    to_the_stop,
-)
+from reportgen.machine.drives import Drive
+from reportgen.machine.energy import PARTS, SAME_ANGLE, ReducedMachine
+from reportgen.machine.running import MOST_CYCLES, MotionRun, NoMotionError, SteadyMotion, passage, run_in_time, stalled
+from reportgen.machine.time_steps import TimeStepper
 
 Floats = NDArray[np.float64]
 NEAR_STEADY = 0.01
 """A start is over at the end of the first cycle whose last speed is as near to the steady one."""
-AT_REST = 2
-"""Parts beside rest over which the way is reckoned by √φ."""
 MOST_SWINGS = 50
-SAME_SWING = 1e-6
-"""A machine that comes to rest where it did before (rad) but for this stays there."""
 
 
 @dataclass(frozen=True)
@@ -72,65 +61,49 @@ def start(
     while abs(cycles[-1].speed[-1] - wanted) > NEAR_STEADY * wanted:
         if len(cycles) >= MOST_CYCLES:
             raise NoMotionError("starts-too-slowly", speed=float(cycles[-1].speed[-1]))
-        gone, energy, reached = march(body, edges, drive, float(cycles[-1].energy[-1]), known=path)
-        if reached < gone.size:
-            stalled(body, gone, drive, energy, reached)
-        cycles.append(run_along(gone, drive, energy).shifted(len(cycles) * body.whole))
+        run, arrives = passage(body, edges, drive, float(cycles[-1].speed[-1]), path)
+        if not arrives:
+            raise stalled(body, run)
+        cycles.append(run.shifted(len(cycles) * body.whole))
     ends = np.cumsum([len(cycle.angle) - 1 for cycle in cycles])
-    return StartFromRest(run.joined(*cycles[1:]), tuple(map(int, ends)), turns_back)
+    return StartFromRest(cycles[0].joined(*cycles[1:]), tuple(map(int, ends)), turns_back)
 
 
 def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, tuple[float, ...]]:
-    """From rest to the last of the edges (rad), swinging back where the loads push; and where it turns back."""
+    """From rest to the last of the edges (rad), swinging back where the loads push; and where it turns back.
+
+    A crank that swings back less far than where it last set out from comes less far at every further swing, since no
+    path of speed over angle crosses itself: it stalls.
+    """
     turns_back: list[float] = []
-    before: MotionRun | None = None
-    while True:
-        run, arrives = _from_rest(body, drive, edges)
-        before = run if before is None else before.joined(run)
-        if arrives:
-            return before, tuple(turns_back)
-        at = float(run.angle[-1])
-        swing = abs(at - turns_back[-1]) if turns_back else np.inf
-        missing = -float(run.torque[-1] + run.drive[-1])
-        stalls = NoMotionError("stalls", angle=float(np.mod(at, body.whole)), missing=missing)
-        if not body.yields or swing < SAME_SWING or len(turns_back) >= MOST_SWINGS:
-            raise stalls
+    run, arrives = passage(body, edges, drive, 0.0)
+    every, set_out = np.concatenate((edges[:-1] - body.whole, edges)), float(edges[0])
+    while not arrives:
+        at, torque = float(run.angle[-1]), float(run.torque[-1] + run.drive[-1])
+        if not body.yields or torque >= 0 or len(turns_back) >= MOST_SWINGS:
+            raise stalled(body, run)
+        behind = _swing(body, drive, at)
+        if behind is None or behind.angle[-1] >= set_out:
+            raise stalled(body, run)
         turns_back.append(at)
-        back = TurnedBack(body.machine, body.added, at)
-        behind, turns_round = _from_rest(back, Backwards(drive), back.parted(0.0))
-        if turns_round:
-            raise stalls
-        behind = behind.backwards(at)
-        before = before.joined(behind)
-        again = float(behind.angle[-1])
-        every = np.concatenate((edges[:-1] - body.whole, edges))
-        edges = np.append(again, every[every > again + SAME_ANGLE])
+        set_out = float(behind.angle[-1])
+        forward, arrives = passage(body, np.append(set_out, every[every > set_out + SAME_ANGLE]), drive, 0.0)
+        run = run.joined(behind, forward)
+    return run, tuple(turns_back)
 
 
-def _from_rest(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[MotionRun, bool]:
-    """From rest at the first edge to the last one, or to where it comes to rest again; and whether it arrives."""
-    path, energy, reached = march(body, edges[: AT_REST + 1], drive, 0.0, rest=True)
-    if reached < path.size:
-        least = float((path.torque + drive.torque(np.zeros_like(path.torque))).min())
-        raise NoMotionError("stalls", angle=float(np.mod(edges[0], body.whole)), missing=-least)
-    run = run_along(path, drive, energy)
-    path, energy, reached = march(body, edges[AT_REST:], drive, float(energy.edges[-1]))
-    rest, arrives = _through(body, path, drive, energy, reached)
-    return (run if rest is None else run.joined(rest)), arrives
-
-
-def _through(
-    body: ReducedMachine, path: ReducedWay, drive: Drive, energy: EnergyAlong, reached: int
-) -> tuple[MotionRun | None, bool]:
-    """The run along a way, to its end or to the stop on it, and whether it comes to the end."""
-    arrives = reached == path.size
-    kept = reached if arrives else max(reached - 1, 0)
-    first = EnergyAlong(energy.edges[: kept + 1], energy.inside[:kept])
-    run = run_along(path.parts(0, kept), drive, first) if kept else None
-    if arrives:
-        return run, True
-    last = to_the_stop(body, path, drive, energy, reached)
-    return (last if run is None else run.joined(last)), False
+def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:
+    """From rest at an angle (rad) back to where the crank comes to rest again; None if that is a cycle behind."""
+    stepper, speed, runs = TimeStepper(body, drive, sense=-1), 0.0, list[MotionRun]()
+    end = at - body.whole
+    corners = np.concatenate([body.corners + turn * body.whole for turn in (-1, 0)])
+    for edge in [*corners[(corners > end) & (corners < at - SAME_ANGLE)][::-1], end]:
+        run, rests = run_in_time(stepper, at, speed, float(edge))
+        runs.append(run)
+        if rests:
+            return runs[0].joined(*runs[1:])
+        at, speed = float(edge), float(run.speed[-1])
+    return None
 
 
 def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, own: Sequence[float] = ()) -> MotionRun:
@@ -143,13 +116,11 @@ def stop(body: ReducedMachine, brake: Drive, speed: float, angle: float = 0.0, o
     first = speed**2 / 2 * float(path.at_edges[0][0])
     runs: list[MotionRun] = []
     for number in range(MOST_CYCLES):
-        gone, energy, reached = march(body, edges, brake, first, known=path)
-        through, goes_on = _through(body, gone, brake, energy, reached)
-        assert through is not None, "a way has parts"
-        runs.append(through.shifted(number * body.whole))
+        run, goes_on = passage(body, edges, brake, speed, path)
+        runs.append(run.shifted(number * body.whole))
         if not goes_on:
             return runs[0].joined(*runs[1:])
-        if energy.edges[-1] >= first:
+        if run.energy[-1] >= first:
             break
-        first = float(energy.edges[-1])
+        first, speed = float(run.energy[-1]), float(run.speed[-1])
     raise NoMotionError("does-not-stop")

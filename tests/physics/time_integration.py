@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 import linkages as made
@@ -48,6 +49,37 @@ def acceleration(machine: Machine, added: float, torque: Callable[[float], float
     return (torque(omega) - needed[0]) / (needed[1] - needed[0])
 
 
+def harmonic(rate: Callable[[float, np.ndarray], np.ndarray], low: float, high: float, state: np.ndarray) -> np.ndarray:
+    """One step of Gragg, Bulirsch and Stoer."""
+    table: list[list[np.ndarray]] = []
+    for row, n in enumerate(HARMONIC):
+        h = (high - low) / n
+        before, now = state, state + h * rate(low, state)
+        for j in range(1, n):
+            before, now = now, before + 2 * h * rate(low + j * h, now)
+        line = [(before + now + h * rate(high, now)) / 2]
+        for m in range(1, row + 1):
+            line.append(line[m - 1] + (line[m - 1] - table[row - 1][m - 1]) / ((n / HARMONIC[row - m]) ** 2 - 1))
+        table.append(line)
+    return table[-1][-1]
+
+
+def in_time(
+    machine: Machine, added: float, torque: Callable[[float], float], angle: float, speed: float, times: np.ndarray
+) -> list[tuple[float, float]]:
+    """(φ, ω) at the `times` [N] (s), from these at the first, which may be rest; one step between neighbours."""
+
+    def rate(_: float, state: np.ndarray) -> np.ndarray:
+        return np.array([state[1], acceleration(machine, added, torque, *map(float, state))])
+
+    state = np.array([angle, speed])
+    passed = [(angle, speed)]
+    for low, high in pairwise(times):
+        state = harmonic(rate, low, high, state)
+        passed.append((float(state[0]), float(state[1])))
+    return passed
+
+
 def integrate(
     machine: Machine, added: float, torque: Callable[[float], float], stops: np.ndarray, speed: float, steps: int
 ) -> list[tuple[float, float]]:
@@ -60,6 +92,9 @@ def integrate(
         _, omega = state
         return np.array([1.0, acceleration(machine, added, torque, phi, omega)]) / omega
 
+    def within(ends: tuple[float, float], phi: float, state: np.ndarray) -> np.ndarray:
+        return rate(min(max(phi, ends[0]), ends[1]), state)
+
     state = np.array([0.0, speed])
     found = [(0.0, speed)]
     for low, high in pairwise(stops):
@@ -67,19 +102,7 @@ def integrate(
         inset = BESIDE
         for k in range(steps):
             start = low + k * width
-            table: list[list[np.ndarray]] = []
-            for row, n in enumerate(HARMONIC):
-                h = width / n
-                before, now = state, state + h * rate(max(start, low + inset), state)
-                for j in range(1, n):
-                    before, now = now, before + 2 * h * rate(start + j * h, now)
-                last = (before + now + h * rate(min(start + width, high - inset), now)) / 2
-                line = [last]
-                for m in range(1, row + 1):
-                    line.append(
-                        line[m - 1] + (line[m - 1] - table[row - 1][m - 1]) / ((n / HARMONIC[row - m]) ** 2 - 1)
-                    )
-                table.append(line)
-            state = table[-1][-1]
+            ends = max(start, low + inset), min(start + width, high - inset)
+            state = harmonic(partial(within, ends), start, start + width, state)
         found.append((float(state[0]), float(state[1])))
     return found
