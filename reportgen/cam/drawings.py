@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from reportgen.base.settled import first_greatest, first_least
 from reportgen.base.units import MM
 from reportgen.cam import cam_ids
 from reportgen.cam.profile import Cam, CamProfile
@@ -294,7 +295,7 @@ def _profile_facts(case: SolvedCam, stage: Stage, outline: np.ndarray, base: flo
     if stage != "cam":
         yield fact("follower-positions", Number(case.count))
     if stage != "displacements":
-        for phrase, at in (("farthest", int(distances.argmax())), ("nearest", int(distances.argmin()))):
+        for phrase, at in (("farthest", first_greatest(distances)), ("nearest", first_least(distances))):
             yield fact(phrase, PaperLength(float(distances[at])), direction(complex(outline[at])))
     elif cam.translating:
         yield fact("laid-off", Symbol("s"))

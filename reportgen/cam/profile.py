@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.settled import ALIKE, first_greatest
 from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
 from reportgen.cam.laws import NODE, Floats, FollowerMotion
@@ -101,7 +102,8 @@ class Cam:
         """A whole turn, both sides of each corner of the motion: evenly spaced within each interval."""
         angles, numbers = [], []
         for number, interval in enumerate(self.motion.intervals):
-            steps = max(math.ceil(count * (interval.stop - interval.start) / (2 * math.pi)), 8)
+            # Whole degrees make whole steps, whatever rounding has left of them.
+            steps = max(math.ceil(count * (interval.stop - interval.start) / (2 * math.pi) - 1e-6), 8)
             angles.append(np.linspace(interval.start, interval.stop, steps + 1))
             numbers.append(np.full(steps + 1, number))
         return self.profile_at(np.concatenate(angles), np.concatenate(numbers))
@@ -221,13 +223,32 @@ class CamProfile:
         return self.cam.mirrored(self.cam.lifting(self.s) * np.exp(1j * (self.alpha - self.φ)))
 
 
+FLAT = 1e-6
+"""Neighbouring values that differ by less than this share of the greatest show where it is by their bend alone."""
+
+
 def greatest(of: Callable[[Floats], Floats], low: float, high: float) -> tuple[float, float]:
-    """Where in an interval a function of it is greatest, and its value in its unit: sampled, then ever closer."""
+    """Where in an interval a function of it is greatest, and its value in its unit: sampled, then ever closer.
+
+    Values that are nearly alike say no more where the greatest is: there the parabola through three of them does.
+    """
     x = np.linspace(low, high, 361)
     for _ in range(8):
         y = of(x)
         y = np.where(np.isnan(y), -np.inf, y)
-        best = int(y.argmax())
-        top = float(x[best]), float(y[best])
-        x = np.linspace(x[max(best - 1, 0)], x[min(best + 1, x.size - 1)], 33)
-    return top
+        best = first_greatest(y)
+        near = slice(max(best - 1, 0), min(best + 1, x.size - 1) + 1)
+        if np.isfinite(y[near]).all() and np.ptp(y[near]) < FLAT * abs(y[best]):
+            return _vertex(x[near], y[near], best - near.start)
+        x = np.linspace(x[near][0], x[near][-1], 33)
+    return float(x[best]), float(y[best])
+
+
+def _vertex(x: Floats, y: Floats, best: int) -> tuple[float, float]:
+    """The place and the value of the top of the parabola through three even samples, else the best of them."""
+    if len(x) < 3:
+        return float(x[best]), float(y[best])
+    bend, slope = y[0] - 2 * y[1] + y[2], (y[2] - y[0]) / 2
+    if not bend < -ALIKE * abs(y[best]) or abs(slope) > -bend:
+        return float(x[best]), float(y[best])
+    return float(x[1] - slope / bend * (x[1] - x[0])), float(y[1] - slope**2 / (2 * bend))

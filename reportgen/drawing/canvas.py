@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import reduce
 
+from reportgen.base.settled import settled
 from reportgen.drawing import Content, Description, Item, Scene, style
 from reportgen.drawing.description import fact
 from reportgen.drawing.geometry import bounds, corners_of, moved
@@ -63,7 +64,7 @@ def finish(
     size = high + white - (low - white)
     items = tuple(moved(item, -(low - white)) for item in (*done.items, *below))
     description = (*draft.says, *(fact("scale" if _is_scale(note) else "line", note) for note in notes))
-    return Scene(size.real, size.imag, items, title, margin, labels.crowded, description=description)
+    return Scene(settled(size.real), settled(size.imag), items, title, margin, labels.crowded, description=description)
 
 
 def _is_scale(note: Content) -> bool:

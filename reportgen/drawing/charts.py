@@ -12,6 +12,7 @@ from itertools import chain, count
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.base.settled import first_greatest, first_least, settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import (
     Arc,
@@ -368,7 +369,7 @@ def _lines(name: Content) -> list[Content]:
 
 def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
     """The curve on paper, split at gaps, without points that lie close to the line through others."""
-    places = vertices[:, 0] + 1j * vertices[:, 1]
+    places = settled(vertices[:, 0] + 1j * vertices[:, 1])
     gaps = np.flatnonzero(~np.isfinite(places))
     runs = (run[np.isfinite(run)] for run in np.split(places, gaps))
     return [tuple(complex(place) for place in run[_telling(run)]) for run in runs if len(run) > 1]
@@ -387,7 +388,7 @@ def _telling(places: NDArray[np.complex128]) -> list[int]:
             continue
         chord = places[last] - places[first]
         share = (inner * chord.conjugate()).real / max(abs(chord) ** 2, TINY)
-        off = np.abs(inner - np.minimum(np.maximum(share, 0.0), 1.0) * chord)
+        off = settled(np.abs(inner - np.minimum(np.maximum(share, 0.0), 1.0) * chord))
         furthest = int(off.argmax())
         middle = first + 1 + furthest
         if off[furthest] > CLOSE:
@@ -425,5 +426,5 @@ def _places(vertices: Vertices) -> list[complex]:
     """Places along a curve where its label may stand: the highest and lowest first, then all over."""
     finite = vertices[np.isfinite(vertices).all(axis=1)]
     spread = finite[np.linspace(0, len(finite) - 1, 17).astype(int)]
-    ends = finite[[int(finite[:, 1].argmax()), int(finite[:, 1].argmin())]]
+    ends = finite[[first_greatest(finite[:, 1]), first_least(finite[:, 1])]]
     return [complex(*p) for p in np.concatenate((ends, spread[1:-1]))]

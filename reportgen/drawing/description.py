@@ -13,6 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.base.settled import first_greatest, first_least, significant
+from reportgen.base.units import rounded
 from reportgen.drawing.diagram import Content, Diagram, PlottedCurve
 from reportgen.formula import Number
 
@@ -60,14 +62,14 @@ def enlarged(description: Description, by: float) -> Description:
 
 def direction(vector: complex) -> Number:
     """The direction of a vector, in degrees from the x-axis anticlockwise: 0 to 360, to a tenth."""
-    tenths = round(10 * math.degrees(cmath.phase(vector))) % 3600
+    tenths = round(10 * rounded(math.degrees(cmath.phase(vector)), 1)) % 3600
     return Number(tenths / 10, 1 if tenths % 10 else 0, "°")
 
 
 def alignment(along: complex) -> Number:
     """The direction of a line that has two, in degrees from the x-axis: 0 to 180, to a tenth."""
     degrees = direction(along)
-    return replace(degrees, value=round(degrees.value % 180, 1))
+    return replace(degrees, value=rounded(degrees.value % 180, 1))
 
 
 def arrow(name: Told, vector: complex) -> Fact:
@@ -112,7 +114,7 @@ def of_hodograph(diagram: Diagram, x: tuple[float, float], y: tuple[float, float
         vectors = np.asarray(curve.x, dtype=np.float64) + 1j * np.asarray(curve.y, dtype=np.float64)
         vectors = vectors[np.isfinite(vectors)]
         if vectors.size:
-            longest, shortest = (complex(vectors[int(of(np.abs(vectors)))]) for of in (np.argmax, np.argmin))
+            longest, shortest = (complex(vectors[of(np.abs(vectors))]) for of in (first_greatest, first_least))
             phrase = "hodograph" if curve.label else "only-hodograph"
             read = (one for vector in (longest, shortest) for one in (_read(abs(vector)), direction(vector)))
             yield Fact(phrase, (*_label(curve), *read))
@@ -131,7 +133,7 @@ def of_curve(curve: PlottedCurve, unit: str = "") -> Iterator[Fact]:
     name = _label(curve)
     if curve.dots:
         yield Fact("dots" if name else "only-dots", (*name, Number(y.size)))
-    high, low = int(y.argmax()), int(y.argmin())
+    high, low = first_greatest(y), first_least(y)
     if np.ptp(y) <= SAME * np.abs(y).max():
         yield Fact("constant" if name else "only-constant", (*name, _read(float(y[0]))))
         return
@@ -161,9 +163,9 @@ def crossings(x: ArrayLike, y: ArrayLike) -> list[float]:
 def _read(value: float, unit: str = "") -> Number:
     """A value as one reads it from a curve."""
     if unit == "°":
-        whole = round(value)
-        return Number(float(whole), 0, unit) if abs(value - whole) < 0.05 else Number(round(value, 1), 1, unit)
-    return Number(float(f"{value:.{FIGURES}g}"), unit=unit)
+        tenths = rounded(value, 1)
+        return Number(tenths, 0 if tenths == round(tenths) else 1, unit)
+    return Number(significant(value, FIGURES), unit=unit)
 
 
 # --- lists ----------------------------------------------------------------------------------------

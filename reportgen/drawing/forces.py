@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal
 
+from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import Fact, PaperLength, direction, fact, pointing, turning
@@ -344,10 +345,10 @@ def _name(start: complex, end: complex, force: Force, at: complex) -> Request:
 def _extension(base: complex, start: complex, end: complex) -> list[Item]:
     """The force's line drawn on from its arrow to the foot of the arm and a little beyond."""
     u = unit(end - start)
-    along = ((base - start) * u.conjugate()).real
+    along = settled(((base - start) * u.conjugate()).real)
     if along < 0:
         return [Line(start, base - 3.0 * u, style.CONSTRUCTION)]
-    if along > abs(end - start):
+    if along > settled(abs(end - start)):
         return [Line(end, base + 3.0 * u, style.CONSTRUCTION)]
     return []
 

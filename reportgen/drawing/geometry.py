@@ -12,6 +12,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.label_size import box
 
@@ -61,8 +62,8 @@ def _chain(points: Complexes) -> Complexes:
 
 
 def segments(items: Iterable[Item]) -> Complexes:
-    """All strokes of the items as segments [K, 2]."""
-    return _stacked(map(ends, items)).reshape(-1, 2)
+    """Return all strokes of the items as segments [K, 2], `settled`, since labels are placed by them."""
+    return settled(_stacked(map(ends, items))).reshape(-1, 2)
 
 
 def _stacked(parts: Iterable[Sequence[complex] | Complexes]) -> Complexes:
@@ -286,10 +287,10 @@ class Ink:
         self.strokes = strokes
         self.low, high = corners_of(strokes.ravel()) if len(strokes) else (0j, 0j)
         ways = strokes[:, 1] - strokes[:, 0]
-        steps = np.ceil(np.abs(ways) / CELL).astype(np.intp) + 1
+        steps = np.ceil(settled(np.abs(ways)) / CELL).astype(np.intp) + 1
         stroke = np.repeat(np.arange(len(steps)), steps)
         step = np.arange(len(stroke)) - np.repeat(np.cumsum(steps) - steps, steps)
-        dots = (strokes[stroke, 0] + ways[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
+        dots = settled(strokes[stroke, 0] + ways[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
         self.size = int((high - self.low).real / CELL) + 2, int((high - self.low).imag / CELL) + 2
         # Counts modulo 2¹⁶ tell boxes apart from empty ones: a label has fewer cells.
         inked = np.zeros((self.size[0] + 1, self.size[1] + 1), dtype=np.uint16)
@@ -303,7 +304,7 @@ class Ink:
 
     def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
         """How many inked cells each box covers [N], by centres and half sizes (mm)."""
-        low, high = (centres - half - self.low) / CELL, (centres + half - self.low) / CELL
+        low, high = settled(centres - half - self.low) / CELL, settled(centres + half - self.low) / CELL
         x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
         y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))
         inked = self.inked

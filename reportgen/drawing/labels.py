@@ -12,12 +12,13 @@ from __future__ import annotations
 
 import dataclasses
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, reduce
 
 import numpy as np
 
+from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, frame, overlap, segments
 from reportgen.drawing.label_size import Box, box
@@ -194,7 +195,7 @@ class _Field:
         """How far boxes [K] of labels are from the nearest of their own points, and of those of others (mm)."""
         apart = centres[:, None] - self.points
         aside, above = np.abs(apart.real) - half.real[:, None], np.abs(apart.imag) - half.imag[:, None]
-        away = np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0))
+        away = settled(np.hypot(np.maximum(aside, 0.0), np.maximum(above, 0.0)))
         own = labels[:, None] == self.owners
         to_own, to_others = np.where(own, away, np.inf), np.where(own, np.inf, away)
         return to_own.min(axis=1, initial=np.inf), to_others.min(axis=1, initial=np.inf)
@@ -245,7 +246,7 @@ class _Spots:
             free = self.free(at + offsets, self.request.short != LEFT_OUT)
             centres, leaders = at + offsets[free], at + ways[free]
             past = ~self.nearest(centres)
-            order = np.argsort(cost[free] + 0.3 * inked(self.field.ink, leaders) + past, kind="stable")
+            order = np.argsort(settled(cost[free] + 0.3 * inked(self.field.ink, leaders) + past), kind="stable")
             self.far[at] = centres[order], leaders[order]
         return self.far[at]
 
@@ -281,7 +282,7 @@ class _Spots:
         centres, leaders, near, costs = centres[fit], leaders[fit], near[fit], cost[free[fit] % len(offsets)]
         # A leader along a line is taken for a part of it.
         costs = costs + np.where(near, 0.0, 0.1 * inked(field.ink, leaders) ** 2)
-        order = np.argsort(costs + HIDING * field.ink.covered(centres, np.array(half)), kind="stable")
+        order = np.argsort(settled(costs + HIDING * field.ink.covered(centres, np.array(half))), kind="stable")
         return centres[order], leaders[order], near[order]
 
 
@@ -318,8 +319,9 @@ class Placed:
 @lru_cache(maxsize=FIGURES)
 def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> Placed:
     """Labels (and leaders) for the requests among the items, in their order."""
+    requests = tuple(map(_settled, requests))
     field = _Field(items, requests)
-    frames = [frame(item) for item in items if isinstance(item, Label)]
+    frames = [(settled(centre), settled(half)) for centre, half in map(frame, _labels(items))]
     spots = field.spots(dict(enumerate(requests))) if requests else {}
     order = sorted(spots, key=lambda i: (spots[i].room, i))
     pressed: Counter[int] = Counter()
@@ -345,6 +347,18 @@ def place(items: tuple[Item, ...], requests: tuple[Request, ...]) -> Placed:
     key = [(f"{number} – ", *requests[i].parts) for number, i in enumerate(keyed, 1)]
     labels = tuple(item for i in sorted(placed) for item in placed[i])
     return Placed(labels, key, crowded=bool(crowded) or LED in pressed.values())
+
+
+def _labels(items: Iterable[Item]) -> Iterator[Label]:
+    return (item for item in items if isinstance(item, Label))
+
+
+def _settled(request: Request) -> Request:
+    """The request with places, directions and gap that are the same on every processor."""
+    points, named = (tuple(map(settled, places)) for places in (request.points, request.named))
+    return replace(
+        request, points=points, named=named, prefer=tuple(map(settled, request.prefer)), gap=settled(request.gap)
+    )
 
 
 def _place_in(
@@ -389,7 +403,7 @@ def _place_in(
 def _half(request: Request) -> complex:
     total = reduce(Box.beside, (box(part, request.size) for part in request.parts))
     half = complex(total.width, total.height + total.depth) / 2
-    return (abs(half) + 0.4) * (1 + 1j) if request.ring else half
+    return settled((abs(half) + 0.4) * (1 + 1j) if request.ring else half)
 
 
 def _away(spot: _Spots, taken: _Taken) -> tuple[complex, Segment | None] | None:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Generic, Literal, TypeVar
 
+from reportgen.base.settled import settled
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import MARGIN, Canvas, finish, settle
@@ -276,13 +277,16 @@ def _line_facts(drawing: Plan, stage: int) -> Description:
     return tuple(
         fact("direction", names.get(line.start, ""), direction(line.end - line.start))
         for line in drawing.lines
-        if line.stage == stage and line.end != line.start
+        if line.stage == stage and abs(line.end - line.start) > INVISIBLE
     )
 
 
 def _lines(drawing: Plan, stage: int | None = None) -> list[Item]:
     result: list[Item] = []
     for line in drawing.lines:
+        if abs(line.end - line.start) <= INVISIBLE:
+            # Its direction would be that of rounding errors.
+            continue
         new = stage is not None and line.stage == stage
         pen = replace(style.CONSTRUCTION, width=0.18, colour=style.NEW.colour) if new else style.CONSTRUCTION
         on = unit(line.end - line.start)
@@ -439,7 +443,7 @@ def _groups(tiny: Sequence[PlanVector[complex]]) -> list[list[PlanVector[complex
     result: list[list[PlanVector[complex]]] = []
     for rest in clusters(tiny, NEIGHBOUR, lambda vector: vector.middle):
         while rest:
-            longest = max(rest, key=lambda vector: vector.length)
+            longest = max(rest, key=lambda vector: settled(vector.length))
             ratio = enlargement(longest.length)
             group = [
                 vector

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.settled import settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -305,7 +306,7 @@ def _links(bones: Skeleton, pen: Pen, further: Sequence[str] = ()) -> list[Item]
         points = [bones.points[name] for name in own]
         for slide in bones.slides:
             if slide.on == link and points:
-                points.append(min((slide.low, slide.high), key=lambda end: abs(end - points[0])))
+                points.append(min((slide.low, slide.high), key=lambda end: settled(abs(end - points[0]))))
         result += style.body(points, pen, fill=None)
     for slide in bones.slides:
         if slide.on != GROUND:

@@ -11,6 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
@@ -379,7 +380,7 @@ def _body_points(bones: Skeleton, link: int) -> list[complex]:
     for slideway in bones.slides:
         if slideway.on == link and points and link != GROUND:
             ends = (slideway.low, slideway.high)
-            points.append(min(ends, key=lambda p: abs(p - points[0])))
+            points.append(min(ends, key=lambda p: settled(abs(p - points[0]))))
     return points
 
 
@@ -399,7 +400,7 @@ def _number(bones: Skeleton, link: int, looks: Looks, slides: Sequence[Slide]) -
     joints = [bones.points[name] for name in bones.bars.get(link, ())]
     slide = bones.slide_of(link)
     if len(joints) > 1:
-        start, end = max(((a, b) for a in joints for b in joints), key=lambda pair: abs(pair[1] - pair[0]))
+        start, end = max(((a, b) for a in joints for b in joints), key=lambda pair: settled(abs(pair[1] - pair[0])))
         across, gap = cmath.phase(end - start) + math.pi / 2, 0.9
         along_bar = [start + (end - start) * share for share in (0.6, 0.45, 0.75, 0.3, 0.52, 0.37, 0.2, 0.85)]
         places = [at for at in along_bar if not any(_near_block(at, slide, looks) for slide in slides)] or along_bar

@@ -8,12 +8,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.settled import settled
 from reportgen.drawing.geometry import Complexes, Flags, Floats, Ink, overlap
 
 Indices = NDArray[np.intp]
 
-DIRECTIONS = np.exp(2j * np.pi * np.arange(24) / 24)
-FINE = np.exp(2j * np.pi * np.arange(120) / 120)
+DIRECTIONS = settled(np.exp(2j * np.pi * np.arange(24) / 24))
+FINE = settled(np.exp(2j * np.pi * np.arange(120) / 120))
 NEAR = (0.0, 0.7, 1.6)
 """Extra distances (mm) at which a label still reads as belonging to its point."""
 FAR = (2.6, 3.6, 4.8, 6.0, 7.2, 8.4, 9.6, 10.8, 12.0)
@@ -33,7 +34,9 @@ PLACES = np.linspace(0.15, 0.95, 9)
 def ring(half: complex, distances: Floats, directions: Complexes = DIRECTIONS) -> Complexes:
     """Offsets [D, 24] of a box from its point, in so many directions: its nearest edge or corner at the distance."""
     corners = np.clip(directions.real * math.sqrt(2), -1, 1) + 1j * np.clip(directions.imag * math.sqrt(2), -1, 1)
-    return np.asarray(corners.real * half.real + 1j * corners.imag * half.imag + distances[:, None] * directions)
+    return settled(
+        np.asarray(corners.real * half.real + 1j * corners.imag * half.imag + distances[:, None] * directions)
+    )
 
 
 @lru_cache(maxsize=KEPT)
@@ -47,23 +50,23 @@ def ranking(prefer: tuple[float, ...], anchors: int) -> Indices:
     """The order [72 × anchors] of nearby spots: the first point and preferred directions (rad) first."""
     cost = (np.asarray(NEAR)[:, None] * 0.45 + turned(prefer)).ravel()
     total = (0.25 * np.arange(anchors)[:, None] + cost).ravel()
-    return np.argsort(total, kind="stable")
+    return np.argsort(settled(total), kind="stable")
 
 
 def turned(prefer: tuple[float, ...], directions: Complexes = DIRECTIONS) -> Floats:
     """How far each direction [N] is from the nearest preferred one: 1 − cos of the angle (rad) between them."""
     if not prefer:
         # Free choice: up and to the right reads best.
-        return np.asarray(0.35 * (1 - (directions * np.exp(-0.25j * np.pi)).real))
+        return settled(np.asarray(0.35 * (1 - (directions * np.exp(-0.25j * np.pi)).real)))
     wanted = np.exp(-1j * np.asarray(prefer))
-    return np.asarray((1 - (directions[:, None] * wanted).real).min(axis=1))
+    return settled(np.asarray((1 - (directions[:, None] * wanted).real).min(axis=1)))
 
 
 @lru_cache(maxsize=KEPT)
 def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
     """All spots, the near ones first, seen from their point: centres, costs and leaders [K, 2]."""
     centres = ring(half, np.asarray(ALL) + gap, FINE).ravel()
-    cost = (np.asarray(ALL)[:, None] * 0.2 + turned(prefer, FINE)).ravel()
+    cost = settled((np.asarray(ALL)[:, None] * 0.2 + turned(prefer, FINE)).ravel())
     return centres, cost, leaders_to(gap, centres, half)
 
 
@@ -71,10 +74,10 @@ def around(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Comple
 def beyond(half: complex, gap: float, prefer: tuple[float, ...]) -> tuple[Complexes, Floats, Complexes]:
     """Of the spots farther out, the cheapest first, seen from their point: centres, costs and leaders [K, 2]."""
     centres = ring(half, np.asarray(FAR) + gap).ravel()
-    cost = (np.asarray(FAR)[:, None] * 0.2 + turned(prefer)).ravel()
+    cost = settled((np.asarray(FAR)[:, None] * 0.2 + turned(prefer)).ravel())
     leaders = leaders_to(gap, centres, half)
     order = np.argsort(cost, kind="stable")
-    order = order[np.abs(leaders[order, 1] - leaders[order, 0]) <= LONGEST]
+    order = order[settled(np.abs(leaders[order, 1] - leaders[order, 0])) <= LONGEST]
     return centres[order], cost[order], leaders[order]
 
 
@@ -89,14 +92,14 @@ def leaders_to(gap: float, centres: Complexes, half: complex) -> Complexes:
         centres.imag - np.clip(centres.imag, -half.imag, half.imag)
     )
     u = foot / np.abs(foot)
-    return np.column_stack((u * min(gap, 0.8), foot - u * (CLEAR + 0.1)))
+    return settled(np.column_stack((u * min(gap, 0.8), foot - u * (CLEAR + 0.1))))
 
 
 def crossings(leaders: Complexes, strokes: Complexes) -> Floats:
     """How many strokes each leader [K] crosses; ends in mm."""
 
     def side(a: Complexes, b: Complexes, p: Complexes) -> Floats:
-        return np.asarray(((b - a).conj() * (p - a)).imag)
+        return settled(np.asarray(((b - a).conj() * (p - a)).imag))
 
     a, b = leaders[:, :1], leaders[:, 1:]
     c, d = strokes[:, 0], strokes[:, 1]
@@ -108,7 +111,7 @@ def distances(leaders: Complexes, points: Complexes) -> Floats:
     """How far points are from leaders, mm [K, P]."""
     start, direction = leaders[:, :1], leaders[:, 1:] - leaders[:, :1]
     share = np.clip(((points - start) / direction).real, 0.0, 1.0)
-    return np.abs(points - start - share * direction)
+    return settled(np.asarray(np.abs(points - start - share * direction)))
 
 
 def inked(ink: Ink, leaders: Complexes) -> Floats:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from reportgen.base.settled import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, style
 from reportgen.drawing.animation import (
     Animation,
@@ -182,7 +183,7 @@ class _Labels:
         strokes = segments(drawn)
         middles, halves = np.empty(0, complex), np.empty(0, complex)
         for number, request in sorted(self.requests.items(), key=lambda pair: not pair[1].first):
-            half, places = frame(request.label)[1], np.array(request.places)
+            half, places = frame(request.label)[1], settled(np.array(request.places, complex))
             lines = overlap(places, np.full(places.shape, half), strokes, 0.0).sum(axis=1)
             cost = lines + RANK * np.arange(places.size)
             if (before := self.last.get(number)) is not None:

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from reportgen.base.settled import settled
+from reportgen.base.units import rounded
 from reportgen.drawing import Arc, Circle, Hatch, Item, Line, Pen, Polyline
 from reportgen.drawing.geometry import clipped, polar, rectangle, unit
 
@@ -160,7 +162,7 @@ def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -
     if len(points) < 2:
         return ()
     p = np.asarray(points)
-    base = max(((a, b) for a in points for b in points), key=lambda pair: abs(pair[1] - pair[0]))
+    base = max(((a, b) for a in points for b in points), key=lambda pair: settled(abs(pair[1] - pair[0])))
     u = unit(base[1] - base[0])
     if len(points) == 2 or np.abs(((p - base[0]) * u.conjugate()).imag).max() < 0.05:
         return (Line(base[0], base[1], pen),)
@@ -169,7 +171,8 @@ def body(points: Sequence[complex], pen: Pen = HEAVY, fill: str | None = TINT) -
 
 def _around(points: Sequence[complex]) -> list[complex]:
     """The corners of the convex polygon around points, anticlockwise."""
-    ordered = sorted(set(points), key=lambda p: (p.real, p.imag))
+    places = {settled(point): point for point in points}
+    ordered = [places[place] for place in sorted(places, key=lambda p: (p.real, p.imag))]
 
     def chain(ways: Sequence[complex]) -> list[complex]:
         kept: list[complex] = []
@@ -258,7 +261,7 @@ def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> 
     if spacing <= 0:
         raise ValueError("the spacing of a hatch must be positive")
     along = cmath.exp(1j * (turn + math.pi / 4))
-    turned = [point / along for point in points]
+    turned = [settled(point / along) for point in points]
     heights = [point.imag for point in turned]
     if not turned:
         return []
@@ -278,5 +281,5 @@ def clip_hatch(points: Sequence[complex], spacing: float, turn: float = 0.0) -> 
 
 def decimal(value: float) -> str:
     """A length (mm) to a thousandth of it, without trailing zeros and without a negative zero."""
-    text = f"{value:.3f}".rstrip("0").rstrip(".")
+    text = f"{rounded(value, 3):.3f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text

@@ -24,16 +24,41 @@ from reportgen.formula import (
 )
 from reportgen.formula.constructions import Value
 
+NOTHING = 1e-9
+"""A value below this share of the greatest is nothing."""
+BEHIND = 1e-12
+"""Directions that differ by less (rad) are one."""
+
 
 def circle_line(centre: Value, radius: Value, p: Value, u: Value, sign: Value) -> Value:
     """Where a circle meets the line through p along u, a vector of any length."""
     return constructions.circle_line(centre, radius, p, u / abs(u), sign)
 
 
+def nothing(value: Value) -> Value:
+    """Where a value is nothing beside the greatest of all positions, the last axis; there a sense would be noise."""
+    sizes = np.abs(value)
+    if sizes.ndim == 0:
+        return sizes == 0
+    return sizes <= NOTHING * np.max(sizes, axis=-1, keepdims=True, initial=0.0, where=np.isfinite(sizes))
+
+
 def quotient(a: Value, b: Value) -> Value:
     """a / b, and 0 where b is nothing: the arm of a force that is not there."""
     b = np.asarray(b)
-    return np.where(b == 0, 0.0, a / np.where(b == 0, 1.0, b))
+    none = nothing(b)
+    return np.where(none, 0.0, a / np.where(none, 1.0, b))
+
+
+def sign(value: Value) -> Value:
+    """+1 or −1, and 0 for what is nothing."""
+    return np.where(nothing(value), 0.0, np.sign(value))
+
+
+def arg(vector: Value) -> Value:
+    """A vector's direction from +x, in (−π, π], one just above −π counted as π; 0 for what is nothing."""
+    angle = np.where(nothing(vector), 0.0, np.angle(vector))
+    return np.where(angle <= BEHIND - np.pi, np.pi, angle)
 
 
 def if_zero(a: Value, b: Value) -> Value:
@@ -123,8 +148,8 @@ def stepped(speed: Value, torque: Value, inertia: Value, steps: Value) -> Value:
 
 
 def heading(vector: Value) -> Value:
-    """A vector's direction from +x, in [0, 2π); rounding just below a full turn counts as 0."""
-    return np.mod(np.angle(vector) + 1e-12, 2 * np.pi) - 1e-12
+    """A vector's direction from +x, in [0, 2π), one just below a full turn counted as 0; 0 for what is nothing."""
+    return np.mod(np.where(nothing(vector), 0.0, np.angle(vector)) + BEHIND, 2 * np.pi) - BEHIND
 
 
 def inv(angle: Value) -> Value:
@@ -156,10 +181,10 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "arctan2": np.arctan2,
     "abs": np.abs,
     "size": np.abs,
-    "sign": np.sign,
+    "sign": sign,
     "re": np.real,
     "im": np.imag,
-    "arg": np.angle,
+    "arg": arg,
     "heading": heading,
     "cis": lambda angle: np.exp(1j * np.asarray(angle)),
     "cross": constructions.cross,

@@ -15,7 +15,7 @@ import numpy as np
 from reportgen.base.units import figure_decimals, rounded
 from reportgen.formula import Call, Expression, Negative, Ref, ids
 from reportgen.formula.ledger import Ledger, follow
-from reportgen.formula.sheet import ZERO, Family, is_short, is_typed
+from reportgen.formula.sheet import ZERO, Family, is_short, is_typed, shortened
 
 Ends = Callable[[Family, np.ndarray], bool]
 """Whether a value, worked out from what is written above it, has few digits and is written as it is."""
@@ -45,6 +45,7 @@ def written(ledger: Ledger, given: Mapping[str, int | None], ends: Ends) -> tupl
             decimals[id] = decimals[again]
         elif family.definition is not None and len(values[id]) == 1 and ends(family, values[id]):
             decimals[id] = None
+            values[id] = shortened(np.real(values[id]) / family.how.scale) * family.how.scale
         computed = values[id]
         values[id] = _entered(family, computed, decimals[id])
         changes[id] = values[id] - np.real(computed)
@@ -63,8 +64,14 @@ def by_lines(ledger: Ledger) -> Ledger:
 def _line(ledger: Ledger, family: Family) -> Expression | None:
     """The formula by which a value is written; None for what is given, and for an integral, which is read off."""
     integral = ids.rule(family.id) in ledger
-    is_read = integral and bool(np.any(np.abs(ledger[ids.rest(family.id)].values) > ZERO * family.scale))
+    size = family.scale or _size(family.values)
+    is_read = integral and _size(ledger[ids.rest(family.id)].values) > ZERO * size
     return None if is_read else family.line
+
+
+def _size(values: np.ndarray) -> float:
+    """The greatest size of values (SI)."""
+    return float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
 
 
 def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> np.ndarray:
@@ -73,7 +80,7 @@ def _entered(family: Family, computed: np.ndarray, decimals: int | None) -> np.n
     values = np.real(computed) / family.how.scale
     values = _without_dust(values) if decimals is None else rounded(values, decimals)
     if family.is_signed_rotation or family.arm:
-        values = np.copysign(values, exact)
+        values = np.copysign(values, exact) + 0.0
     if family.how.unit == "°" and family.is_direction:
         values = np.mod(values, 360.0)
     if not family.residue:

@@ -29,6 +29,9 @@ ZERO = 1e-9
 DUST = 1e-12
 """Shares of a value below this are of floats."""
 
+COMPUTED = 1e-9
+"""A computed value is as exact as this share of it, those of integrals among them."""
+
 TYPED = 10
 """Significant figures that given data have at most."""
 
@@ -256,6 +259,9 @@ def is_typed(values: np.ndarray | float) -> bool:
 
 def is_short(values: np.ndarray | float) -> bool:
     """Whether values have few digits, as typed ones have, and can be printed as they are (0.171 m)."""
-    return all(
-        abs(float(f"{value:.{MAX_DIGITS - 1}g}") - value) <= DUST * abs(value) for value in np.atleast_1d(values)
-    )
+    return bool(np.all(np.abs(shortened(values) - values) <= COMPUTED * np.abs(values)))
+
+
+def shortened(values: np.ndarray | float) -> np.ndarray:
+    """Return values with the few digits that a value has which is printed as it is."""
+    return np.array([float(f"{value:.{MAX_DIGITS - 1}g}") for value in np.atleast_1d(values)])

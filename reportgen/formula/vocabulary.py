@@ -120,8 +120,8 @@ def in_language(symbol: Symbol, names: Mapping[str, str]) -> Symbol:
     A name with a letter before the index is that of the whole symbol, with # for each digit: Pqt → F_и makes P_qt5
     F_и5, and R## → F_R makes R_12 F_R12.  One behind ^ is of what stands above alone.
     """
-    sup = names.get(f"^{symbol.sup}", names.get(symbol.sup, symbol.sup))
-    word, digits, rest = _INDEX.findall(symbol.sub)[0]
+    (above, behind), (word, digits, rest) = _ABOVE.findall(symbol.sup)[0], _INDEX.findall(symbol.sub)[0]
+    sup = names.get(f"^{above}", names.get(above, above)) + behind
     whole = (f"{symbol.base}{word}{'#' * len(digits)}", f"{symbol.base}{word}" if word else "")
     for key in whole if word or digits else ("" if rest else symbol.base,):
         if key in names and not _WORD.fullmatch(key):
@@ -143,7 +143,7 @@ def _index(index: str, names: Mapping[str, str]) -> str:
     return _NAMES.sub(said, index)
 
 
-_WORD, _INDEX = re.compile("[a-z]+"), re.compile(r"([a-z]*)(\d*)(.*)")
+_WORD, _INDEX, _ABOVE = map(re.compile, ("[a-z]+", r"([a-z]*)(\d*)(.*)", r"([^(]*)(.*)"))
 _NAMES = re.compile(r"([^\W\d_a-z]?)([a-z]*)(\d*)")
 
 
@@ -333,8 +333,8 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(ids.given_force, name="given force"),
     VocabularyRow(ids.spring_rate, "c", "stiffness", name="spring rate"),
     VocabularyRow(ids.spring_free, "l", "length", below="0{number}", name="spring free"),
-    VocabularyRow(ids.spring_length, "l", "length", _LOADS, below="{number}", name="spring length"),
-    VocabularyRow(ids.spring_on_paper, "s", "segment", _LOADS, "mu.l", below="{number}", name="spring on paper"),
+    VocabularyRow(ids.spring_length, "l", "length", _LOADS, below="sp{number}", name="spring length"),
+    VocabularyRow(ids.spring_on_paper, "s", "segment", _LOADS, "mu.l", below="sp{number}", name="spring on paper"),
     VocabularyRow(ids.spring_turn, "θ", "angle", _LOADS, below="{number}", name="spring turn"),
     VocabularyRow(ids.spring_anchor, "", "length"),
     # the balance of the driver

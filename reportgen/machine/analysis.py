@@ -146,11 +146,16 @@ def motion_at(machine: Machine, cycle_angle: np.ndarray) -> Motion:
     return solve_motion(machine.linkage, machine.angles(cycle_angle), rate, acceleration)
 
 
+SAME_BREAK = 1e-9
+"""Corners of loads at angles that differ by less (rad) are one."""
+
+
 def breaks(machine: Machine) -> np.ndarray:
     """Cycle angles (rad) where the loads have corners: dead centres and nodes of the tables."""
     corners = [corner for load in machine.loads for corner in load.law.breaks(partial(motion_at, machine))]
     whole = machine.turns * FULL_TURN
-    return np.array(sorted(set(np.mod(corners, whole).round(13).tolist())))
+    angles = np.sort(np.mod(np.asarray(corners, dtype=float) + SAME_BREAK, whole) - SAME_BREAK)
+    return angles[np.diff(angles, prepend=-np.inf) > SAME_BREAK]
 
 
 ROUNDING = 1e-13

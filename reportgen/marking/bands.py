@@ -17,7 +17,7 @@ import numpy as np
 
 from reportgen.formula import Call, Ref, ids, refs, vocabulary
 from reportgen.formula.ledger import Ledger
-from reportgen.formula.sheet import Family
+from reportgen.formula.sheet import DUST, ZERO, Family
 from reportgen.marking.balancing import errors_of_positions
 
 PAPER_ERROR = 0.5e-3
@@ -57,7 +57,8 @@ def drawn_bands(
     for id, band in bands.items():
         # A direction is written down in whole degrees.
         last = WHOLE_DEGREE / 2 if is_direction(id) else half_unit(ledger[id].values, DIGITS)
-        bands[id] = band + np.where(band > 0, last, 0.0)
+        greatest = np.nanmax(np.abs(ledger[id].values), initial=0.0)
+        bands[id] = band + np.where(band > ZERO * greatest, last, 0.0)
     return bands
 
 
@@ -180,7 +181,7 @@ def half_unit(values: np.ndarray, digits: int) -> np.ndarray:
     """Half a unit of the last of `digits` significant figures; 0 for 0."""
     sizes = np.abs(values)
     with np.errstate(all="ignore"):
-        unit = 10.0 ** (np.floor(np.log10(sizes) + 1e-12) - digits + 1)
+        unit = 10.0 ** (np.floor(np.log10(sizes) + DUST) - digits + 1)
     return np.where(np.isfinite(unit) & (sizes > 0), unit / 2, 0.0)
 
 
@@ -217,6 +218,7 @@ def _carried_through(ledger: Ledger, errors: Mapping[str, np.ndarray]) -> dict[s
         inherited = REACH * np.sqrt((_or_nothing(change) ** 2).sum(axis=0)) / SHARE
         # A single value depends on the errors at all positions.
         band = own + (inherited.max(keepdims=True) if len(own) == 1 else inherited)
+        band = np.where(band > ZERO * family.scale, band, 0.0)
         # Near a dead centre a very short vector may have any direction.
         bands[id] = np.minimum(band, np.pi) if family.how.unit == "°" else band
     return bands

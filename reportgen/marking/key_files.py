@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
 import numpy as np
 
 from reportgen import report as tree
+from reportgen.base.settled import significant
 from reportgen.base.units import significant_decimals
 from reportgen.formula import Number, Symbol
 from reportgen.formula.plain import formula
@@ -36,6 +37,10 @@ FORMAT = "reportgen-key/1"
 """Of the JSON."""
 BAND_DIGITS = 2
 """Significant figures of a band."""
+EXACT = 6
+"""Figures of a band that are right, found from small changes: it is first rounded to these."""
+VALUE_DIGITS = 7
+"""Significant figures of the values of the JSON: more would differ from one processor to another."""
 VALUE, BAND, SENSE = 15.6, 16.2, 23.0
 """Widths (mm) of the columns of a quantity at each position."""
 SYMBOL, UNIT = 16.0, 22.0
@@ -45,11 +50,15 @@ FINER, FINEST = 3, 7
 """Decimals of a band beyond those of its row; those of one whose row is exact."""
 
 
-def band(row: KeyRow, width: float) -> float | None:
+def band(row: KeyRow, width: float, figures: int = BAND_DIGITS) -> float | None:
     """A band's half width (in the row's unit) to two significant figures; one negligible beside the row is 0."""
     if width != width:
         return None
-    return 0.0 if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0) else float(f"{width:.{BAND_DIGITS}g}")
+    return (
+        0.0
+        if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0)
+        else significant(significant(width, EXACT), figures)
+    )
 
 
 def band_decimals(width: float) -> int:
@@ -124,8 +133,9 @@ def key_rows(key: Key) -> tuple[tuple[str | float | None, ...], ...]:
 def key_data(key: Key) -> dict[str, Any]:
     """The key as a JSON object: values in the units of the report, null for what does not exist.
 
-    `values` (unrounded), `printed`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for each
-    of `positions`, or a single one; `asked` are the positions of the answer sheet by label, [""] for a single value.
+    `values` (to seven figures), `printed`, `drawn`, `computed` (half widths of the bands) and `sense` have an entry for
+    each of `positions`, or a single one; `asked` are the positions of the answer sheet by label, [""] for a single
+    value.
     """
     return {
         "format": FORMAT,
@@ -151,8 +161,8 @@ def key_data(key: Key) -> dict[str, Any]:
                 "asked": [key.label(k, row.id) for k in row.positions],
                 "values": _numbers(row.values),
                 "printed": _numbers(row.printed),
-                "drawn": _numbers(row.drawn),
-                "computed": _numbers(row.computed),
+                "drawn": _bands(row, row.drawn),
+                "computed": _bands(row, row.computed),
                 "sense": list(row.sense),
             }
             for row in key.rows
@@ -169,8 +179,17 @@ def key_json(key: Key) -> str:
     return json.dumps(key_data(key), ensure_ascii=False, allow_nan=False, indent=1) + "\n"
 
 
-def _numbers(values: Iterable[float]) -> list[float | None]:
-    return [float(value) if value == value else None for value in values]
+def _numbers(values: np.ndarray) -> list[float | None]:
+    """Values to some figures, 0 for what is nothing beside the greatest of them."""
+    least = ZERO * float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    shown = (0.0 if abs(value) < least else significant(float(value), VALUE_DIGITS) for value in values)
+    return [value if value == value else None for value in shown]
+
+
+def _bands(row: KeyRow, widths: np.ndarray) -> list[float | None]:
+    """The half widths of bands, finer than the key prints them; those negligible beside the row are 0."""
+    shown = (band(row, float(width), BAND_DIGITS + 1) for width in np.where(np.isnan(row.values), np.nan, widths))
+    return list(shown)
 
 
 # --- the document ---------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.drawing.animation import MomentValue, MovingBody, MovingName, MovingVector, Pane, Still, Track
-from reportgen.page.panel import PanelWriter
+from reportgen.page.panel import PanelWriter, samples
 from reportgen.page.sampling import Samples
 from reportgen.report.case import Case, MachineAnalysis
 
@@ -63,16 +63,16 @@ class Resident:
         """
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
-        samples = Samples(case, self.samples.kept)
-        if not samples.analysis.motion.reachable.all():
+        sampling = Samples(case, self.samples.kept)
+        if not sampling.analysis.motion.reachable.all():
             return b""
         values, written = self.values.copy(), set[int]()
-        panes = tuple(samples.panes())
-        moved = list(tracks(panes, tuple(samples.values())))
+        panes = tuple(sampling.panes())
+        moved = list(tracks(panes, tuple(sampling.values())))
         if len(moved) != len(self.numbers):
             return b""
         for number, track in zip(self.numbers, moved, strict=True):
-            if not self._put(values, written, number, track.values):
+            if not self._put(values, written, number, track):
                 return b""
         bodies = self.bodies(panes[0])
         if list(map(bool, bodies)) != list(map(bool, self.drawn)):
@@ -102,18 +102,16 @@ class Resident:
             else:
                 place += 1
 
-    def _put(self, values: np.ndarray, written: set[int], number: int, track: np.ndarray) -> bool:
+    def _put(self, values: np.ndarray, written: set[int], number: int, track: Track) -> bool:
         """Put the samples of a track in place; not where they have another length, or share their place and differ."""
-        parts = (track.real, track.imag) if np.iscomplexobj(track) else (track,)
-        for index, part in enumerate(parts):
+        for index, part in enumerate(samples(track)):
             place = slice(*self.starts[number + index : number + index + 2])
-            samples = np.asarray(part, dtype="<f4") + np.float32(0)
-            if values[place].size != samples.size:
+            if values[place].size != part.size:
                 return False
             if number + index not in written:
-                values[place] = samples
+                values[place] = part
                 written.add(number + index)
-            elif values[place].tobytes() != samples.tobytes() and not _alike(values[place], samples):
+            elif values[place].tobytes() != part.tobytes() and not _alike(values[place], part):
                 return False
         return True
 

@@ -16,7 +16,8 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.languages import decimal_mark
-from reportgen.base.units import Language, write
+from reportgen.base.settled import ALIKE, settled, significant
+from reportgen.base.units import Language, rounded, write
 from reportgen.drawing import Content, Label
 from reportgen.drawing.animation import (
     LAYERS,
@@ -56,6 +57,27 @@ def panel(animation: Animation, language: Language, words: Mapping[str, Any]) ->
     return PanelWriter(animation, language, words).panel()
 
 
+SAMPLE = 2.0**-22
+"""The step of samples as a share of the greatest one: no more than numbers of four bytes show."""
+AXIS_DIGITS = 9
+"""Significant figures of the ends of an axis."""
+NOTHING = 2.0**-20
+"""The greatest sample of a track in which everything below its steps is rounding (mm, or SI units)."""
+
+
+def samples(track: Track) -> tuple[np.ndarray, ...]:
+    """Return the parts of a track as a page has them: real and imaginary parts as numbers of four bytes.
+
+    They are `settled`, since the greatest part of a page that differs from one processor to another would be samples.
+    """
+    values = np.asarray(track.values)
+    parts = (values.real, values.imag) if np.iscomplexobj(values) else (np.asarray(values, dtype=np.float64),)
+    greatest = max(float(np.max(np.abs(part), initial=0.0, where=np.isfinite(part))) for part in parts)
+    # A power of two that rounding errors have changed is that power.
+    step = SAMPLE * 2.0 ** math.frexp(max(greatest, NOTHING) * (1 + ALIKE))[1]
+    return tuple(np.asarray(settled(part, step), dtype="<f4") for part in parts)
+
+
 class Tracks:
     """All tracks of a page, each once: numbers of its parts, and their values one behind the other."""
 
@@ -66,10 +88,8 @@ class Tracks:
 
     def number(self, track: Track) -> int:
         """The number of a real track; of a complex one that of its first part, the second follows."""
-        values = track.values
-        parts = (values.real, values.imag) if np.iscomplexobj(values) else (values,)
-        # A negative zero is nothing else than zero.
-        packed = tuple((np.asarray(part, dtype="<f4") + np.float32(0)).tobytes() for part in parts)
+        parts = samples(track)
+        packed = tuple(part.tobytes() for part in parts)
         if packed not in self._numbers:
             self._numbers[packed] = len(self.lengths)
             self.lengths += [part.size for part in parts]
@@ -320,8 +340,8 @@ class PanelWriter:
         drawn = chart.plotted
         return {
             "box": list(_rounded(_turned_over(drawn.low, drawn.high, drawn.scene.height))),
-            "x": list(drawn.x),
-            "y": list(drawn.y),
+            "x": [significant(end, AXIS_DIGITS) for end in drawn.x],
+            "y": [significant(end, AXIS_DIGITS) for end in drawn.y],
             **({"run": True} if chart.of_run else {}),
             "curves": [self.tracks.number(curve.values) for curve in chart.curves],
         }
@@ -346,4 +366,4 @@ def _turned_over(low: complex, high: complex, height: float) -> tuple[float, ...
 
 
 def _rounded(values: tuple[float, ...]) -> Iterator[float]:
-    return (round(value, 3) for value in values)
+    return (rounded(value, 3) for value in values)

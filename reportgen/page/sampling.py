@@ -382,7 +382,8 @@ class Samples:
                 continue
             image = motion.of(link, at).v * quarter
             # A force that is nearly nothing may act alone far away: with its couple it has no place on the sheet.
-            image = np.where((size > 0) & (np.abs(image) < FAR * reach), image, complex(np.nan, np.nan))
+            acts = size > 1e-9 * np.nanmax(size)
+            image = np.where(acts & (np.abs(image) < FAR * reach), image, complex(np.nan, np.nan))
             before = sum(np.allclose(image, corners[other], equal_nan=True) for other in drawn)
             start, end = f"{name} start", f"{name} end"
             corners[start] = image

@@ -47,8 +47,8 @@ def enter_flywheel(q: Sheet, analysis: Analysis, regulated: RegulatedCycle) -> N
         A - q.define(ids.bound_of_speed(name), ω1 * share) ** 2 * J_r / 2
         for name, share in (("max", 1 + δ / 2), ("min", 1 - δ / 2))
     )
-    a = with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), "a", "work")
-    b = with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), "b", "work")
+    a = with_rest(q, "A.upper", regulated.upper, call("highest", most_energy), Symbol("A", "a"), "work")
+    b = with_rest(q, "A.lower", regulated.lower, call("lowest", least_energy), Symbol("A", "b"), "work")
     J_d = q.define("J.d", (a - b) / (δ * ω1**2))
     if inertia is not None:
         _energy_mass(q, regulated)
@@ -96,7 +96,7 @@ def _constant_group(q: Sheet, regulated: RegulatedCycle, speed: float) -> None:
     T = q.define("T.I", q["A.excess"] - q["J.r"] * q["omega.1"] ** 2 / 2, scale=most)
     ΔT = with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
     J_I = q.define("J.I", ΔT / (q["unevenness"] * q["omega.1"] ** 2))
-    q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", residue=True)
+    q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", scale=1.0, residue=True)
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:

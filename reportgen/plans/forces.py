@@ -422,7 +422,8 @@ def lever(statics: Statics, loads: tuple[LoadOn, ...]) -> None:
         contribute(ids.lever_moment(load.name), load.name, load.size * arm * per)
         if couple is not None and omega is not None:
             alone = statics.turn * lone_couple(statics, load) * omega
-            contribute(ids.lone_moment(load.name), f"{load.name}.lone", alone / rate, optional=True)
+            of_couple = f"M{load.letters.removeprefix('P')}"
+            contribute(ids.lone_moment(load.name), of_couple, alone / rate, optional=True)
     balance = -Sum(tuple(parts)) if parts else 0.0
     q.define("M.vw", balance, Symbol(letter, "cb", "(2)"), kind, scale=scale)
 

@@ -109,7 +109,7 @@ def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked:
     R = {each: q[ids.reaction(each.digits)] for each in rates}
     for number in range(1, _rounds(solved, worked) + 1):
         parts = [q[each.share] * R[each] * rates[each] / driver for each in rates]
-        symbol = Symbol(letter, "cb", f"({number})")
+        symbol = Symbol(letter, "cb", f"fr({number})")
         q.define(friction_ids.torque_of_round(number), overcome(parts), symbol, kind, scale=size, optional=True)
         R = reactions(number, str(number))
     R, parts = reactions(-1, ""), []

@@ -158,7 +158,7 @@ class _Steady:
                 "run.step", call("stepped", ω, M_r + M_d, J, steps), Symbol("ω", "b"), "angular velocity"
             )
             apart = call("highest", call("abs", by_steps - ω) / ω)
-            q.define("run.apart", apart, Symbol("δ", "b"), "share", residue=True)
+            q.define("run.apart", apart, Symbol("δ", "b"), "share", scale=1.0, residue=True)
 
     def _bounds(self, ω: Ref) -> None:
         q, steady = self.q, self.steady
@@ -209,6 +209,7 @@ class _Steady:
             call("highest", call("abs", read - formula)) / most,
             self.symbol("δ", "dc"),
             "share",
+            scale=1.0,
             residue=True,
         )
 

@@ -208,17 +208,19 @@ def _compared(report: Report, name: str, pair: Sequence[str]) -> Sequence[object
 # --- checks -------------------------------------------------------------------------------------------
 
 
-def residuals(report: Report) -> dict[str, tuple[float, str]]:
-    """How far F is from the reactions on the frame when inertia alone acts (N), and a balanced four-bar's from 0."""
+def residuals(report: Report) -> dict[str, float]:
+    """How far, as a share, F is from the reactions on the frame by inertia alone, and a balanced four-bar's from 0."""
     if report.case.balanced is None:
         return {}
     analysis, turn = report.analysis, report.case.balanced
     linkage, motion = analysis.machine.linkage, analysis.motion
     off = np.abs(shaking_force(linkage, motion) - frame_reactions(linkage, motion)).max()
-    entered = {"balance": (float(off), "N")}
+    # The forces of inertia of all links together: their sum may be nothing.
+    greatest = sum(body.mass * float(np.abs(motion.points[body.centre].a).max()) for body in linkage.inertias)
+    entered = {"balance": float(off) / greatest}
     if balancing_state(report) == "links":
         left = turn.left / (turn.curve.greatest()[0] * turn.machine.speed**2)
-        entered["rest"] = (left, "")
+        entered["rest"] = left
     return entered
 
 

@@ -84,7 +84,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "friction.rounds": joint_friction.rounds,
     "friction.dead": RowTable(joint_friction.dead_rows, (24.0, 48.0, 44.0, 44.0)),
     **running.TABLES,
-    "checks": RowTable(result_tables.checks, (95.0, 35.0, 20.0)),
+    "checks": RowTable(result_tables.checks, (110.0, 40.0)),
 }
 """Who makes a table; its key is `tab.` and its name, its caption and head stand in `words.yaml` under `tables`."""
 

@@ -11,6 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.settled import settled
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.plan import (
@@ -117,7 +118,7 @@ def mirror_images(report: Report, what: What) -> Inlines:
 def _at(construction: Construction[str], report: Report, k: int) -> Plan:
     """A construction on paper (mm) as it is at a position."""
     scale = MM / report.enlarged
-    return construction.placed(lambda id: 0j if id == POLE else complex(report.ledger[id].at(k)) * scale)
+    return construction.placed(lambda id: 0j if id == POLE else settled(complex(report.ledger[id].at(k)) * scale))
 
 
 def motion_plan(report: Report, what: What, k: int) -> Plan:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from reportgen.report import (
     Paragraph,
     Table,
     Text,
-    Value,
     balancing,
     running,
 )
@@ -37,6 +36,9 @@ WIDE = -0.1
 """A coordinate (m) that takes the widest column."""
 NARROWEST = 16.0
 """Columns of words narrower than this (mm) are set as rows instead."""
+
+AGREED = -9
+"""Two ways to a result agree to ten to this power, of the greatest value; smaller differences are rounding noise."""
 
 # --- motion
 
@@ -266,18 +268,17 @@ def flywheel(report: Report, key: str, caption: str, head: Sequence[str]) -> tup
 
 
 def checks(report: Report) -> Iterator[Sequence[object]]:
-    """Residuals of the independent checks, as powers of ten."""
+    """Each independent check with the power of ten that its residual does not exceed."""
     largest = residuals(report)
     for id, name in report.words["tables"]["checks"]["rows"].items():
         if id in largest:
-            residual, unit = largest[id]
-            yield name, _power_of_ten(residual), report.ledger.printed_unit(unit)
+            yield name, _limit(largest[id])
 
 
-def residuals(report: Report) -> dict[str, tuple[float, str]]:
-    """The largest residual of each check and its unit: closure, formulas, reactions, torques, energy."""
+def residuals(report: Report) -> dict[str, float]:
+    """The largest residual of each check as a share of the greatest value: closure, formulas, reactions, torques, …"""
     analysis, values = report.analysis, report.case.ledger.families
-    largest = {"closure": (_closure(report), "m")}
+    largest = {"closure": _closure(report)}
     for name, chapter in (("formulas", Chapter.velocity), ("formulas_a", Chapter.acceleration)):
         differences = [
             float(np.max(np.abs(np.abs(values[printed_id].values) - np.abs(values[formula_id].values))))
@@ -286,40 +287,52 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
             if values[printed_id].chapter is chapter
         ]
         if differences:
-            largest[name] = (max(differences), "")
+            largest[name] = max(differences)
     if analysis.loads:
-        forces = [
-            float(np.nanmax(np.abs(reaction.force - values[ids.force_vector(name)].values)))
-            for name, reaction in analysis.forces.reactions.items()
+        drawn = {
+            name: values[ids.force_vector(name)].values
+            for name in analysis.forces.reactions
             if ids.force_vector(name) in values
-        ]
-        largest["ledger"] = (max(forces), "N")
-        difference = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work)))
-        largest["force" if analysis.machine.span else "torque"] = (difference, "N" if analysis.machine.span else "N·m")
+        }
+        forces = [np.abs(analysis.forces.reactions[name].force - force) for name, force in drawn.items()]
+        largest["ledger"] = _share(forces, map(np.abs, drawn.values()))
+        difference, either = values["M.difference"], "force" if analysis.machine.span else "torque"
+        largest[either] = float(np.nanmax(np.abs(analysis.torque - analysis.torque_by_work))) / (
+            difference.scale or 1.0
+        )
         if analysis.machine.cyclic:
-            largest["energy"] = (analysis.summary.energy_error, "")
+            largest["energy"] = analysis.summary.energy_error
     return largest | running.residuals(report) | balancing.residuals(report)
 
 
+def _share(differences: Iterable[np.ndarray], values: Iterable[np.ndarray]) -> float:
+    """The greatest of differences as a share of the greatest value; 0 where there is none."""
+    greatest = max((float(np.nanmax(one, initial=0.0)) for one in values), default=0.0)
+    off = max((float(np.nanmax(one, initial=0.0)) for one in differences), default=0.0)
+    return off / greatest if greatest else 0.0
+
+
 def _closure(report: Report) -> float:
-    """How far a distance of two points of one link is from its length at any position (m); 0 where there is none."""
+    """How far a distance of two points of a link is from its length at any position, as a share of the longest one."""
     motion, families = report.analysis.motion, report.case.ledger.families
     pairs = [(group.P, group.Q) for group in report.groups]
     pairs += [(group.T, group.Q) for group in report.groups if group.kind == "RRR"]
-    rods = [(p, q, families[ids.length(p, q)].values) for p, q in pairs if ids.length(p, q) in families]
-    differences = [np.abs(motion.points[p].p - motion.points[q].p) - length for p, q, length in rods]
-    differences += [
-        np.abs(motion.points[point.name].p - motion.origins[point.link].p) - abs(point.local)
+    rods = [
+        (motion.points[p].p - motion.points[q].p, families[ids.length(p, q)].values)
+        for p, q in pairs
+        if ids.length(p, q) in families
+    ]
+    rods += [
+        (motion.points[point.name].p - motion.origins[point.link].p, np.array([abs(point.local)]))
         for point in report.machine.linkage.points
     ]
     if isinstance(driver := report.machine.linkage.driver, Crank):
         arm = motion.points[driver.pin].p - motion.points[driver.centre].p
-        differences.append(np.abs(arm) - driver.length)
-    return max((float(np.nanmax(np.abs(difference))) for difference in differences), default=0.0)
+        rods.append((arm, np.array([driver.length])))
+    return _share((np.abs(np.abs(rod) - length) for rod, length in rods), (length for _, length in rods))
 
 
-def _power_of_ten(value: float) -> Inlines:
-    """A residual as a power of ten: < 10⁻¹² m."""
-    if value == 0:
-        return (Value(Number(0.0)),)
-    return Text("< "), InlineMath(Power(Number(10), Number(math.ceil(math.log10(value)))))
+def _limit(share: float) -> Inlines:
+    """The power of ten that a residual does not exceed: that which all results keep, ≤ 10⁻⁹, or what is needed."""
+    exponent = AGREED if share <= 10.0**AGREED else math.ceil(math.log10(share) - 1e-6)
+    return Text("≤ "), InlineMath(Power(Number(10), Number(exponent)))

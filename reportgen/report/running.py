@@ -230,7 +230,7 @@ def inertia_form(report: Report) -> str:
     return "varies" if inertia_slopes(report) else "even"
 
 
-def residuals(report: Report) -> dict[str, tuple[float, str]]:
+def residuals(report: Report) -> dict[str, float]:
     """How far the drive is from its characteristic, and a steady cycle from its beginning, as shares."""
     motion, families = report.case.true_motion, report.case.ledger.families
     if motion is None:
@@ -241,8 +241,8 @@ def residuals(report: Report) -> dict[str, tuple[float, str]]:
         for id in (run_ids.in_state("reading", state) for state in motion.states)
         if id in families
     ]
-    result = {"run_energy": (float(max(closing)), "")}
-    return {"drive": (float(max(readings)), ""), **result} if readings else result
+    result = {"run_energy": float(max(closing))}
+    return {"drive": float(max(readings)), **result} if readings else result
 
 
 def _of_shown(name: str) -> Callable[[Report], str]:

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
+from reportgen.base.units import figure_decimals
 from reportgen.formula import Number, Symbol, ids, size
+from reportgen.formula.sheet import ZERO
 from reportgen.machine.analysis import Analysis, Position
 from reportgen.machine.true_motion import at_true_speeds
 from reportgen.report import Table
@@ -30,30 +34,48 @@ def forces_table(report: Report, key: str, caption: str, head: Sequence[str], k:
 
 def _rows(report: Report, true: Analysis, k: Position) -> Iterator[Sequence[object]]:
     """Of points, links, inertia and joints what the report has at constant speed, which is as it is written there."""
-    at = k - 1
+    values = {id: course for id, course in _courses(report, true) if id in report.ledger}
+    greatest: dict[str, float] = {}
+    for id, course in values.items():
+        kind = report.ledger[id].kind
+        greatest[kind] = max(greatest.get(kind, 0.0), _greatest(course))
+    for id, course in values.items():
+        noise = ZERO * greatest[report.ledger[id].kind]
+        yield _row(report, id, np.where(np.abs(course) > noise, course, 0.0), k)
+
+
+def _courses(report: Report, true: Analysis) -> Iterator[tuple[str, np.ndarray]]:
+    """The ids of all that depends on the acceleration, with the true values (SI) [N]."""
     for name, point in true.motion.points.items():
-        yield from _row(report, ids.acceleration(name), abs(point.a[at]), k)
+        yield ids.acceleration(name), np.abs(point.a)
     for number, link in true.motion.links.items():
-        yield from _row(report, ids.signed("eps", number), float(link.epsilon[at]), k)
+        yield ids.signed("eps", number), link.epsilon
     for load in true.inertia:
-        yield from _row(report, load.name, abs(load.force[at]), k)
-        yield from _row(report, ids.inertia_couple(load.link), abs(float(load.couple[at])), k)
+        yield load.name, np.abs(load.force)
+        yield ids.inertia_couple(load.link), np.abs(load.couple)
     shown: set[frozenset[int]] = set()
     for name, reaction in true.forces.reactions.items():
         joint = frozenset(ids.links_of(name))
         if joint not in shown and ids.of_force(name) in report.ledger:
             shown.add(joint)
-            yield from _row(report, ids.of_force(name), abs(reaction.force[at]), k)
+            yield ids.of_force(name), np.abs(reaction.force)
 
 
-def _row(report: Report, id: str, true: float, k: Position) -> Iterator[tuple[object, ...]]:
-    """A quantity with its value at constant speed and the true one, in the decimals that the report has for it."""
+def _row(report: Report, id: str, true: np.ndarray, k: Position) -> tuple[object, ...]:
+    """A quantity with its value at constant speed and the true one of [N], in the decimals that the report has for it.
+
+    What is nothing at constant speed has the figures of its kind.
+    """
     ledger = report.ledger
-    if id not in ledger:
-        return
     how, signed = ledger[id].how, ledger[id].is_signed_rotation
-    even = ledger.number(id, k, size=not signed)
-    unit = ledger.units.get(how.unit, how.unit)
+    even, decimals = ledger.number(id, k, size=not signed), ledger.decimals[id]
+    if decimals is None or not _greatest(ledger[id].values):
+        decimals = figure_decimals(_greatest(true) / how.scale, how.digits) if how.decimals is None else how.decimals
     symbol: Symbol = ledger.symbol(id)
-    shown = (Number(even.value, even.decimals), Number(true / how.scale, even.decimals))
-    yield (symbol if signed else size(symbol), *shown, unit)
+    there = float(true[k - 1]) / how.scale
+    shown = (Number(even.value, even.decimals), Number(there, decimals if there else None))
+    return (symbol if signed else size(symbol), *shown, ledger.units.get(how.unit, how.unit))
+
+
+def _greatest(values: np.ndarray) -> float:
+    return float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))

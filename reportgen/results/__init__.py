@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.formula.ledger import Ledger
+from reportgen.formula.sheet import Family
 from reportgen.report.case import Case
 
 FORMAT = "reportgen-results/1"
@@ -51,12 +52,16 @@ def printed_values(written: Ledger) -> dict[str, Any]:
         id: {
             "unit": family.how.unit,
             "decimals": written.decimals[id],
-            "values": [_finite(written.quantity(id, k + 1).number.shown) for k in range(len(family.values))],
+            "values": [_shown(written, family, k + 1) for k in range(len(family.values))],
         }
         for id, family in written.families.items()
         if not (family.hidden or family.is_plane)
     }
 
 
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
+def _shown(written: Ledger, family: Family, position: int) -> float | None:
+    """The value of a quantity at a position as printed; None where there is none, as of the direction of no vector."""
+    if family.is_of_vector and written[family.of].at(position) == 0:
+        return None
+    value = written.quantity(family.id, position).number.shown
+    return value + 0.0 if math.isfinite(value) else None

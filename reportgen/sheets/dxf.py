@@ -16,7 +16,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.languages import setting_of
-from reportgen.base.units import Language
+from reportgen.base.units import Language, rounded
 from reportgen.drawing import Anchor, Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.label_size import POINT
 from reportgen.drawing.sheet import CAPITAL, NARROW, DrawingSheet, PlacedScene
@@ -71,6 +71,12 @@ CORNER = 0.1
 """A curve that turns by more (rad) from one of its fine chords to the next has a corner."""
 FITTED = 360
 """A spline has about so many points of its curve."""
+REALS = range(10, 60)
+"""Group codes of real numbers; those from `FURTHER` on are no coordinates: sizes, angles, knots."""
+FURTHER = 40
+PLACE_DECIMALS, REAL_DECIMALS = 5, 8
+HUGE = 1e9
+"""What an empty drawing has for its extents is more."""
 STACK = 0.7
 """Size of indices beside the letters they belong to."""
 _PAIR = re.compile("%(?=%)")
@@ -103,7 +109,17 @@ def write_sheet(sheet: DrawingSheet, language: Language) -> bytes:
     document.classes.classes = OrderedDict(sorted(document.classes.classes.items()))
     stream = io.StringIO()
     document.write(stream)
-    return stream.getvalue().encode("utf-8")
+    return _rounded(stream.getvalue()).encode("utf-8")
+
+
+def _rounded(text: str) -> str:
+    """The text of a DXF file with its coordinates and other real numbers rounded, the same on every processor."""
+    tags = text.split("\n")
+    for place in range(0, len(tags) - 1, 2):
+        code = int(tags[place])
+        if code in REALS and abs(value := float(tags[place + 1])) < HUGE:
+            tags[place + 1] = repr(rounded(value, PLACE_DECIMALS if code < FURTHER else REAL_DECIMALS))
+    return "\n".join(tags)
 
 
 def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
@@ -134,7 +150,7 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
 
     def at(point: complex) -> tuple[float, float]:
         moved = point + part.at
-        return round(moved.real, 6), round(moved.imag, 6)
+        return rounded(moved.real, PLACE_DECIMALS), rounded(moved.imag, PLACE_DECIMALS)
 
     def line(start: complex, end: complex, stroke: Pen) -> Any:
         return model.add_line(at(start), at(end), dxfattribs=_pen(part.layer, stroke))
@@ -143,8 +159,9 @@ def _entities(document: Drawing, item: Item, part: PlacedScene, texts: MText) ->
         if triangle := arrow_head(start, end, length)[1]:
             tip, left, right = triangle
             back = (left + right) / 2 - tip
-            how = {"layer": part.layer, "rotation": math.degrees(cmath.phase(back)), "xscale": abs(back)}
-            yield model.add_blockref(_arrowhead(document), at(tip), dxfattribs={**how, "yscale": abs(back)})
+            how = {"layer": part.layer, "rotation": rounded(math.degrees(cmath.phase(back)), REAL_DECIMALS) % 360}
+            how |= {"xscale": abs(back), "yscale": abs(back)}
+            yield model.add_blockref(_arrowhead(document), at(tip), dxfattribs=how)
 
     match item:
         case Line(start, end, stroke):

@@ -21,12 +21,12 @@ from tests.marking.keys import small_key
 from tests.report import built
 
 
-def test_json_has_unrounded_values_and_null_for_what_does_not_exist() -> None:
+def test_json_has_values_to_seven_figures_and_null_for_what_does_not_exist() -> None:
     data = json.loads(json.dumps(key_data(small_key("en")), allow_nan=False))
     assert data["format"] == "reportgen-key/1"
     assert data["positions"] == ["1", "2", "3", "4"]
     rows = {row["id"]: row for row in data["rows"]}
-    assert rows["omega.1"]["values"] == [31.41592653589793]
+    assert rows["omega.1"]["values"] == [31.41593]
     assert rows["omega.1"]["unit"] == "rad/s"
     assert rows["omega.1"]["asked"] == [""]
     assert rows["dir.v.B"]["values"] == [90.0, 180.0, 270.0, None]
