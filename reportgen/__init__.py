@@ -26,3 +26,8 @@ def __getattr__(name: str) -> object:
         if name in names:
             return getattr(import_module(module), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """The names of the module with those that are loaded when they are asked for."""
+    return sorted({*globals(), *__all__})

@@ -6,21 +6,25 @@ import html
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from decimal import Decimal
 from functools import cached_property
+from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 
-from reportgen import api
+from reportgen import api, catalogue
 from reportgen.api.figures import worked_at
 from reportgen.assignment import Assignment
+from reportgen.assignment.checks import OneOf
+from reportgen.assignment.fields import Quantity
 from reportgen.assignment.reading import name_faults
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
 from reportgen.base.files import put_file, reported
 from reportgen.base.source import MappingNode, Scalar, Source, read_source, read_text
-from reportgen.base.source_text import at, put
-from reportgen.base.units import Given, Language
+from reportgen.base.source_text import at, put, without
+from reportgen.base.units import Given, Language, read_unit
 from reportgen.base.words import as_error, language_of, unknown, word
 from reportgen.cases import opened
 from reportgen.drawing import Diagram, Scene
@@ -35,6 +39,8 @@ from reportgen.report.case import Case
 from reportgen.report.named_figures import NamedFigure, named_figures
 
 PARAMETERS = "parameters"
+WRITABLE = 10**300
+"""Whole numbers below it are floating-point numbers, too, and Python itself writes their digits."""
 UNNAMED = Path("assignment.yaml")
 """What a text or a dict is called in messages."""
 
@@ -46,10 +52,29 @@ def open(source: Path | str | Mapping[str, Any], language: Language | None = Non
     """
     if isinstance(source, Mapping):
         # JSON is YAML: each key has a line of its own.
-        return Model(read_text(json.dumps(source, ensure_ascii=False, indent=1), str(UNNAMED)), UNNAMED, language)
+        text = json.dumps(_written(source), ensure_ascii=False, indent=1)
+        return Model(read_text(text, str(UNNAMED)), UNNAMED, language)
     if isinstance(source, str) and "\n" in source:
         return Model(read_text(source, str(UNNAMED)), UNNAMED, language)
     return Model(read_source(Path(source)), Path(source), language)
+
+
+def _written(value: Any) -> Any:
+    """A value of Python as JSON has it; a number with more digits than Python writes is a text of them."""
+    if isinstance(value, Mapping):
+        return {str(key): _written(one) for key, one in value.items()}
+    if isinstance(value, np.ndarray | np.generic):
+        return _written(value.tolist())
+    if isinstance(value, list | tuple):
+        return [_written(one) for one in value]
+    if isinstance(value, int) and not isinstance(value, bool):
+        return int(value) if abs(value) < WRITABLE else _digits(value)
+    return value if isinstance(value, str | float | bool) or value is None else str(value)
+
+
+def _digits(value: int) -> str:
+    """All digits of a whole number, of which Python itself writes 4,300 at most."""
+    return f"{Decimal(value):f}"
 
 
 class Model:
@@ -65,6 +90,10 @@ class Model:
 
     def __repr__(self) -> str:
         return f"<{self.assignment.kind} {self.assignment.id}>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # What is computed is computed again where it is wanted.
+        return type(self), (self._source, self._path, self._language)
 
     @cached_property
     def case(self) -> Case:
@@ -88,37 +117,65 @@ class Model:
     def with_parameters(self, **values: Any) -> Model:
         """The same with other parameters: texts with units, "260 mm", or numbers in SI units.
 
-        Names with dots lead into others, `**{"cutting.F": "900 N"}`.  Raises `AssignmentError` as for a file.
+        Names with dots lead into others, `**{"cutting.F": "900 N"}`.  Of keys that give the same quantity, as `n` and
+        `omega1`, the one given here takes the place of the other.  Raises `AssignmentError` as for a file.
         """
         top = self._source.top
         assert isinstance(top, MappingNode), "an assignment in order is a table"
         for name, value in values.items():
             where = (PARAMETERS, *name.split("."))
             nearest = next(node for step in range(len(where), -1, -1) if (node := at(top, where[:step])) is not None)
-            changed = put(top, where, Scalar(self._written(where, value), nearest.mark))
+            changed = put(top, where, Scalar(self._typed(where, value), nearest.mark))
+            table = at(changed, where[:-1])
+            if isinstance(table, MappingNode) and (others := self._alternatives(where) - values.keys()):
+                changed = put(changed, where[:-1], without(table, others))
             assert isinstance(changed, MappingNode), "a key is put into a table"
             top = changed
         return Model(replace(self._source, top=top), self._path, self._language)
 
-    def _written(self, where: tuple[str, ...], value: Any) -> str:
-        """A value as a file has it: a number in the unit that stands there already."""
+    def _alternatives(self, where: tuple[str, ...]) -> set[str]:
+        """The other keys by which a quantity may be given."""
+        checks = catalogue.kind(self.assignment.kind).checks
+        sets = [set(one.names) for one in checks if isinstance(one, OneOf) and one.where == where[:-1]]
+        return {name for names in sets if where[-1] in names for name in names} - {where[-1]}
+
+    def _typed(self, where: tuple[str, ...], value: Any) -> str:
+        """A value as a file has it: a number in the unit that it has there already, else in that of its key."""
         if isinstance(value, str):
             return value
         known: Any = self.assignment
+        unit = ""
         for step in where:
-            fields = {(one.alias or name): name for name, one in getattr(type(known), "model_fields", {}).items()}
-            known = getattr(known, fields.get(step, step), None)
+            fields = {
+                (one.alias or name): (name, one) for name, one in getattr(type(known), "model_fields", {}).items()
+            }
+            name, field = fields.get(step, (step, None))
+            unit = _unit_of(field.annotation, *field.metadata) if field is not None else ""
+            known = getattr(known, name, None)
+        number = value.item() if isinstance(value, np.generic) else value
+        if isinstance(number, int) and abs(number) >= WRITABLE:
+            return _digits(number)
         if isinstance(known, Given) and known.unit and known.value:
-            return f"{float(value) / (known.si / known.value)!r} {known.unit}"
-        return repr(value.item() if isinstance(value, np.generic) else value)
+            return f"{float(number) / (known.si / known.value)!r} {known.unit}"
+        return f"{float(number) / read_unit(unit, unit)!r} {unit}" if unit else repr(number)
 
-    def study(self, *, of: Sequence[str], **values: Sequence[Any] | np.ndarray) -> dict[str, QuantityArray]:
+    def study(
+        self, *, of: Sequence[str], grid: bool = False, **values: Sequence[Any] | np.ndarray
+    ) -> dict[str, QuantityArray]:
         """Quantities [values, positions] by their ids over ranges of parameters, which go side by side.
 
-        Numbers are in SI units.  A value that `check` refuses has nan.  Raises `UnknownNameError`, `ValueError` for
-        ranges of different lengths, `AssignmentError` where all values are refused.
+        With `grid` every value of each range meets every value of the others: arrays [first, second, …, positions] in
+        the order of the ranges.  Numbers are in SI units.  A value that `check` refuses has nan.  Raises
+        `UnknownNameError`, `RangesError` without ranges or for ranges of different lengths, `AssignmentError` where all
+        values are refused.
         """
-        rows = [dict(zip(values, row, strict=True)) for row in zip(*values.values(), strict=True)]
+        ranges = {name: [*np.atleast_1d(np.asarray(row, dtype=object))] for name, row in values.items()}
+        lengths = [len(row) for row in ranges.values()]
+        if not ranges or not all(lengths) or (not grid and len(set(lengths)) > 1):
+            told = ", ".join(f"{name}: {len(row)}" for name, row in ranges.items()) or "–"
+            raise RangesError(word("study_ranges", self.assignment.language, ranges=told))
+        combined = product(*ranges.values()) if grid else zip(*ranges.values(), strict=True)
+        rows = [dict(zip(ranges, row, strict=True)) for row in combined]
         variants: list[Assignment | None] = []
         refused: AssignmentError | None = None
         for row in rows:
@@ -129,7 +186,13 @@ class Model:
                 variants.append(None)
         if refused is not None and not any(variants):
             raise refused
-        return Study(variants, opened).values(of)
+        found = Study(variants, opened).values(of)
+        if not grid:
+            return found
+        shaped: dict[str, QuantityArray] = {}
+        for id, array in found.items():
+            shaped[id] = array.reshape(*lengths, *array.shape[1:]).view(QuantityArray)
+        return shaped
 
     def table(self, positions: int | None = None) -> ResultTable:
         """The results as a table, a row a position, of so many positions a turn; raises `NotOfferedError`."""
@@ -203,6 +266,19 @@ class Model:
             if value is not None
         )
         return f"<p><b>{html.escape(self.case.title)}</b> {html.escape(self.assignment.id)}</p><table>{rows}</table>"
+
+
+class RangesError(UnknownNameError, ValueError):
+    """A study without ranges of parameters, or with ranges that cannot go side by side."""
+
+
+def _unit_of(annotation: Any, *metadata: Any) -> str:
+    """The unit of a key of the assignment file by the type of its field, "" for what is not a quantity."""
+    inner = (one for part in get_args(annotation) for one in (part, *getattr(part, "__metadata__", ())))
+    for one in (*metadata, *inner):
+        if isinstance(one, Quantity):
+            return one.unit
+    return next((unit for part in get_args(annotation) if (unit := _unit_of(part))), "")
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,7 @@ from typing import Any
 
 from reportgen.assignment.common import Check, Draft, Labels, labels_of, named_worked, number_of
 from reportgen.base.errors import Finding, Where
-from reportgen.base.files import school_strays
-from reportgen.base.template_folders import is_school
+from reportgen.base.template_folders import is_school, school_strays
 from reportgen.base.units import QuantityFault, read_number, read_quantity
 
 

@@ -219,8 +219,8 @@ def _section(key: str, type_: Any, content: Any) -> tuple[Any, list[Finding]]:
 
 
 def _telling(details: list[ErrorDetails]) -> list[ErrorDetails]:
-    """The faults without those of a list's length that only follow from the faults of its items."""
-    inner = {detail["loc"][:-1] for detail in details}
+    """The faults without those of a list's length that only follow from faults anywhere in its items."""
+    inner = {detail["loc"][:depth] for detail in details for depth in range(len(detail["loc"]))}
     return [one for one in details if one["type"] != "too_short" or one["loc"] not in inner]
 
 

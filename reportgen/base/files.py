@@ -204,17 +204,6 @@ def leads_out(path: Path, *folders: Path) -> bool:
         return True
 
 
-OF_SCHOOL = ("vi.md", "en.md", "report.docx", "blocks", "blocks/*.yaml")
-"""What is read of a school's folder."""
-
-
-def school_strays(folder: Path, *within: Path) -> list[Path]:
-    """What of a school's folder leads out of it, or out of the folders that it has to stay in, by a link or a way."""
-    patterns = OF_SCHOOL if os.path.isdir(folder) else ()
-    paths = [folder, *(path for pattern in patterns for path in folder.glob(pattern))]
-    return [path for path in paths if leads_out(path, folder) or (within and leads_out(path, *within))]
-
-
 # --- what stands already ----------------------------------------------------------------------------
 
 

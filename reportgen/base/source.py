@@ -20,7 +20,7 @@ from typing import Any, NoReturn
 
 import yaml
 
-from reportgen.base import chinese
+from reportgen.base import chinese, cyrillic
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import cause, contents
 from reportgen.base.slips import misplaced, slips_above
@@ -148,21 +148,23 @@ def text_in(path: Path) -> str | Fault:
 
 
 def encoding_of(data: bytes) -> tuple[bytes, str]:
-    """The mark at the beginning of a text and the encoding that it tells; without one UTF-8, or GBK if it can be."""
+    """The mark at the beginning of a text and the encoding that it tells; without one UTF-8, GBK or cp1251."""
     marked = ((mark, codec) for mark, codec in ENCODINGS.items() if data.startswith(mark))
     if known := next(marked, None):
         return known
     try:
         data.decode()
     except UnicodeDecodeError:
-        return b"", chinese.CODEC if chinese.is_gbk(data) else "utf-8"
+        if chinese.is_gbk(data):
+            return b"", chinese.CODEC
+        return b"", cyrillic.CODEC if cyrillic.is_cp1251(data) else "utf-8"
     return b"", "utf-8"
 
 
 def decoded(data: bytes, file: str) -> str | Fault:
     """The text of bytes, or where they are none.
 
-    They are UTF-8, or UTF-16 with its mark, as Notepad and PowerShell write it, or Chinese in GBK.
+    They are UTF-8, or UTF-16 with its mark, as Notepad and PowerShell write it, Chinese in GBK, or Russian in cp1251.
     """
     mark, codec = encoding_of(data)
     content, broken = data.removeprefix(mark), False

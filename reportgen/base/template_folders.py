@@ -6,7 +6,7 @@ import os
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.files import OF_SCHOOL
+from reportgen.base.files import leads_out
 
 Language = str
 """The name of a folder that is a language; whoever reads one from outside checks it against `languages`."""
@@ -49,10 +49,22 @@ def _packed(name: str, beside: str) -> Path:
     return packed if packed.is_dir() else package.parent / beside
 
 
+def _of_school(folder: Path) -> list[Path]:
+    """What may be read of a school's folder: a file of words for each language, its Word file, its title blocks."""
+    words = (f"{language}.md" for language in languages())
+    patterns = (*words, "report.docx", "blocks", "blocks/*.yaml") if os.path.isdir(folder) else ()
+    return [path for pattern in patterns for path in folder.glob(pattern)]
+
+
 def school_files(folder: Path) -> list[Path]:
     """What is read of a school's folder: its words in each language, its title blocks and its Word file."""
-    patterns = OF_SCHOOL if os.path.isdir(folder) else ()
-    return sorted(path for pattern in patterns for path in folder.glob(pattern) if path.name != "blocks")
+    return sorted(path for path in _of_school(folder) if path.name != "blocks")
+
+
+def school_strays(folder: Path, *within: Path) -> list[Path]:
+    """What of a school's folder leads out of it, or out of the folders that it has to stay in, by a link or a way."""
+    paths = [folder, *_of_school(folder)]
+    return [path for path in paths if leads_out(path, folder) or (within and leads_out(path, *within))]
 
 
 def is_school(folder: Path) -> bool:
@@ -61,7 +73,7 @@ def is_school(folder: Path) -> bool:
 
 
 def schools() -> list[str]:
-    """The folders of templates that belong to a school, such as `tnut` with its `vi.md` and `en.md`."""
+    """The folders of templates that belong to a school, such as `tnut` with its `vi.md`."""
     own = {*languages(), "frames"}
     return sorted(folder.name for folder in templates().iterdir() if folder.name not in own and is_school(folder))
 

@@ -21,7 +21,6 @@ from pathlib import Path
 from typing import Any
 
 from reportgen.base.errors import AssignmentError, Fault, Level, Mark, Problem, TemplateError, Where
-from reportgen.base.files import school_strays
 from reportgen.base.gaps import FILLS, filled, gaps, plain_gaps
 from reportgen.base.source import (
     STRANGE,
@@ -44,6 +43,7 @@ from reportgen.base.template_folders import (
     is_school,
     languages,
     school_files,
+    school_strays,
     templates,
 )
 from reportgen.base.units import Language

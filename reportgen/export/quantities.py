@@ -44,6 +44,14 @@ class QuantityArray(np.ndarray):
         self.name, self.symbol = getattr(other, "name", ""), getattr(other, "symbol", None)
         self.unit = getattr(other, "unit", "")
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        reduced: tuple[Any, ...] = tuple(super().__reduce__())
+        return *reduced[:2], (reduced[2], (self.name, self.symbol, self.unit))
+
+    def __setstate__(self, state: Any) -> None:
+        values, (self.name, self.symbol, self.unit) = state
+        super().__setstate__(values)
+
     def __array_wrap__(self, array: Any, context: Any = None, return_scalar: bool = False) -> Any:
         """What is computed of it is a plain array: it has another unit."""
         plain = np.asarray(array)

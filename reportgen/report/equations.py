@@ -47,11 +47,15 @@ def symbol(report: Report, id: str) -> Symbol:
 
 
 def math(report: Report, text: str) -> Symbol:
-    """What a template writes as `$…$`: a quantity's symbol by its id, else letters with what is lowered."""
+    """What a template writes as `$…$`: a quantity's symbol by its id, else letters with what is lowered.
+
+    Raises `LookupError` for what begins with no letter: a formula has nothing that an index could hang on.
+    """
     if text in report.ledger:
         return report.ledger.symbol(text)
-    base = re.match(r"[^\W\d_]*", text)
-    assert base is not None
+    base = re.match(r"[^\W\d_]+", text)
+    if base is None or not re.fullmatch(r"[\w.]+", text):
+        raise LookupError(text)
     return report.named(Symbol(base[0], text[base.end() :].removeprefix("_")))
 
 

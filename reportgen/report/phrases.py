@@ -41,7 +41,7 @@ def say(report: Report, phrase: str, *about: Any, **gaps: Any) -> Inlines:
     try:
         for text, name, how, _ in Formatter().parse(str(phrase)):
             said += [Text(text)] if text else []
-            said += _gap(report, name, how or "", about, gaps) if name else ()
+            said += _gap(report, name, how or "", about, gaps) if name is not None else ()
     except (LookupError, TypeError, ValueError) as error:
         refusal = unfilled(phrase, gaps, report.assignment.language)
         mark = place_of(phrase, report.words)

@@ -62,6 +62,8 @@ class TypstFormulas(TextSetter):
         letters, above = parted(node)
         single = len(letters) == 1 and letters.isalpha()
         base = letters if single else self.lowered(runs(letters), lambda part: f"italic({literal(part)})")
+        # Marks hang on something even where there are no letters.
+        base = base or literal("")
         if node.over == "vector":
             base = f"arrow({base})"
         below = f"_({self.lowered(numbered(node.sub), literal)})" if node.sub else ""

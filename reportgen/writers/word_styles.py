@@ -5,7 +5,7 @@ A school's own styles go before ours, under the names that the report uses.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from functools import cache
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
@@ -93,9 +93,12 @@ def merged(ours: str, school: str, language: Language) -> str:
     own, usual = ElementTree.fromstring(school), ElementTree.fromstring(ours)
     styles, wanted = ({_named(style): style for style in one.iter(f"{_W}style")} for one in (own, usual))
     ids = {_id(styles[name]): _id(style) for name, style in wanted.items() if name in styles}
-    taken = set(ids.values())
+    # The report's own ids are all taken: those of its styles that the school lacks are added below.
+    taken = {_id(style).casefold() for style in wanted.values()}
     for style in styles.values():
-        ids.setdefault(_id(style), f"own-{_id(style)}" if _id(style) in taken else _id(style))
+        if _id(style) not in ids:
+            ids[_id(style)] = _free(_id(style), taken)
+            taken.add(ids[_id(style)].casefold())
     for name, style in styles.items():
         style.set(f"{_W}styleId", ids[_id(style)])
         for reference in (one for one in style if one.tag in _REFERENCES):
@@ -119,6 +122,13 @@ def merged(ours: str, school: str, language: Language) -> str:
         ElementTree.SubElement(letters, f"{_W}lang", dict.fromkeys(tags, setting_of(language).code))
     ElementTree.register_namespace("w", NAMESPACES["w"])
     return PROLOGUE + ElementTree.tostring(own, encoding="unicode")
+
+
+def _free(id: str, taken: Collection[str]) -> str:
+    """The id, or one made of it that is not taken."""
+    while id.casefold() in taken:
+        id = f"own-{id}"
+    return id
 
 
 def _put_in_list(style: ElementTree.Element, numbers: ElementTree.Element) -> None:

@@ -495,6 +495,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("table ends early", {"B: left": "…, press: {unit: N, s: [0, 0.5], P: [0, 1]}"}, "3:122 table-end"),
     ],
     "linkage": [
+        ("the one group has a faulty length", {"    - type: RRP…": "", "[340 mm, 2": "[340, 2"}, "6:63 missing-unit"),
         ("name of a point", {"E: {link: 3": "e1: {link: 3"}, "13:5 point-name"),
         ("unknown point", {"joints: [B, C, D]": "joints: [B, C, X]"}, "6:49 no-such-point"),
         ("point of a later group", {"joints: [B, C, D]": "joints: [F, C, D]"}, "6:43 not-placed"),

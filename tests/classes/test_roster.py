@@ -270,3 +270,32 @@ def test_a_chinese_roster_is_read_as_it_comes(put: Put, codec: str) -> None:
 def test_a_chinese_name_begins_with_that_of_the_family(put: Put, table: str) -> None:
     (student,) = read_roster(put(table), "zh").students
     assert student.card["name"] == "王小明"
+
+
+# --- classes of Russia ------------------------------------------------------------------------------
+
+RUSSIAN = "Номер зачётной книжки;Фамилия;Имя;Группа\n20210235;Ёлкина;Анна;МТ-21\n20210236;Щукин;Пётр;МТ-21\n"
+
+
+@pytest.mark.parametrize("codec", ["utf-8", "cp1251"])
+def test_a_russian_roster_is_read_as_excel_saves_it(put: Put, codec: str) -> None:
+    roster = read_roster(put(RUSSIAN.encode(codec)), "ru")
+    assert [(one.id, one.card["name"], one.card["class"]) for one in roster.students] == [
+        ("20210235", "Ёлкина Анна", "МТ-21"),
+        ("20210236", "Щукин Пётр", "МТ-21"),
+    ]
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        RUSSIAN.encode("koi8-r"),
+        RUSSIAN.encode("cp866"),
+        "id,name\nK1,José Müller\n".encode("cp1252"),
+        "id,name\nK1,Nguyên Vàn\n".encode("cp1258"),
+        b"id,name\nK1,\xff\xfe\x98\n",
+    ],
+)
+def test_other_code_pages_are_refused_rather_than_misread(put: Put, data: bytes) -> None:
+    (fault,) = faults_of(put(data))
+    assert fault.endswith(" encoding")

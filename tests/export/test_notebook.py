@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 import re
 from pathlib import Path
 from typing import Any
@@ -104,7 +105,7 @@ def test_a_study_is_as_files_of_their_own(shaper: Model) -> None:
             assert np.abs(found[id][k] - alone[id]).max() <= OFF * np.abs(alone[id]).max()
     with pytest.raises(AssignmentError):
         shaper.study(H=[2.0, 3.0], of=["v.E"])
-    with pytest.raises(ValueError, match="shorter"):
+    with pytest.raises(ValueError, match="of one length"):
         shaper.study(H=[0.3, 0.4], l4=[0.1], of=["v.E"])
 
 
@@ -127,6 +128,64 @@ def test_random_ranges_are_as_files_of_their_own(name: str) -> None:
 
 
 # --- figures, curves, tables ------------------------------------------------------------------------------
+
+
+def test_ranges_of_two_parameters_make_a_grid() -> None:
+    """The pin's speed is ωr at each pair of values, worked out by hand; the slider's is that of a file of its own."""
+    crank = reportgen.open(ASSIGNMENTS / "slider-crank-01.yaml", "en")
+    speeds, radii = np.array([10.0, 20.0, 25.0]), np.array([0.1, 0.15])
+    found = crank.study(of=["v.B", "v.C"], grid=True, omega1=speeds, r=radii)
+    assert found["v.B"].shape == (3, 2, 1)
+    assert np.allclose(found["v.B"][:, :, 0], np.outer(speeds, radii), rtol=1e-12)
+    alone = crank.with_parameters(omega1=20.0, r=0.1)["v.C"]
+    assert found["v.C"].shape == (3, 2, len(alone))
+    assert np.allclose(found["v.C"][1, 0], alone, rtol=1e-12)
+    assert found["v.C"].unit == "m/s"
+
+
+@pytest.mark.parametrize("ranges", [{}, {"n": []}, {"n": [10.0, 20.0], "r": [0.1]}])
+def test_a_study_without_ranges_or_with_unequal_ones_is_refused(ranges: dict[str, Any]) -> None:
+    crank = reportgen.open(ASSIGNMENTS / "slider-crank-01.yaml", "en")
+    with pytest.raises(UnknownNameError, match="ranges of parameters of one length") as caught:
+        crank.study(of=["v.B"], **ranges)
+    # Programs that catch what zip raises go on working.
+    assert isinstance(caught.value, ValueError)
+
+
+def test_a_parameter_takes_the_place_of_another_that_gives_the_same() -> None:
+    """ω = 2πn/60: 300 rpm are 10π rad/s; a bare number has the unit of SI."""
+    crank = reportgen.open(ASSIGNMENTS / "slider-crank-01.yaml", "en")
+    assert crank.with_parameters(omega1=30)["omega.1"] == pytest.approx([30.0])
+    back = crank.with_parameters(omega1="30 rad/s").with_parameters(n="300 rpm")
+    assert back["omega.1"] == pytest.approx([10 * np.pi])
+    # Mass and weight of a link, which the file has as G2.
+    assert crank.with_parameters(m2=5.0).assignment.parameters.m2.si == 5.0
+    with pytest.raises(AssignmentError, match="both-given"):
+        crank.with_parameters(n="300 rpm", omega1=30)
+
+
+def test_models_and_arrays_are_pickled(shaper: Model) -> None:
+    shaper.figure("v", at=3)
+    again = pickle.loads(pickle.dumps(shaper))
+    assert repr(again) == repr(shaper)
+    assert np.array_equal(again["v.E"], shaper["v.E"])
+    array = pickle.loads(pickle.dumps(shaper["v.E"]))
+    assert (array.name, array.symbol, array.unit) == ("v.E", shaper["v.E"].symbol, "m/s")
+
+
+def test_numbers_of_any_length_are_faults_of_their_key() -> None:
+    """Python writes no integer of more than 4,300 digits."""
+    long = 10**5000
+    with pytest.raises(AssignmentError, match="not-a-number"):
+        reportgen.open({"kind": "slider-crank", "parameters": {"n": long, "r": np.int64(3), "l": (1, 2)}}, "en")
+    crank = reportgen.open(ASSIGNMENTS / "slider-crank-01.yaml", "en")
+    for name in ("n", "s", "omega1"):
+        with pytest.raises(AssignmentError, match=r"error\["):
+            crank.with_parameters(**{name: long})
+
+
+def test_the_names_of_the_package_are_listed() -> None:
+    assert set(reportgen.__all__) <= set(dir(reportgen))
 
 
 def test_a_figure_is_saved_by_the_ending_of_its_name(shaper: Model, tmp_path: Path) -> None:

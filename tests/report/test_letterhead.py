@@ -8,6 +8,7 @@ import shutil
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
 
@@ -16,6 +17,7 @@ from reportgen.base.errors import TemplateError
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.workbook.letterhead import LARGEST, read_letterhead
+from reportgen.writers.word_styles import merged, styles
 from tests.lanes import matrix, proof
 from tests.writers.word_file import W, WordFile
 
@@ -125,7 +127,6 @@ def test_what_is_made_with_it_is_valid(school: Put, letterhead: bytes, tmp_path:
 
 def test_styles_are_found_by_their_names_in_word_of_any_language(letterhead: bytes) -> None:
     """In other languages Word has other ids for them."""
-    from reportgen.writers.word_styles import merged, styles
 
     def renamed(name: str, part: bytes) -> bytes:
         return part.replace(b'"Heading1"', b'"u1"').replace(b'"Normal"', b'"Binhthng"') if "styles" in name else part
@@ -187,6 +188,17 @@ STYLE = '<w:style w:type="paragraph" w:styleId="{}"><w:name w:val="{}"/></w:styl
 
 def styled(inside: str) -> str:
     return STYLE.format("A", "a").replace("</w:style>", f"{inside}</w:style>")
+
+
+def test_styles_of_the_school_never_take_the_ids_of_the_report() -> None:
+    """A school may give the id of a style of the report to another style, also one that it lacks by name."""
+    own = [("TOC1", "Our contents"), ("Normal", "Our text"), ("own-Normal", "Text"), ("heading1", "Our heading")]
+    school = f"<w:styles {NAMESPACE}>{''.join(STYLE.format(id, name) for id, name in own)}</w:styles>"
+    made = merged(styles("Times New Roman", 13, "vi", False, 160), school, "vi")
+    ids = [one.get(f"{W}styleId", "").casefold() for one in ElementTree.fromstring(made).iter(f"{W}style")]
+    assert len(ids) == len(set(ids))
+    names = {name.get(f"{W}val") for name in ElementTree.fromstring(made).iter(f"{W}name")}
+    assert {name for _, name in own} <= names
 
 
 REFUSED: Mapping[str, tuple[str, Callable[[bytes], bytes]]] = {

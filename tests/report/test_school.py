@@ -9,12 +9,18 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError, TemplateError
-from reportgen.base.template_folders import templates
+from reportgen.base.template_folders import search_path, templates
 from reportgen.base.units import Language
 from reportgen.base.words import sections
+from reportgen.cases import open_case
+from reportgen.formula import Symbol
 from reportgen.report import text_of
+from reportgen.report.case import MachineAnalysis
+from reportgen.report.outline import names
+from reportgen.report.prose import Prose
+from reportgen.report.report import Report
 from reportgen.sheets import frame
-from reportgen.writers import latex, pdflatex
+from reportgen.writers import latex, pdflatex, typst_math
 from tests.lanes import matrix, proof
 from tests.report.built import needs_tex
 
@@ -152,6 +158,44 @@ def test_latex_sets_times_and_nothing_stands_out(tmp_path: Path) -> None:
         # Letters of dots are made by Metafont on this machine, which another one has not.
         assert "Type3" not in {type for type, _ in fonts}
         assert "Thuyết minh" in document[3].get_text()
+
+
+CRANK = Path(__file__).parents[2] / "assignments" / "slider-crank-01.yaml"
+
+
+@pytest.mark.parametrize("language", ["ru", "zh", "vi"])
+def test_a_school_may_have_words_in_any_one_language(language: str, tmp_path: Path) -> None:
+    (tmp_path / "ours").mkdir()
+    words = "%% foreword\n# Our foreword {{ unnumbered() }}\n\nAs our department asks.\n"
+    (tmp_path / "ours" / f"{language}.md").write_text(words, encoding="utf-8")
+    file = tmp_path / "mine.yaml"
+    text = CRANK.read_text(encoding="utf-8")
+    file.write_text(text.replace("language: vi", f"language: {language}\n  templates: ours"), encoding="utf-8")
+    assert api.check(file) == []
+    if language == "ru":
+        assert "As our department asks." in text_of(api.document(api.load(file)))
+
+
+@pytest.fixture(scope="module")
+def report() -> Report:
+    case = open_case(CRANK, "en")
+    assert isinstance(case, MachineAnalysis)
+    return Report(case)
+
+
+@pytest.mark.parametrize("gap", ["{0}", "{}", "{#f}", "{x y}", "{_x}", "{'}"])
+def test_a_gap_that_names_nothing_is_a_fault_of_its_line(gap: str, report: Report, tmp_path: Path) -> None:
+    """What is no name of a quantity or of a letter becomes no formula, whose source the typesetter would refuse."""
+    file = tmp_path / "en.md"
+    file.write_text(f'%% foreword\n# Ours\n\n{{{{ say("{gap}", driver) }}}} ends here.\n', encoding="utf-8")
+    prose = Prose((file, *search_path("en", "slider-crank")))
+    with pytest.raises(TemplateError, match="nothing fills a gap"):
+        prose.render("foreword", names(report))
+
+
+def test_a_symbol_without_letters_is_set_by_every_typesetter() -> None:
+    """Marks of a symbol hang on something: in Typst `$_("0")$` would be a mistake of syntax."""
+    assert typst_math.TypstFormulas("en").symbol(Symbol("", "0")).startswith('""_')
 
 
 SAMPLES = [("vi", "Trường Đại học Mẫu"), ("en", "Sample University")]
