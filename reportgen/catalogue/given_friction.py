@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Annotated
 
@@ -17,6 +18,7 @@ from reportgen.formula import friction_ids, ids
 from reportgen.machine import Linkage, joints
 from reportgen.machine.analysis import Machine, analyse
 from reportgen.machine.faces import Faces
+from reportgen.machine.friction_loss import LocksError, friction_loss
 from reportgen.machine.joint_friction import Friction
 
 Coefficient = Annotated[Given, Ratio(Interval(least=0, most=2, tiny=1e-6))]
@@ -97,7 +99,10 @@ def entered(given: JointFriction | None, linkage: Linkage, faces: dict[int, Face
 
 
 def locks(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
-    """A joint whose friction grows with what it causes, at a position that is to be worked out: the mechanism locks."""
+    """A joint whose friction grows with what it causes, where the mechanism locks: at a position to be worked out.
+
+    For a flywheel or a true motion, which take the torque with friction all over the cycle, anywhere in it.
+    """
     if machine.friction is None:
         return
     solved = analyse(machine).with_friction
@@ -109,3 +114,10 @@ def locks(machine: Machine, worked: Sequence[int]) -> Iterator[Finding]:
                 words = {"first": str(first), "second": str(second), "position": str(machine.position(k))}
                 yield Finding("locks", ("parameters", "friction"), words, at="key")
                 return
+    if machine.unevenness is None and machine.true_motion is None:
+        return
+    try:
+        friction_loss(machine)
+    except LocksError as error:
+        words = {"angle": f"{math.degrees(error.angle):.1f}"}
+        yield Finding("locks-in-cycle", ("parameters", "friction"), words, at="key")

@@ -20,6 +20,8 @@ force = Name("friction.F.{joint}")
 part = Name("friction.part.{joint}")
 """Of the driver's torque: what overcomes the friction of a joint."""
 torque = "friction.M"
+reduced = "friction.reduced"
+"""What friction takes from the crank, as a reduced torque beside that of the loads."""
 torque_of_round = Name("friction.round.{round}")
 efficiency = "friction.eta"
 mean = "friction.mean"
@@ -42,6 +44,7 @@ ROWS = (
     VocabularyRow(
         torque_of_round, "M", "torque", Chapter.torque, below="cb", above="({round})", name="torque with friction"
     ),
+    VocabularyRow(Name(reduced), "M", "torque", Chapter.cycle, below="tt", above="fr", name="reduced friction torque"),
     VocabularyRow(Name(efficiency), "η", "ratio", Chapter.torque, name="efficiency"),
     VocabularyRow(Name(mean), "M", "torque", Chapter.cycle, below="m", above="fr", name="mean torque with friction"),
     VocabularyRow(Name(cycle_efficiency), "η", "ratio", Chapter.cycle, below="m", name="efficiency over the cycle"),

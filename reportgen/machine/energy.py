@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from reportgen.machine.analysis import Machine, breaks
 from reportgen.machine.drives import Drive
+from reportgen.machine.friction_loss import FrictionLoss
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import gauss
 from reportgen.machine.reduction import reduced
@@ -97,19 +98,28 @@ class ReducedWay:
 
 @dataclass(frozen=True)
 class ReducedMachine:
-    """A machine with what turns beside its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel."""
+    """A machine with what turns beside its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel.
+
+    `loss` is the torque that friction takes from its crank, if any joint rubs.
+    """
 
     machine: Machine
     added: float = 0.0
+    loss: FrictionLoss | None = None
 
     @property
     def whole(self) -> float:
         """The cycle (rad)."""
         return self.machine.turns * FULL_TURN
 
-    def reduced(self, angle: Floats) -> tuple[Floats, Floats, Floats]:
-        """J, J′ and M_r at rising cycle angles [N]; they may go on beyond the cycle."""
+    def reduced(self, angle: Floats, sense: int = 1) -> tuple[Floats, Floats, Floats]:
+        """J, J′ and M_r at rising cycle angles [N]; they may go on beyond the cycle.
+
+        Friction acts against the `sense` in which the crank goes.
+        """
         inertia, slope, torque = reduced(self.machine, angle)
+        if self.loss is not None:
+            torque = torque - sense * self.loss.torque(angle)
         return inertia + self.added, slope, torque
 
     @property
@@ -135,7 +145,8 @@ class ReducedMachine:
 
     @cached_property
     def corners(self) -> Floats:
-        return breaks(self.machine)
+        own = np.empty(0) if self.loss is None else self.loss.edges[:-1]
+        return np.unique(np.concatenate((breaks(self.machine), own)))
 
     def parted(self, start: float, own: Sequence[float] = ()) -> Floats:
         """The edges (rad) of a cycle from `start`: even ones, where loads jump, and `own` ones."""

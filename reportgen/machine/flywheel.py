@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.machine.analysis import Analysis, Machine, analyse, breaks, possible
+from reportgen.machine.friction_loss import friction_loss
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia, reduced_torque
@@ -94,19 +95,28 @@ def _torque(analysis: Analysis) -> Floats:
 
 
 def flywheel(machine: Machine, unevenness: float) -> RegulatedCycle:
-    """The flywheel (kg·m²) for the unevenness δ, over angles among which are all positions and corners of the loads."""
+    """The flywheel (kg·m²) for the unevenness δ, over angles among which are all positions and corners of the loads.
+
+    The reduced torque is that of weights, loads and the friction of the joints.  Raises `LocksError`.
+    """
+    loss = friction_loss(machine)
+
+    def torque_at(analysis: Analysis) -> Floats:
+        lost = 0.0 if loss is None else loss.torque(analysis.cycle_angle)
+        return _torque(analysis) - lost
+
     whole = machine.turns * FULL_TURN
-    own = np.concatenate((machine.cycle_angles, breaks(machine), [0.0, whole]))
+    own = np.concatenate((machine.cycle_angles, breaks(machine), [0.0, whole], [] if loss is None else loss.edges))
     grid = np.linspace(0.0, whole, machine.turns * SAMPLES + 1)
     every = np.sort(np.concatenate((grid, own)))
     angle = every[np.concatenate(([True], np.diff(every) > SAME_ANGLE))]
     analysis = analyse(machine, angle)
-    torque, least = _torque(analysis), SAME_ANGLE * possible(analysis.motion, (*analysis.weights, *analysis.applied))
+    torque, least = torque_at(analysis), SAME_ANGLE * possible(analysis.motion, (*analysis.weights, *analysis.applied))
     idle = np.abs(torque).max() <= least
     return regulate(
         angle,
         np.zeros_like(torque) if idle else torque,
-        np.zeros_like(torque) if idle else accumulated(lambda at: _torque(analyse(machine, at)), angle, ORDER),
+        np.zeros_like(torque) if idle else accumulated(lambda at: torque_at(analyse(machine, at)), angle, ORDER),
         reduced_inertia(machine, analysis.motion),
         machine.speed,
         unevenness,

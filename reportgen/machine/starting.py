@@ -79,17 +79,23 @@ def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[Mot
     run, arrives = passage(body, edges, drive, 0.0)
     every, set_out = np.concatenate((edges[:-1] - body.whole, edges)), float(edges[0])
     while not arrives:
-        at, torque = float(run.angle[-1]), float(run.torque[-1] + run.drive[-1])
+        at = float(run.angle[-1])
+        torque = float(body.reduced(np.array([at]), -1)[2][0] + run.drive[-1])
         if not body.yields or torque >= 0 or len(turns_back) >= MOST_SWINGS:
             raise stalled(body, run)
         behind = _swing(body, drive, at)
-        if behind is None or behind.angle[-1] >= set_out:
+        if behind is None or behind.angle[-1] >= set_out or not _moves(body, drive, float(behind.angle[-1])):
             raise stalled(body, run)
         turns_back.append(at)
         set_out = float(behind.angle[-1])
         forward, arrives = passage(body, np.append(set_out, every[every > set_out + SAME_ANGLE]), drive, 0.0)
         run = run.joined(behind, forward)
     return run, tuple(turns_back)
+
+
+def _moves(body: ReducedMachine, drive: Drive, angle: float) -> bool:
+    """Whether the crank goes forward from rest at an angle (rad)."""
+    return bool(body.reduced(np.array([angle]))[2][0] + drive.torque(np.zeros(1))[0] > 0)
 
 
 def _swing(body: ReducedMachine, drive: Drive, at: float) -> MotionRun | None:

@@ -73,7 +73,7 @@ class TimeStepper:
         """J, J′ and M_r at angles [N] in the order in which the crank comes to them."""
         if self.sense > 0:
             return self.body.reduced(angle)
-        inertia, slope, torque = (values[::-1] for values in self.body.reduced(angle[::-1]))
+        inertia, slope, torque = (values[::-1] for values in self.body.reduced(angle[::-1], -1))
         return inertia, slope, torque
 
     def leg(self, angle: float, speed: float, edge: float) -> Leg:

@@ -12,6 +12,7 @@ from reportgen.machine.drives import ConstantDrive, Drive, MotionAsked
 from reportgen.machine.energy import ReducedMachine
 from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.forces import inertia_loads, solve_forces, virtual_work_torque, weights
+from reportgen.machine.friction_loss import friction_loss
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import solve_motion
 from reportgen.machine.motors import DriveDemand, MotorChecks, judged
@@ -71,7 +72,7 @@ def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle 
     """
     own = [float(angle) for angle in machine.cycle_angles]
     own += [angle for angle in (asked.start_from, asked.stop_from) if angle is not None]
-    alone = ReducedMachine(machine, asked.inertia)
+    alone = ReducedMachine(machine, asked.inertia, friction_loss(machine))
     path = alone.along(alone.parted(0.0, own))
     least = min(float(path.inertia.min()), float(path.at_edges[0].min()))
     if least <= NO_INERTIA * float(path.inertia.max()):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, atan, call, ids, sqrt, total
+from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, atan, call, friction_ids, ids, sqrt, total
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Analysis
@@ -71,8 +71,11 @@ def enter_reduced(q: Sheet, analysis: Analysis, torque: np.ndarray, largest: flo
     ]
     ways = np.diff(np.append(machine.cycle_angles, machine.turns * FULL_TURN))
     steps = q.give("steps", ways, Symbol("φ"), "ratio", hidden=True)
-    by_lever = machine.turn * total(on_lever) if on_lever else Number(0.0)
+    by_lever: Expression = machine.turn * total(on_lever) if on_lever else Number(0.0)
     symbol = Symbol("M", "tt")
+    if lost := [q[id] for id in q.families if id in friction_ids.part]:
+        friction = q.define(friction_ids.reduced, -total(lost), Symbol("M", "tt", "fr"), "torque", scale=largest)
+        by_lever = by_lever + friction
     M_r = with_rest(q, "M.r", values=torque, by_rule=by_lever, symbol=symbol, kind="torque", scale=largest)
     return J_r, M_r, steps
 

@@ -1,0 +1,119 @@
+"""Flywheel, true motion and motor of a machine whose joints rub: the friction is part of what they balance."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reportgen import catalogue
+from reportgen.cases import MachineCase, open_case
+from reportgen.machine.analysis import Machine
+from reportgen.machine.flywheel import flywheel
+from reportgen.machine.true_motion import TrueMotion, true_motion
+from reportgen.report import text_of
+
+R, L, F = 0.1, 0.4, 500.0
+TEXT = """\
+kind: slider-crank
+report: {{language: en, worked_positions: [3]}}
+positions: {{count: 8}}
+parameters:
+  r: 100 mm
+  l: 400 mm
+  n: 100 rpm
+  J1: 1 kg m2
+  force: {{by: constant, F: 500 N, stroke: both}}
+  loads:
+    - {{by: constant, link: 1, M: -30 N m}}
+  friction: {{sliders: {{3: {f}}}}}
+  flywheel: {{delta: 1/20}}
+  motion:
+    drive:
+      M0: 150 N m
+      k: 9 N m s
+      motors:
+        - {{name: small, power: {small} W, n: 100 rpm, start: 500 N m, breakdown: 500 N m}}
+        - {{name: large, power: 2 kW, n: 100 rpm, start: 500 N m, breakdown: 500 N m}}
+    start: {{}}
+    stop: {{brake: 60 N m}}
+"""
+
+
+def lost(f: float) -> float:
+    """What the slider takes in a turn (J): ∮ f N |dx|, N = F tan β/(1 ∓ f tan β) against the load and with it."""
+    φ = np.linspace(0.0, math.pi, 100_001)
+    tanβ = np.tan(np.arcsin(R * np.sin(φ) / L))
+    rate = R * np.sin(φ) + R**2 * np.sin(φ) * np.cos(φ) / np.sqrt(L**2 - (R * np.sin(φ)) ** 2)
+    pressing = F * tanβ / (1 - f * tanβ) + F * tanβ / (1 + f * tanβ)
+    return float(np.trapezoid(f * pressing * rate, φ))
+
+
+def opened(tmp_path: Path, f: float, small: float = 240.0) -> tuple[Path, Machine, TrueMotion]:
+    file = tmp_path / "machine.yaml"
+    file.write_text(TEXT.format(f=f, small=small), encoding="utf-8")
+    assignment = catalogue.load(file)
+    machine = catalogue.module(assignment.kind).machine(assignment)
+    assert machine.unevenness is not None
+    assert machine.true_motion is not None
+    return file, machine, true_motion(machine, machine.true_motion, flywheel(machine, machine.unevenness))
+
+
+@pytest.mark.parametrize("f", [0.1, 0.6])
+def test_the_drive_does_the_work_of_loads_and_friction(f: float, tmp_path: Path) -> None:
+    """30 N·m on the crank, none of the force over a turn, and that of the slider, for wheel, drive and motor alike."""
+    _, machine, motion = opened(tmp_path, f)
+    work = 2 * math.pi * 30 + lost(f)
+    assert flywheel(machine, 0.05).constant * 2 * math.pi == pytest.approx(work, rel=1e-7)
+    for steady in motion.states.values():
+        assert steady.work == pytest.approx(work, rel=1e-7)
+    assert motion.demand(machine).mean * 2 * math.pi == pytest.approx(work, rel=1e-7)
+
+
+def test_the_brake_has_less_to_do(tmp_path: Path) -> None:
+    """From the stop on φ the energy has gone into brake, load and slider."""
+    _, _, motion = opened(tmp_path, 0.6)
+    _, _, smooth = opened(tmp_path, 1e-6)
+    assert motion.stopped is not None
+    assert smooth.stopped is not None
+    assert motion.stopped.angle[-1] < smooth.stopped.angle[-1]
+    assert motion.started is not None
+    assert smooth.started is not None
+    assert motion.started.time > smooth.started.time
+
+
+def test_the_motor_overcomes_friction(tmp_path: Path) -> None:
+    """A motor that endures the loads alone is too weak for them and the slider."""
+    f = 0.6
+    _, machine, motion = opened(tmp_path, f)
+    needed = motion.demand(machine).effective * 100 * math.pi / 30
+    _, machine, motion = opened(tmp_path, f, small=round(needed * 0.99, 1))
+    assert [checks.fits for checks in motion.motors(machine)] == [False, True]
+    _, machine, smooth = opened(tmp_path, 1e-6, small=round(needed * 0.99, 1))
+    assert [checks.fits for checks in smooth.motors(machine)] == [True, True]
+
+
+def test_text_task_and_key_say_so(tmp_path: Path) -> None:
+    file, _, _ = opened(tmp_path, 0.3)
+    case = open_case(file)
+    assert isinstance(case, MachineCase)
+    text = text_of(case.document())
+    assert "The friction of the joints is a resistance as well" in text
+    assert "The friction of the joints is taken into account." in text
+    ledger = case.ledger
+    # M_tt is the torque of the load and what friction takes of it; the power balance at ω₁ has both.
+    gained = ledger["friction.M"].values - ledger["M.eq"].values
+    assert float(gained.min()) > -1e-9
+    assert ledger["friction.reduced"].values == pytest.approx(-gained, abs=1e-9 * float(np.abs(gained).max()))
+    assert ledger["M.r"].values == pytest.approx(-ledger["friction.M"].values, abs=1e-6)
+
+
+def test_a_mechanism_that_locks_anywhere_is_refused(tmp_path: Path) -> None:
+    """tan β = 0.559 where the rod is steepest, f tan β = 1.12; position 1, which is worked out, is a dead centre."""
+    file = tmp_path / "locks.yaml"
+    text = TEXT.format(f=1.999, small=240).replace("l: 400 mm", "l: 205 mm").replace("[3]", "[1]")
+    file.write_text(text.replace("count: 8", "count: 4"), encoding="utf-8")
+    faults = catalogue.check(file)
+    assert any(fault.code == "locks-in-cycle" for fault in faults)
