@@ -183,7 +183,9 @@ def grade(
     for name, refused in failed.items():
         reasons[name] = (*reasons.get(name, ()), *refused.reasons)
     too_little = {
-        marking.key.id: marking.submission for marking in marked if marking.submission.share_read < policy.least_read
+        marking.key.id: marking.submission
+        for marking in marked
+        if marking.submission.share_read < policy.least_read or marking.submission.is_unrecognised
     }
     marked = [marking for marking in marked if marking.key.id not in too_little]
     unmarked = [
@@ -193,7 +195,8 @@ def grade(
     ]
     unexpected = (problem for refused in failed.values() for problem in refused.problems)
     archives = (as_problem(fault, language) for fault in faults)
-    problems = (*listed.notes, *collected.problems, *unexpected, *archives, *misfits, *late)
+    notes = [note for work in works.works.values() for note in work.notes(language)]
+    problems = (*listed.notes, *collected.problems, *unexpected, *archives, *notes, *misfits, *late)
     return Graded(tuple(marked), problems, tuple(unmarked), owners, known, own=works.works, kept=collected.readings)
 
 

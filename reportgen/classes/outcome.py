@@ -29,9 +29,9 @@ from reportgen.handin import FileReading
 from reportgen.handin.checking import summary as summary_of_reading
 from reportgen.handin.reading_book import NAME, reading_book
 from reportgen.marking.class_page import class_document
-from reportgen.marking.comment import comment
+from reportgen.marking.comment import comment, unmarked_comment
 from reportgen.marking.feedback import feedback_book, feedback_document
-from reportgen.marking.grades import grade_rows, person
+from reportgen.marking.grades import grade_rows, open_cells, person
 from reportgen.marking.marks import Marking
 from reportgen.marking.policy import Policy
 from reportgen.marking.questions import question_rows
@@ -80,15 +80,22 @@ def files_of(
         if owner := graded.owners.get(key.id):
             given_back = {name: files[name] for name in ("feedback.xlsx", "feedback.pdf") if name in files} | copies
             returned |= {f"{owner.prefix}{name}": content for name, content in given_back.items()}
+    for student in graded.unsettled:
+        text = _text(unmarked_comment(student))
+        yield _folder(student.key) / "feedback.txt", text
+        if owner := graded.owners.get(student.key.id):
+            returned[f"{owner.prefix}feedback.txt"] = text
     yield from _readings(graded, policy, out, language)
     if returned:
         yield Path("feedback.zip"), zipped(returned)
-    if markings:
-        key = markings[0].key
+    read = [*(marking.key for marking in markings), *(one.key for one in graded.unsettled)]
+    if read:
+        key = read[0]
         spoken = language or key.language
         yield Path("grades.csv"), write_csv(grade_rows(markings, spoken, graded.unmarked, policy))
-        yield Path("questions.csv"), write_csv(question_rows(markings, spoken))
-        if compared := groups(markings, policy, spoken):
+        if markings:
+            yield Path("questions.csv"), write_csv(question_rows(markings, spoken))
+        if markings and (compared := groups(markings, policy, spoken)):
             yield Path("by-variant.csv"), write_csv(variant_rows(compared, spoken))
         named = title(key.kind, spoken)
         overview = class_document(markings, named, spoken, graded.unmarked, policy)
@@ -160,7 +167,7 @@ def _feedback(
     makers: Mapping[str, Callable[[], bytes]] = {
         "feedback.xlsx": lambda: write_xlsx(feedback_book(marking, policy.show_answers)),
         "feedback.pdf": page,
-        "feedback.txt": lambda: "".join(f"{line}\n" for line in comment(marking, policy)).encode(),
+        "feedback.txt": lambda: _text(comment(marking, policy)),
     }
     files: dict[str, bytes] = {}
     problems: list[Problem] = []
@@ -171,6 +178,10 @@ def _feedback(
         else:
             files[name] = made
     return files, problems
+
+
+def _text(lines: Iterable[str]) -> bytes:
+    return "".join(f"{line}\n" for line in lines).encode()
 
 
 def put(
@@ -230,13 +241,19 @@ def summary(graded: Graded, language: Language | None) -> Iterator[str]:
         points, out_of = f"{marking.points:g}", f"{marking.out_of:g}"
         who, firsts = person(marking.key), len(marking.first_errors)
         line = word("graded", language, id=who, points=points, out_of=out_of, firsts=firsts)
-        yield line + summary_of_reading(marking.submission, language)
+        yield line + summary_of_reading(marking.submission, language) + _open(marking, language)
     for student in graded.unsettled:
         assert student.unsettled is not None
-        yield word("graded_unsettled", language, id=person(student.key)) + summary_of_reading(
-            student.unsettled, language
-        )
+        state = "graded_unrecognised" if student.unsettled.is_unrecognised else "graded_unsettled"
+        yield word(state, language, id=person(student.key)) + summary_of_reading(student.unsettled, language)
     if graded.missing:
         yield counted("graded_missing", language, len(graded.missing))
     if graded.refused:
         yield counted("graded_refused", language, len(graded.refused))
+
+
+def _open(marking: Marking, language: Language | None) -> str:
+    """The values of a sheet that were not read; those of own files are counted with what is to be settled."""
+    if not marking.submission.problems or not marking.open:
+        return ""
+    return word("graded_open", language, cells=open_cells(marking))

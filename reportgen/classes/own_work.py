@@ -38,6 +38,10 @@ class OwnWork:
         """What is marked where no sheet stands beside them."""
         return submission([reading for _, reading in self.files], language)
 
+    def notes(self, language: Language | None) -> list[Problem]:
+        """What is to be said of each file as a whole."""
+        return [as_problem(note, language, "note") for _, reading in self.files for note in reading.notes]
+
 
 @dataclass
 class OwnWorks:

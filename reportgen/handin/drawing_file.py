@@ -58,7 +58,7 @@ def read(path: Path, data: bytes, key: Key, plans: WantedPlans | None) -> FileRe
 
 def names(path: Path, data: bytes, known: Collection[str]) -> Collection[str]:
     """Which of some names stand in a drawing as words; raises `RefusedError`."""
-    text = "\n".join(text.text for text in read_lines(data, str(path)).texts).casefold()
+    text = "\n".join(text.text for text in read_lines(data, str(path)).all_texts).casefold()
     return [name for name in known if name and re.search(rf"(?<!\w){re.escape(name.casefold())}(?!\w)", text)]
 
 
@@ -83,10 +83,10 @@ def marked(path: Path, data: bytes, reading: FileReading, marking: Marking, poli
             named = f"{symbol_text(row, marking.key)} ({marking.key.label(position, id)})"
             said.setdefault(mark, []).append(f"{named}: {words['drawing']['wrong']}")
     if not policy.show_answers:
-        vectors = [RedVector(mark.at, None, tuple(lines)) for mark, lines in said.items() if lines]
+        vectors = [RedVector(mark.at, None, tuple(lines), mark.space) for mark, lines in said.items() if lines]
     else:
         turned = (words["drawing"]["turned"],)
-        vectors = [RedVector(mark.at, mark.right, tuple(lines) or turned) for mark, lines in said.items()]
+        vectors = [RedVector(mark.at, mark.right, tuple(lines) or turned, mark.space) for mark, lines in said.items()]
     units = {answer.mark.unit for answer in reading.values.values() if isinstance(answer.mark, DrawnMark)}
     return MARKED, with_corrections(data, vectors, 1 / next(iter(units), 1.0))
 

@@ -15,10 +15,11 @@ import numpy as np
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import MM
 from reportgen.handin import FileReading
-from reportgen.handin.arrowheads import arrowheads
 from reportgen.handin.dxf_lines import DrawnLines, DrawnText
+from reportgen.handin.line_set import Lines
+from reportgen.handin.pieces import distinct, meant
 from reportgen.handin.plan_finder import FoundPlans, find
-from reportgen.handin.plan_fit import SEEN, Fit, Lines
+from reportgen.handin.plan_fit import SEEN, Fit
 from reportgen.handin.plan_labels import Labels
 from reportgen.handin.plan_shapes import PlanShape, PlanSketch, Values
 from reportgen.handin.wrong_vectors import WrongVector, wrong_vectors
@@ -46,6 +47,8 @@ class DrawnMark(Mark):
     right: complex = 0j
     unit: float = 1.0
     wrong: bool = False
+    space: bytes = b""
+    """The block of the sheet of paper that it stands on, "" in model space."""
 
     def __str__(self) -> str:
         return f"{self.file}:({self.at.real:.6g}, {self.at.imag:.6g})"
@@ -76,19 +79,53 @@ class WantedPlans:
 
 
 def read_drawing(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
-    """What a drawing shows of the plans that are wanted, in the unit that it names or else in a usual one.
+    """What a drawing shows of the plans that are wanted, in model space and on its sheets of paper.
 
     Raises `RefusedError` where it has more lines than any drawing of plans.
     """
-    if len(drawn.ends) > MOST_LINES:
+    spaces = (drawn, *drawn.sheets)
+    if sum(len(space.ends) for space in spaces) > MOST_LINES:
         raise RefusedError("drawing-lines", Mark(file), most=str(MOST_LINES))
+    readings = [_read_space(space, file, wanted) for space in spaces if len(space.ends)]
+    whole = FileReading(wanted.key.id, file, {}, notes=drawn.notes)
+    for reading in readings:
+        whole = _with_space(whole, reading)
+    if whole.drawn:
+        return whole
+    return replace(whole, notes=(*drawn.notes, Fault("drawing-no-plans", Mark(file))))
+
+
+def _with_space(first: FileReading, second: FileReading) -> FileReading:
+    """Both readings as one; a place with two values that differ by more than they may be off is unread."""
+    both = first.values.keys() & second.values.keys()
+    clash = {
+        place
+        for place in both
+        if abs(first.values[place].value - second.values[place].value)
+        > first.measured[place].error + second.measured[place].error
+    }
+    values = {place: answer for place, answer in {**second.values, **first.values}.items() if place not in clash}
+    unread = {place: fault for place, fault in {**second.unread, **first.unread}.items() if place not in values}
+    unread |= {place: Fault("unread-two-plans", second.values[place].mark) for place in clash}
+    return replace(
+        first,
+        values=values,
+        unread=unread,
+        measured={place: {**second.measured, **first.measured}[place] for place in values},
+        drawn=first.drawn | second.drawn,
+        beside={**second.beside, **first.beside},
+    )
+
+
+def _read_space(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReading:
+    """What one space of a drawing shows, in the unit that the file names or else in a usual one."""
     searches: list[_Search] = []
     for unit in dict.fromkeys((*((drawn.unit,) if drawn.unit else ()), *USUAL)):
         searches.append(_Search.of(drawn, unit, wanted))
         if searches[-1].plans.plans:
             break
     best = searches[-1] if searches[-1].plans.plans else searches[0]
-    return _Reading(best, wanted.key, file).read(drawn.notes)
+    return _Reading(best, wanted.key, file, drawn.space).read()
 
 
 @dataclass(frozen=True)
@@ -103,10 +140,9 @@ class _Search:
     @classmethod
     def of(cls, drawn: DrawnLines, unit: float, wanted: WantedPlans) -> _Search:
         ends = drawn.ends * unit
-        every = Lines(ends[np.abs(ends[:, 1] - ends[:, 0]) > OFF], OFF)
-        marked = arrowheads(every)
-        kept = ~marked.strokes & (np.abs(every.ends[:, 1] - every.ends[:, 0]) > 2 * every.reach)
-        lines, heads = Lines(every.ends[kept], OFF), marked.heads[kept]
+        whole, heads = meant(Lines(distinct(ends[np.abs(ends[:, 1] - ends[:, 0]) > OFF]), OFF))
+        kept = np.flatnonzero(np.abs(whole.ends[:, 1] - whole.ends[:, 0]) > 2 * whole.reach)
+        lines, heads = whole.only(kept), heads[kept]
         texts = [DrawnText(text.text, text.at * unit, text.height * unit) for text in drawn.texts]
         labels = wanted.labels(texts)
         plans = find(wanted.shapes(wanted.known), lines, labels)
@@ -124,9 +160,9 @@ def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labe
     before = {(fit.shape.scale, fit.shape.position): fit for fit in plans.plans}
     whole = {place for place, fit in before.items() if not fit.missing(least)}
     used = [line for place in whole for line in before[place].used]
-    index = np.setdiff1d(np.arange(len(lines.ends)), np.array(used, dtype=int))
+    index = lines.without(used)
     left = [shape for shape in shapes if (shape.scale, shape.position) not in whole]
-    own = find(left, Lines(lines.ends[index], lines.error), labels)
+    own = find(left, lines.only(index), labels)
     placed = {place: (fit, sure) for (place, fit), sure in zip(before.items(), plans.sure, strict=True)}
     for fit, sure in zip(own.plans, own.sure, strict=True):
         place, full = (fit.shape.scale, fit.shape.position), replace(fit, lines=np.append(index, -1)[fit.lines])
@@ -146,8 +182,9 @@ class _Reading:
     search: _Search
     key: Key
     file: str
+    space: bytes
 
-    def read(self, notes: Sequence[Fault]) -> FileReading:
+    def read(self) -> FileReading:
         plans = self.search.plans
         values: dict[Place, Answer] = {}
         measured: dict[Place, ReadOff] = {}
@@ -179,19 +216,9 @@ class _Reading:
             for number, vector in enumerate(fit.shape.vectors):
                 for place in filter(None, (self.place(name, fit) for name in (vector.length, vector.direction))):
                     unread.setdefault(place, Fault("unread-two-plans", self.mark(fit, number)))
-        nothing = () if plans.plans or plans.doubtful else (Fault("drawing-no-plans", Mark(self.file)),)
         unread = {place: fault for place, fault in unread.items() if place not in values}
         drawn = frozenset((*values, *unread))
-        return FileReading(
-            self.key.id,
-            self.file,
-            values,
-            unread,
-            notes=(*notes, *nothing),
-            measured=measured,
-            drawn=drawn,
-            beside=beside,
-        )
+        return FileReading(self.key.id, self.file, values, unread, measured=measured, drawn=drawn, beside=beside)
 
     def place(self, id: str, fit: Fit) -> Place | None:
         """The place of a quantity at a plan's position, if the key has a cell for it there.
@@ -222,7 +249,7 @@ class _Reading:
         """Where a vector begins, as drawn or as it should, and where it should end."""
         unit, a = self.search.unit, complex(fit.at(fit.shape.starts[number])) if start is None else start
         along = fit.scale * complex(fit.shape.ends[number] - fit.shape.starts[number])
-        return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong)
+        return DrawnMark(self.file, at=a / unit, right=(a + along) / unit, unit=unit, wrong=wrong, space=self.space)
 
 
 def _length(fit: Fit, number: int, start: complex, end: complex) -> tuple[float, float, float]:

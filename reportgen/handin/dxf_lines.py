@@ -9,14 +9,14 @@ import cmath
 import codecs
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
 
 from reportgen.base.errors import Fault, Mark
-from reportgen.handin.dxf_tags import MOST, Entities, Entity, is_drawn, read_entities
+from reportgen.handin.dxf_tags import MOST, Entities, Entity, read_entities
 from reportgen.workbook.package import RefusedError
 
 UNITS = {1: 25.4, 2: 304.8, 4: 1.0, 5: 10.0, 6: 1000.0, 14: 100.0}
@@ -42,31 +42,46 @@ class DrawnText:
 
 @dataclass(frozen=True)
 class DrawnLines:
-    """All straight lines [M, 2] of a drawing and its texts, in its own units, of which `unit` is the one named (mm).
+    """All straight lines [M, 2] in the model space of a drawing and its texts, in its own units.
 
-    `notes` tell what was left alone.
+    `unit` is the one that the file names (mm), `notes` tell what was left alone, `sheets` are what stands on sheets of
+    paper, each with the name of its block as `space`.
     """
 
     ends: np.ndarray
     texts: tuple[DrawnText, ...] = ()
     unit: float | None = None
     notes: tuple[Fault, ...] = ()
+    space: bytes = b""
+    sheets: tuple[DrawnLines, ...] = ()
+
+    @property
+    def all_texts(self) -> tuple[DrawnText, ...]:
+        return (*self.texts, *(text for sheet in self.sheets for text in sheet.texts))
 
 
 def read_lines(data: bytes, file: str) -> DrawnLines:
     """The lines and texts of a DXF.  Raises `RefusedError`."""
     contents = read_entities(data, file)
     encoding = encoding_of(contents.header)
-    model = _pieces(contents.model, encoding)
     unfolding = _Unfolding(contents, encoding, file)
-    unfolding.check(model)
-    whole = unfolding.unfolded(model)
+    pieces = {name: unfolding.pieces_of(entities) for name, entities in contents.spaces.items()}
+    unfolding.check(pieces.values())
+    spaces = {name: unfolding.unfolded(own) for name, own in pieces.items()}
+    model = spaces.pop(b"")
     unit = UNITS.get(contents.number(b"$INSUNITS"))
     mark = Mark(file)
     notes = [Fault("drawing-pictures", mark, {"count": f"{contents.pictures}"})] if contents.pictures else []
     names = [name.decode(encoding, "replace") for name, block in contents.blocks.items() if block.external]
     notes += [Fault("drawing-external", mark, {"text": name}) for name in names]
-    return DrawnLines(whole.lines, tuple(whole.texts), unit, tuple(notes))
+    hidden = unfolding.hidden
+    notes += [Fault("drawing-hidden", mark, {"count": f"{hidden}"})] if hidden else []
+    sheets = [
+        DrawnLines(own.lines, tuple(own.texts), unit, space=name)
+        for name, own in spaces.items()
+        if len(own.lines) or own.texts
+    ]
+    return DrawnLines(model.lines, tuple(model.texts), unit, tuple(notes), sheets=tuple(sheets))
 
 
 def encoding_of(header: Mapping[bytes, bytes]) -> str:
@@ -126,10 +141,18 @@ class _Unfolding:
     pieces: dict[bytes, Pieces] = field(default_factory=dict)
     counts: dict[bytes, int] = field(default_factory=dict)
     whole: dict[bytes, Pieces] = field(default_factory=dict)
+    hidden: int = 0
+    """Entities that are not seen."""
 
-    def check(self, model: Pieces) -> None:
+    def pieces_of(self, entities: Sequence[Entity]) -> Pieces:
+        """What is seen of some entities."""
+        seen = [entity for entity in entities if self.contents.is_seen(entity)]
+        self.hidden += len(entities) - len(seen)
+        return _pieces(seen, self.encoding)
+
+    def check(self, several: Iterable[Pieces]) -> None:
         """Count before anything is unfolded: a file of a few kB may have millions of lines in blocks of blocks."""
-        if self.count(model, ()) > MOST:
+        if sum(self.count(pieces, ()) for pieces in several) > MOST:
             raise RefusedError("drawing-elements", Mark(self.file), most=f"{MOST}")
 
     def count(self, pieces: Pieces, within: tuple[bytes, ...]) -> int:
@@ -152,7 +175,7 @@ class _Unfolding:
         if block is None or block.external:
             return None
         if name not in self.pieces:
-            pieces = _pieces(block.entities, self.encoding)
+            pieces = self.pieces_of(block.entities)
             self.pieces[name] = _moved(pieces, Affine(c=-block.base)) if block.base else pieces
         return self.pieces[name]
 
@@ -206,7 +229,7 @@ def _pieces(entities: list[Entity], encoding: str) -> Pieces:
         if polyline is not None and corners:
             lines += _seen(polyline, _path(corners, bool(polyline.whole(70) & 1)))
         polyline = corners = None
-        if not is_drawn(entity) or (plane := _plane(entity)) is None:
+        if (plane := _plane(entity)) is None:
             continue
         match entity.type:
             case b"LINE":
@@ -215,6 +238,10 @@ def _pieces(entities: list[Entity], encoding: str) -> Pieces:
                 lines += _seen(entity, _path(_corners(entity), bool(entity.whole(70) & 1)))
             case b"POLYLINE" if not entity.whole(70) & (16 | 64):
                 polyline, corners = entity, []
+            case b"MLINE":
+                lines += _path(_corners(entity, 11), bool(entity.whole(71) & 2))
+            case b"SPLINE":
+                lines += _straight(entity)
             case b"SOLID" | b"TRACE":
                 outline = [_at(entity, code) for code in (10, 11, 13, 12) if any(tag == code for tag, _ in entity.tags)]
                 lines += _seen(entity, list(pairwise([*outline, *outline[:1]])))
@@ -255,25 +282,25 @@ def _plane(entity: Entity) -> Affine | None:
     if math.hypot(x, y) > STRAIGHT * abs(z):
         return None
     # The ends of a line stand in the plane of the drawing, whatever its own is.
-    return Affine() if z > 0 or entity.type in (b"LINE", b"LEADER") else MIRROR
+    return Affine() if z > 0 or entity.type in (b"LINE", b"LEADER", b"MLINE", b"SPLINE") else MIRROR
 
 
-def _corners(entity: Entity) -> list[_Corner]:
-    """The corners of a polyline in one entity: its pairs come corner by corner."""
+def _corners(entity: Entity, place: int = 10) -> list[_Corner]:
+    """The corners of a polyline in one entity: its pairs come corner by corner, their codes from `place` on."""
     corners: list[_Corner] = []
-    constant = entity.get(43)
+    constant = entity.get(43) if entity.type == b"LWPOLYLINE" else 0.0
     x = None
     for code, value in entity.tags:
-        if code == 10:
+        if code == place:
             x = float(value)
-        elif code == 20 and x is not None:
+        elif code == place + 10 and x is not None:
             corners.append(_Corner(complex(x, float(value)), constant, constant))
             x = None
         elif corners and code == 40 and entity.type == b"LWPOLYLINE":
             corners[-1] = replace(corners[-1], start_width=float(value))
         elif corners and code == 41 and entity.type == b"LWPOLYLINE":
             corners[-1] = replace(corners[-1], end_width=float(value))
-        elif corners and code == 42:
+        elif corners and code == 42 and entity.type == b"LWPOLYLINE":
             corners[-1] = replace(corners[-1], bent=abs(float(value)) > STRAIGHT)
     return corners
 
@@ -300,6 +327,21 @@ def _path(corners: list[_Corner], closed: bool) -> list[Line]:
         elif first.end_width > 2 * first.start_width:
             heads += _head(second.at, first.at, first.end_width, whole=True)
     return [*lines, *heads]
+
+
+def _straight(entity: Entity) -> list[Line]:
+    """The line that a spline is if all points that give its form lie on one, in their order."""
+    points = [corner.at for corner in _corners(entity)]
+    if not points and not any(code in (12, 13) for code, _ in entity.tags):
+        # Without directions at its ends it goes straight through points that lie on a line.
+        points = [corner.at for corner in _corners(entity, 11)]
+    if len(points) < 2 or entity.whole(70) & 1 or points[0] == points[-1]:
+        return []
+    way = points[-1] - points[0]
+    along = [(point - points[0]) / way for point in points]
+    # A control point may stand twice.
+    in_order = all(second.real - first.real >= -STRAIGHT for first, second in pairwise(along))
+    return [(points[0], points[-1])] if in_order and all(abs(one.imag) <= STRAIGHT for one in along) else []
 
 
 def _head(back: complex, tip: complex, width: float, whole: bool = False) -> list[Line]:

@@ -16,7 +16,9 @@ LARGEST = 50_000_000
 """Bytes of a drawing."""
 MOST = 300_000
 """Lines and texts of a drawing, its blocks unfolded."""
-KEPT = frozenset(b"LINE LWPOLYLINE POLYLINE VERTEX SEQEND SOLID TRACE LEADER INSERT TEXT MTEXT ATTRIB".split())
+KEPT = frozenset(
+    b"LINE LWPOLYLINE POLYLINE VERTEX SEQEND MLINE SPLINE SOLID TRACE LEADER INSERT TEXT MTEXT ATTRIB".split()
+)
 """Entities that are read."""
 PICTURES = frozenset(b"IMAGE OLEFRAME OLE2FRAME PDFUNDERLAY DWFUNDERLAY DGNUNDERLAY".split())
 """Entities that are left alone, and told."""
@@ -25,8 +27,11 @@ DRAWING = b"AC10"
 """What a DWG begins with."""
 EXTERNAL = 4 | 8 | 16 | 32
 """Flags of a block that stands for another file."""
+PAPER = b"*PAPER_SPACE"
+"""What the blocks of sheets begin with; the one of this very name is the sheet in use."""
 _COMMENT = 999
-_INVISIBLE, _PAPER = 60, 67
+_INVISIBLE, _PAPER, _LAYER = 60, 67, 8
+_FROZEN = 1
 
 Tags = list[tuple[int, bytes]]
 
@@ -63,12 +68,37 @@ class Block:
 
 @dataclass
 class Entities:
-    """A drawing's header, its blocks by name, and what stands in its model space; `pictures` are counted."""
+    """A drawing's header, its blocks by name, and what stands in its model space; `pictures` are counted.
+
+    Layers that are `off` hide what stands on them, but not the other layers of a block that is set in on them; `frozen`
+    ones hide that too.
+    """
 
     header: dict[bytes, bytes] = field(default_factory=dict)
     blocks: dict[bytes, Block] = field(default_factory=dict)
-    model: list[Entity] = field(default_factory=list)
+    entities: list[Entity] = field(default_factory=list)
     pictures: int = 0
+    off: set[bytes] = field(default_factory=set)
+    frozen: set[bytes] = field(default_factory=set)
+
+    def is_seen(self, entity: Entity) -> bool:
+        """Whether an entity is seen where it stands."""
+        layer = entity.text(_LAYER).strip().upper()
+        hidden = layer in self.frozen or (layer in self.off and entity.type != b"INSERT")
+        return not (hidden or entity.whole(_INVISIBLE))
+
+    @property
+    def spaces(self) -> dict[bytes, list[Entity]]:
+        """What stands in model space, called "", and on sheets of paper, by the names of their blocks."""
+        spaces: dict[bytes, list[Entity]] = {b"": [], PAPER: []}
+        spaces |= {name: [*block.entities] for name, block in self.blocks.items() if name.startswith(PAPER)}
+        space = b""
+        for entity in self.entities:
+            # The corners of a polyline stand where it does.
+            if entity.type not in (b"VERTEX", b"SEQEND"):
+                space = PAPER if entity.whole(_PAPER) else b""
+            spaces[space].append(entity)
+        return spaces
 
     def number(self, variable: bytes) -> int:
         """Return a whole number of the header, 0 where it has none."""
@@ -93,9 +123,11 @@ def read_entities(data: bytes, file: str) -> Entities:
     block: Block | None = None
     entity: Entity | None = None
     sections = 0
+    layer = _Layer(contents, False)
     for code, value, line, _ in pairs(data, refuse):
         if code == 0:
             entity = None
+            layer = _Layer(contents, value == b"LAYER")
             if value == b"SECTION":
                 section, sections = b"?", sections + 1
             elif value in (b"ENDSEC", b"EOF"):
@@ -110,7 +142,9 @@ def read_entities(data: bytes, file: str) -> Entities:
                     if kept > MOST:
                         raise refuse("drawing-elements", line, most=f"{MOST}")
                     entity = Entity(value, [], line)
-                    (contents.model if block is None else block.entities).append(entity)
+                    (contents.entities if block is None else block.entities).append(entity)
+        elif section == b"TABLES":
+            layer.pair(code, value)
         elif section == b"?":
             section = value.upper() if code == 2 else section
         elif section == b"HEADER":
@@ -130,6 +164,26 @@ def read_entities(data: bytes, file: str) -> Entities:
     if not sections:
         raise refuse("drawing-none")
     return contents
+
+
+@dataclass(slots=True)
+class _Layer:
+    """A record of the table of layers, as far as it has been read."""
+
+    contents: Entities
+    is_layer: bool
+    name: bytes = b""
+
+    def pair(self, code: int, value: bytes) -> None:
+        """Note whether the layer is off, its colour being negative, or frozen."""
+        if not self.is_layer:
+            return
+        if code == 2:
+            self.name = value.upper()
+        elif code == 62 and value.startswith(b"-"):
+            self.contents.off.add(self.name)
+        elif code == 70 and value.isdigit() and int(value) & _FROZEN:
+            self.contents.frozen.add(self.name)
 
 
 Refuse = Callable[..., RefusedError]
@@ -175,8 +229,3 @@ def _of_block(contents: Entities, block: Block, code: int, value: bytes) -> None
         block.base += float(value)
     elif code == 20:
         block.base += 1j * float(value)
-
-
-def is_drawn(entity: Entity) -> bool:
-    """Whether an entity is seen in model space."""
-    return not (entity.whole(_INVISIBLE) or entity.whole(_PAPER))

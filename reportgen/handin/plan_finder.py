@@ -14,7 +14,8 @@ from functools import cached_property
 
 import numpy as np
 
-from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, LONG, SEEN, Beside, Fit, Lines, fits, fitted, named
+from reportgen.handin.line_set import Lines
+from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, LONG, SEEN, Beside, Fit, fits, fitted, named
 from reportgen.handin.plan_labels import TITLE, Labels, names_of
 from reportgen.handin.plan_shapes import PlanShape
 
@@ -89,7 +90,7 @@ def _closer(fit: Fit, lines: Lines, deviation: float) -> Fit | None:
 def _distinct(several: Sequence[Fit]) -> list[Fit]:
     distinct: dict[tuple[int, frozenset[int]], Fit] = {}
     for fit in several:
-        key = id(fit.shape), fit.used
+        key = id(fit.shape), fit.explained
         if key not in distinct or fit.square < distinct[key].square:
             distinct[key] = fit
     return list(distinct.values())
@@ -138,7 +139,7 @@ class _Judge:
     def for_it(self, fit: Fit) -> float:
         """What speaks for a fit (logarithm of odds), chance not yet taken off."""
         corners, square = fit.corners_met(2 * self.lines.reach)
-        closing = len(fit.used) - (len(corners) - 1)
+        closing = len(fit.explained) - (len(corners) - 1)
         of_scale = self._of_scale(fit)
         return (
             _of_corners(corners, WITHIN * self.deviation, of_scale > 0)
@@ -167,8 +168,8 @@ class _Judge:
 
     def by_chance(self, taken: Collection[int], left: int) -> float:
         """How many placings can be tried, as a logarithm: two lines that meet and that no plan has, for each left."""
-        free = np.ones(len(self.lines.ends), dtype=bool)
-        free[list(taken)] = False
+        free = np.zeros(len(self.lines.ends), dtype=bool)
+        free[self.lines.without(taken)] = True
         first, second = self._long
         return float(np.log(max((free[first] & free[second]).sum() * left, 1)))
 

@@ -7,12 +7,14 @@ and t is tested at all other corners, and fitted to all lines that lie there.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from reportgen.handin.line_set import Lines
 from reportgen.handin.plan_shapes import PlanShape
 
 FURTHEST = 5.0
@@ -23,12 +25,8 @@ FEWEST_CORNERS = 3
 """Fewer corners have no shape."""
 HALF = 0.5
 """So many of the vectors that would be seen must have a line before anything is fitted."""
-MOST_PAIRS = 400_000
-"""Lines that share an end; more are no drawing of plans."""
 MOST_TRIED = 15
 """Placings of a plan that are fitted, those that have most lines first."""
-CROWD = 40
-"""Ends nearer to one than others; more are a hatching."""
 ROUNDS = 4
 LONG = 10.0
 """A line shorter than so many errors of an end has hardly a direction, and a vector no arrowhead (5 mm)."""
@@ -36,116 +34,6 @@ REACH = float(np.sqrt(6))
 """Deviations that an end lies off its place at most: √3 in each direction where errors are evenly spread."""
 SEEN = 6.0
 """A vector as long as so many errors of an end is seen on paper (3 mm); what is shorter is drawn enlarged beside it."""
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Lines [M, 2] (mm) of a drawing whose ends lie within ±`error` (mm) in each direction of where they should."""
-
-    ends: np.ndarray
-    error: float
-
-    @property
-    def reach(self) -> float:
-        """How far an end may lie off its place (mm)."""
-        return float(np.sqrt(2) * self.error)
-
-    @cached_property
-    def points(self) -> np.ndarray:
-        """All ends [2 M]: those of the starts first."""
-        return np.concatenate((self.ends[:, 0], self.ends[:, 1]))
-
-    @cached_property
-    def touching(self) -> tuple[np.ndarray, np.ndarray]:
-        """The numbers of all two ends, of two lines, that may be one, each pair in either order."""
-        first, second = _near(self.points, 2 * self.reach)
-        several = np.flatnonzero(first % len(self.ends) != second % len(self.ends))[:MOST_PAIRS]
-        first, second = first[several], second[several]
-        return np.concatenate((first, second)), np.concatenate((second, first))
-
-    @cached_property
-    def ways(self) -> np.ndarray:
-        """The lines as vectors from each of their ends [2 M]."""
-        along = self.ends[:, 1] - self.ends[:, 0]
-        return np.concatenate((along, -along))
-
-    @cached_property
-    def pairs(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Two lines each with a common end: the first angle, that end, both as vectors from it, by the angle."""
-        first, second = self.touching
-        along, beside = self.ways[first], self.ways[second]
-        at = (self.points[first] + self.points[second]) / 2
-        angle = np.angle(along)
-        order = np.argsort(angle, kind="stable")
-        return angle[order], at[order], along[order], beside[order]
-
-    @property
-    def cell(self) -> float:
-        """The width of a cell (mm): what a first guess of scale and place may be off by."""
-        return 3 * self.reach
-
-    @cached_property
-    def cells(self) -> np.ndarray:
-        """The numbers of the cells of a grid that lines run between, or of cells beside these, sorted."""
-        keys = np.concatenate([_between(self.ends[:, n], self.ends[:, 1 - n], self.cell) for n in (0, 1)])
-        steps = np.array([-1, 0, 1], dtype=np.int64)
-        for factor in _FACTORS:
-            keys = (keys[:, None] + steps * factor).ravel()
-        return np.unique(keys)
-
-    def run_between(self, starts: np.ndarray, ends: np.ndarray) -> np.ndarray:
-        """Whether a line runs between places about these."""
-        keys = _between(starts, ends, self.cell)
-        if not len(self.cells):
-            return np.zeros(keys.shape, dtype=bool)
-        place = np.searchsorted(self.cells, keys).clip(max=len(self.cells) - 1)
-        run: np.ndarray = self.cells[place] == keys
-        return run
-
-
-_FACTORS = tuple(np.int64(factor) for factor in (1, 0x1F123BB5, 0x2545F4914F6CDD1D, 0x369DEA0F31A53F85))
-"""What rows and columns of two cells are multiplied by: it is unlikely that two others have the same sum."""
-
-
-def _between(starts: np.ndarray, ends: np.ndarray, cell: float) -> np.ndarray:
-    """A number for the cells that each line starts and ends in."""
-    numbers = (np.floor(part / cell).astype(np.int64) for part in (starts.real, starts.imag, ends.real, ends.imag))
-    with np.errstate(over="ignore"):
-        parts = [number * factor for number, factor in zip(numbers, _FACTORS, strict=True)]
-        total: np.ndarray = np.sum(parts, axis=0)
-    return total
-
-
-def _key(x: int, y: int) -> int:
-    return (x << 32) + y
-
-
-def _keys(points: np.ndarray, cell: float) -> np.ndarray:
-    """The number of the cell that each point lies in."""
-    x, y = np.floor(points.real / cell), np.floor(points.imag / cell)
-    keys: np.ndarray = (x.astype(np.int64) << 32) + y.astype(np.int64)
-    return keys
-
-
-def _near(points: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """All two points nearer than `reach`, each pair once: sought in each cell of a grid and its next ones."""
-    keys = _keys(points, reach)
-    order = np.argsort(keys, kind="stable")
-    ranked = keys[order]
-    firsts, seconds = [], []
-    for step in (_key(0, 0), _key(0, 1), _key(1, -1), _key(1, 0), _key(1, 1)):
-        low, high = (np.searchsorted(ranked, ranked + step, side=side) for side in ("left", "right"))
-        if step == 0:
-            low = np.arange(1, len(ranked) + 1)
-        count = np.maximum(high - low, 0)
-        count = np.minimum(count, CROWD)
-        first = np.repeat(np.arange(len(ranked)), count)
-        second = np.arange(len(first)) - np.repeat(np.cumsum(count) - count, count) + np.repeat(low, count)
-        a, b = order[first], order[second]
-        close = np.abs(points[a] - points[b]) <= reach
-        firsts.append(a[close])
-        seconds.append(b[close])
-    return np.concatenate(firsts), np.concatenate(seconds)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,6 +55,8 @@ class Fit:
     """The sum of the squared distances (mm², report's scale) of the fitted corners from their middle."""
     reach: np.ndarray
     """How far the ends of each vector may lie off their places (mm) [E]."""
+    used: frozenset[int]
+    """The pieces of the lines that it explains."""
 
     @property
     def present(self) -> np.ndarray:
@@ -174,7 +64,7 @@ class Fit:
         return np.flatnonzero(self.lines >= 0)
 
     @cached_property
-    def used(self) -> frozenset[int]:
+    def explained(self) -> frozenset[int]:
         """The lines that it explains."""
         return frozenset(int(line) for line in self.lines[self.lines >= 0])
 
@@ -241,8 +131,8 @@ def fits(shape: PlanShape, lines: Lines, scales: Sequence[float] = ()) -> list[F
         if len(tried_about) > MOST_TRIED:
             break
         fit = fitted(shape, lines, float(scale[number]), complex(shift[number]))
-        if fit is not None and (fit.used not in placed or fit.square < placed[fit.used].square):
-            placed[fit.used] = fit
+        if fit is not None and (fit.explained not in placed or fit.square < placed[fit.explained].square):
+            placed[fit.explained] = fit
     return list(placed.values())
 
 
@@ -308,10 +198,10 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
     """
     starts, ends = shape.starts, shape.ends
     sigma = lines.error / np.sqrt(3) if deviation is None else deviation
-    near = _around(lines, scale * shape.corners + shift)
-    if not len(near):
+    near_by = _around(lines, scale * shape.corners + shift)
+    if not len(near_by):
         return None
-    some = lines.ends[near]
+    some = lines.ends[near_by]
     reach = np.full(len(starts), lines.cell)
     rows = np.arange(len(starts))
     for turn in range(ROUNDS):
@@ -319,7 +209,7 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
         farthest, turned, squares = off_place(some, a, b)
         # What is shorter than two ends may lie off has no direction.
         fits_there = (farthest <= reach[:, None]) & (np.abs(b - a) > 2 * REACH * sigma)[:, None]
-        line = _each_its_own(np.where(fits_there, squares, np.inf))
+        line = _with_own_pieces(np.where(fits_there, squares, np.inf), lines, near_by)
         seen = line >= 0
         kept = np.flatnonzero(seen)
         if len(kept) < 2:
@@ -336,10 +226,20 @@ def fitted(shape: PlanShape, lines: Lines, scale: float, shift: complex, deviati
         reach = _reach(shape, z, sigma)
         # The first guess is finer than the cells, but not as fine as the fit.
         reach = np.maximum(reach, lines.cell / 2) if turn == 0 else reach
-    numbers = np.where(seen, near[line], -1)
+    numbers = np.where(seen, near_by[line], -1)
     extent = float(np.abs(w[:, None] - w).max())
-    rest = w - (scale * z + shift)
-    return Fit(shape, scale, shift, numbers, turned[rows, line], rest, size=extent, off_centre=off_centre, reach=reach)
+    return Fit(
+        shape,
+        scale,
+        shift,
+        numbers,
+        turned=turned[rows, line],
+        rest=w - (scale * z + shift),
+        size=extent,
+        off_centre=off_centre,
+        reach=reach,
+        used=frozenset().union(*(lines.pieces[number] for number in numbers[seen])),
+    )
 
 
 def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -350,6 +250,28 @@ def off_place(some: np.ndarray, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarra
     turned = opposite < straight
     squares = np.where(turned, starts[1] ** 2 + ends[0] ** 2, starts[0] ** 2 + ends[1] ** 2)
     return np.minimum(straight, opposite), turned, squares
+
+
+def _with_own_pieces(squares: np.ndarray, lines: Lines, some: np.ndarray) -> np.ndarray:
+    """Return the line of each vector [E] as `_each_its_own`; pieces that are vectors themselves make no further one.
+
+    `some` [M] are the numbers of the lines.
+    """
+    line = _each_its_own(squares)
+    if not lines.in_runs[some].any():
+        return line
+    while True:
+        chosen = set(line[line >= 0].tolist())
+        pieces = {n: lines.pieces[some[n]] for n in chosen}
+        used = Counter(piece for own in pieces.values() for piece in own)
+        twice = [n for n, own in pieces.items() if len(own) > 1 and any(used[piece] > 1 for piece in own)]
+        if not twice:
+            return line
+        # Where a piece is left over, the pieces are those of the whole line.
+        whole = next((n for n in twice if any(used[piece] == 1 for piece in pieces[n])), None)
+        gone = twice if whole is None else [n for n in chosen if n != whole and pieces[n] & pieces[whole]]
+        squares[:, gone] = np.inf
+        line = _each_its_own(squares)
 
 
 def _each_its_own(squares: np.ndarray) -> np.ndarray:
@@ -397,7 +319,8 @@ Beside = Callable[[int, int], bool]
 def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside) -> np.ndarray:
     """Whether it is beyond doubt, for each vector [E] of a fit, that its line is its and no other vector's.
 
-    `odds` (logarithm) is what must speak against every other line at its place, and against every other vector at that
+    A fragment of a longer line is the vector's only if the plan has vectors for all pieces of that one.  `odds`
+    (logarithm) is what must speak against every other line at its place, and against every other vector at that
     of its line; a name beside it, that does not stand beside the other, says it as well.  Vectors whose
     ends are no farther apart than a drawn point may be off are one line on paper, which is both.
     """
@@ -410,6 +333,8 @@ def named(fit: Fit, lines: Lines, deviation: float, odds: float, beside: Beside)
     least = 2 * odds * deviation**2
     sure = (fit.lines >= 0) & (np.abs(b - a) >= SEEN * lines.error)
     for i, column in own.items():
+        if any(not run <= fit.used for run in lines.longer[int(fit.lines[i])]):
+            sure[i] = False
         free = fits_there[i].copy()
         free[list(own.values())] = False
         if (squares[i, free] - squares[i, column] < least).any():

@@ -111,7 +111,7 @@ class Labels:
 
         A title belongs to what it is nearest to, and to all fits that share lines with that.
         """
-        boxes = [_box(ends[list(fit.used)]) for fit in fits]
+        boxes = [_box(ends[list(fit.explained)]) for fit in fits]
         owned: dict[int, set[int]] = {}
         for position, number in self.titles:
             distances = [_distance(box, complex(self.places[number])) for box in boxes]

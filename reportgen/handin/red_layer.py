@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from reportgen.base.errors import Mark
 from reportgen.handin.dxf_lines import encoding_of
-from reportgen.handin.dxf_tags import Tags, pairs
+from reportgen.handin.dxf_tags import PAPER, Tags, pairs
 from reportgen.workbook.package import RefusedError
 
 LAYER = "CORRECTIONS"
@@ -24,6 +24,8 @@ HEIGHT, LINE, HEAD = 3.5, 5.5, 4.0
 """The height of letters, the distance of their lines, the length of an arrowhead (mm)."""
 SLIM = math.radians(10.0)
 """The angle of a stroke of an arrowhead with its line."""
+MODEL = b"*MODEL_SPACE"
+"""The block of model space."""
 _HANDLES = frozenset({5, 105})
 _OLD = b"AC1009"
 _LINKS = frozenset({102, 330, 360, 1000, 1001, 1002, 1003, 1005, 1070, 1071, 1040})
@@ -40,6 +42,8 @@ class RedVector:
     start: complex
     end: complex | None
     lines: tuple[str, ...]
+    space: bytes = b""
+    """The block of the sheet of paper that it goes onto, "" for model space."""
 
 
 def with_corrections(data: bytes, vectors: Sequence[RedVector], millimetre: float) -> bytes:
@@ -49,8 +53,10 @@ def with_corrections(data: bytes, vectors: Sequence[RedVector], millimetre: floa
     """
     file = _Layout.of(data)
     writer = _Writer(file, b"\r\n" if b"\r\n" in data[:200] else b"\n", millimetre)
-    pieces = [piece for vector in vectors for piece in writer.vector(vector)]
-    inserted = [(file.entities_end, b"".join(pieces))]
+    pieces: dict[int, list[bytes]] = {file.entities_end: []}
+    for vector in vectors:
+        pieces.setdefault(file.ends.get(vector.space, file.entities_end), []).extend(writer.vector(vector))
+    inserted = [(end, b"".join(new)) for end, new in pieces.items()]
     inserted += [(table.end, writer.record(table)) for table in file.tables.values() if table.wanting]
     changed = bytearray()
     done = 0
@@ -80,7 +86,10 @@ class _Layout:
     old: bool = True
     encoding: str = "cp1252"
     entities_end: int = -1
-    model: bytes = b""
+    ends: dict[bytes, int] = field(default_factory=dict)
+    """Where the blocks of sheets of paper end that are not the one in use, whose lines stand among the entities."""
+    owners: dict[bytes, bytes] = field(default_factory=dict)
+    """The handles of model space, "", and of the sheets."""
     greatest: int = 0
     seed: tuple[int, int] | None = None
     tables: dict[bytes, _Table] = field(default_factory=dict)
@@ -108,6 +117,7 @@ class _Layouting:
     header: dict[bytes, bytes] = field(default_factory=dict)
     section: bytes = b""
     variable: bytes = b""
+    block: bytes = b""
     table: _Table | None = None
     kind: bytes = b""
     tags: Tags = field(default_factory=list)
@@ -121,6 +131,8 @@ class _Layouting:
             self.kind, self.tags = value, []
             if value == b"ENDSEC" and self.section == b"ENTITIES":
                 layout.entities_end = offset
+            elif value == b"ENDBLK" and self.block.startswith(PAPER) and self.block != PAPER:
+                layout.ends[self.block] = offset
             elif value == b"ENDTAB" and self.table is not None:
                 self.table.end = offset
                 self.table = None
@@ -140,6 +152,8 @@ class _Layouting:
                 layout.seed = start, start + len(value)
         elif self.section == b"TABLES":
             self.tags.append((code, value))
+        elif self.kind == b"BLOCK" and code == 2:
+            self.block = value.upper()
 
     def finish(self, offset: int) -> None:
         """What an object of the tables that ends here says."""
@@ -152,8 +166,8 @@ class _Layouting:
             if name == self.table.first:
                 self.table.record = self.tags
             self.table.wanting &= name != LAYER.encode()
-        elif self.kind == b"BLOCK_RECORD" and names.get(2, b"").upper() == b"*MODEL_SPACE":
-            self.layout.model = names.get(5, b"")
+        elif self.kind == b"BLOCK_RECORD" and (name := names.get(2, b"").upper()).startswith((MODEL, PAPER)):
+            self.layout.owners[name.removeprefix(MODEL)] = names.get(5, b"")
         self.tags = []
 
 
@@ -170,12 +184,15 @@ class _Writer:
     newline: bytes
     millimetre: float
     handle: int = 0
+    space: bytes = b""
+    """Where the vector goes that is being written."""
 
     def __post_init__(self) -> None:
         self.handle = self.layout.greatest + 1
 
     def vector(self, vector: RedVector) -> Iterator[bytes]:
         """The lines of a vector with its arrowhead, and its texts beside its middle."""
+        self.space = vector.space
         if vector.end is not None and vector.end != vector.start:
             yield self.line(vector.start, vector.end)
             back = (vector.start - vector.end) / abs(vector.start - vector.end)
@@ -209,14 +226,15 @@ class _Writer:
 
     def entity(self, kind: str, parts: Sequence[tuple[str, Sequence[tuple[int, object]]]]) -> bytes:
         tags: list[tuple[int, object]] = [(0, kind)]
+        paper: list[tuple[int, object]] = [(67, 1)] if self.space else []
         if self.layout.old:
-            tags += [(8, LAYER), (62, RED)]
+            tags += [*paper, (8, LAYER), (62, RED)]
             tags += [tag for _, own in parts for tag in own]
             return self.pairs(tags)
         tags.append((5, self.next()))
-        if self.layout.model:
-            tags.append((330, self.layout.model))
-        tags += [(100, "AcDbEntity"), (8, LAYER), (62, RED)]
+        if owner := self.layout.owners.get(self.space):
+            tags.append((330, owner))
+        tags += [(100, "AcDbEntity"), *paper, (8, LAYER), (62, RED)]
         for marker, own in parts:
             tags += [(100, marker), *own]
         return self.pairs(tags)

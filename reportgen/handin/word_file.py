@@ -39,6 +39,9 @@ _CODES = {
 }
 
 
+PICTURES = frozenset({"w:drawing", "w:pict"})
+
+
 @dataclass(frozen=True)
 class WordFile:
     """A file that has been judged: its package, where its text stands, and the text as a tree."""
@@ -58,6 +61,11 @@ class WordFile:
         if styles in self.package:
             levels = heading_levels(parse(self.package, styles, self.package.content(styles)))
         return tuple(TextReader(levels).blocks(body.children if body else ()))
+
+    @property
+    def pictures(self) -> int:
+        """How many pictures stand in the text."""
+        return sum(node.tag in PICTURES for node in self.tree.walk())
 
     @property
     def relations(self) -> str:

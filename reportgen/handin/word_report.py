@@ -7,6 +7,7 @@ from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 
+from reportgen.base.errors import Fault, Mark
 from reportgen.handin import FileReading, agree
 from reportgen.handin.word_comments import MarginNote, with_comments
 from reportgen.handin.word_file import open_word, word_faults
@@ -27,7 +28,10 @@ def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading
     """What a report says of the quantities that a key asks for; raises `RefusedError`."""
     file = open_word(path, data)
     reading = read_report(file.blocks, key, str(path), file.tree)
-    return replace(reading, notes=(*file.notes, *reading.notes))
+    notes = (*file.notes, *reading.notes)
+    if not reading.values and not reading.unread:
+        notes = (*notes, Fault("word-nothing", Mark(str(path)), {"count": str(file.pictures)}))
+    return replace(reading, notes=notes)
 
 
 @word_faults()

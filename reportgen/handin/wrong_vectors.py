@@ -12,8 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.handin.line_set import Lines
+from reportgen.handin.pieces import goes_on
 from reportgen.handin.plan_finder import FoundPlans
-from reportgen.handin.plan_fit import LONG, SEEN, Fit, Lines
+from reportgen.handin.plan_fit import LONG, SEEN, Fit, off_place
 from reportgen.handin.plan_labels import Labels, names_of
 
 
@@ -32,8 +34,7 @@ def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: La
     """The wrong vectors of the plans that were found; `heads` [M, 2] says which ends have an arrowhead."""
     used = {line for plan in plans.plans for line in plan.used}
     used |= {line for several in plans.doubtful for fit in several for line in fit.used}
-    free = np.array([line for line in range(len(lines.ends)) if line not in used], dtype=int)
-    search = _Search(lines, heads, labels, free)
+    search = _Search(lines, heads, labels, lines.without(used))
     several = zip(plans.plans, plans.sure, strict=True)
     return tuple(wrong for plan, sure in several for wrong in search.of(plan, sure))
 
@@ -52,7 +53,10 @@ class _Search:
         # Of two vectors that have one line, or lines that may be either's, one may well have been drawn elsewhere.
         count = Counter(plan.lines[plan.present].tolist())
         unplaced = [n for n, line in enumerate(plan.lines) if line < 0 or count[line] > 1 or not sure[n]]
-        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error]
+        # Where pieces run that other vectors have, one may well be whole.
+        runs = self.lines.ends[self.lines.in_runs]
+        in_pieces = np.any(off_place(runs, a, b)[0] <= plan.reach[:, None], axis=1)
+        wanting = [n for n in unplaced if abs(b[n] - a[n]) >= SEEN * self.lines.error and not in_pieces[n]]
         for corner in {shape.vectors[number].start for number in wanting}:
             place = complex(plan.at(shape.corners[corner]))
             reach = max(float(plan.reach[number]) for number in wanting)
@@ -74,13 +78,22 @@ class _Search:
                     yield WrongVector(plan, vector, line.number, line.start, line.end)
 
     def _from(self, place: complex, reach: float) -> list[_Begun]:
-        """The free lines that begin at a place, in the sense that their arrowhead says or else from there."""
+        """The free lines that begin at a place, in the sense that their arrowhead says or else from there.
+
+        A piece of a longer line, or a line without an arrowhead that goes on behind a gap, need not begin or end where
+        a vector does.
+        """
         begun = []
         for number in self.free:
+            if self.lines.longer[number]:
+                continue
             for end in (0, 1):
                 start, far = complex(self.lines.ends[number, end]), complex(self.lines.ends[number, 1 - end])
-                if abs(start - place) <= reach and not self.heads[number, end]:
-                    begun.append(_Begun(int(number), start, far, bool(self.heads[number, 1 - end])))
+                if abs(start - place) > reach or self.heads[number, end]:
+                    continue
+                headed = bool(self.heads[number, 1 - end])
+                if headed or not goes_on(self.lines, start, far):
+                    begun.append(_Begun(int(number), start, far, headed))
         return begun
 
     def _named(self, plan: Fit, begin: Sequence[int], line: _Begun) -> int | None:

@@ -16,7 +16,7 @@ from reportgen.drawing.counts import bars, histogram
 from reportgen.drawing.statistics import intervals, scatter
 from reportgen.formula.plain import formula
 from reportgen.marking.feedback import amended, points_text
-from reportgen.marking.grades import mistake_name, section_name, state, who
+from reportgen.marking.grades import mistake_name, open_cells, section_name, state, who
 from reportgen.marking.marks import Marking, Unmarked
 from reportgen.marking.paper import DASH, cells, heading, paper, paragraph
 from reportgen.marking.policy import Policy
@@ -58,6 +58,7 @@ def class_document(
         *_unmarked(unmarked, words),
         *_late(markings, words, language, rules),
         *_amended(markings, words),
+        *_open(markings, words),
     ]
     if markings:
         blocks += [_spread(markings, page), *_questions(markings, words, language)]
@@ -78,8 +79,11 @@ def _summary(
             count=len(markings), mean=write(fmean(shares), 0, language), median=write(median(shares), 0, language)
         )
         yield paragraph(text)
-    counts = Counter("refused" if one.reasons else "missing" for one in unmarked)
-    yield from (paragraph(page[name].format(count=counts[name])) for name in ("missing", "refused") if counts[name])
+    counts = Counter(
+        "unsettled" if one.unsettled is not None else "refused" if one.reasons else "missing" for one in unmarked
+    )
+    names = ("missing", "refused", "unsettled")
+    yield from (paragraph(page[name].format(count=counts[name])) for name in names if counts[name])
 
 
 def _marks(
@@ -141,6 +145,12 @@ def _amended(markings: Sequence[Marking], words: Words) -> Iterator[Block]:
     """What the instructor judged otherwise."""
     rows = [(*who(marking.key)[:2], amended(marking, one, words)) for marking in markings for one in marking.amendments]
     yield from _people(words["class_page"]["amended"], (words["grades"]["corrections"],), rows, words)
+
+
+def _open(markings: Sequence[Marking], words: Words) -> Iterator[Block]:
+    """Whose values were not read: they earn nothing until somebody settles them."""
+    rows = [(*who(marking.key)[:2], text) for marking in markings if (text := open_cells(marking))]
+    yield from _people(words["class_page"]["open"], (words["grades"]["unread"],), rows, words)
 
 
 def _spread(markings: Sequence[Marking], page: Words) -> Figure:

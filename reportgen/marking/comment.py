@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from itertools import groupby
+from pathlib import Path
 from typing import Any
 
 from reportgen.marking.feedback import amended, lateness, mistake_inlines, points_text
+from reportgen.marking.grades import open_text
 from reportgen.marking.key import symbol_text, words_of
-from reportgen.marking.marks import Marked, Marking, points_of
+from reportgen.marking.marks import Marked, Marking, Unmarked, points_of
 from reportgen.marking.policy import Policy
 from reportgen.report import Text, plain
 from reportgen.report.key import Key
@@ -40,10 +42,33 @@ def _lines(marking: Marking, policy: Policy) -> Iterator[str]:
     )
     if len(firsts) > FIRSTS:
         yield said["others"].format(count=len(firsts) - FIRSTS)
+    yield from _open(marking, said)
     yield said["by_part"].format(parts="; ".join(_by_part(marking, words)))
     if marking.amendments:
         yield f"{words['feedback']['amended']}:"
         yield from (f"– {plain(amended(marking, one, words), language)}" for one in marking.amendments)
+
+
+def _open(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
+    """The values that were not read, and what becomes of them."""
+    if marking.open:
+        yield said["open"].format(count=len(marking.open))
+        yield from (f"– {open_text(marking, cell)}" for cell in marking.open[:FIRSTS])
+    if len(marking.open) > FIRSTS:
+        yield said["others"].format(count=len(marking.open) - FIRSTS)
+
+
+def unmarked_comment(student: Unmarked) -> Iterator[str]:
+    """What a student reads of whose own files too little was read for a mark: what was read, and what was found."""
+    key, submission = student.key, student.unsettled
+    assert submission is not None, "only read work is unsettled"
+    said = words_of(key)["comment"]
+    if submission.is_unrecognised:
+        yield said["unrecognised"]
+    else:
+        yield said["unsettled"].format(read=round(100 * submission.share_read), count=len(submission.unread))
+    for note in (*submission.notes, *submission.unread.values()):
+        yield f"– {Path(note.mark.file).name}: {note.message}" + (f" ({note.hint})" if note.hint else "")
 
 
 def _named(cell: Marked, key: Key) -> str:

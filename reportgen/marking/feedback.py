@@ -137,7 +137,7 @@ def feedback_document(marking: Marking, title: str, policy: Policy | None = None
         *_section(feedback["followed"], _listed_cells(marking, words, _followed(marking), feedback["followed_lead"])),
         *_section(feedback["elsewhere"], _listed_cells(marking, words, marking.elsewhere, feedback["elsewhere_lead"])),
         *_section(feedback["amended"], _amended(marking, words)),
-        *_section(feedback["unread"], _listed(marking.submission.problems.values())),
+        *_section(feedback["unread"], _unread(marking, words)),
         *_section(feedback["noted"], _listed(marking.submission.notes)),
         _by_part(marking, words),
     ]
@@ -213,6 +213,15 @@ def _amended(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
     """The instructor's word, a line each."""
     if marking.amendments:
         yield tree.List(tuple((Paragraph(amended(marking, one, words)),) for one in marking.amendments))
+
+
+def _unread(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
+    """The values that were not read, behind what becomes of them."""
+    submission = marking.submission
+    lines = [*_listed((*submission.problems.values(), *submission.unread.values()))]
+    if lines:
+        yield paragraph(words["feedback"]["unread_lead"])
+        yield from lines
 
 
 def _listed(problems: Iterable[Problem]) -> Iterator[Block]:
@@ -305,8 +314,7 @@ def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_
     if cell.verdict is Verdict.right:
         return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
     if cell.verdict in (Verdict.unreadable, Verdict.unread):
-        problem = marking.submission.problems.get(place) or marking.submission.unread[place]
-        return str(notes[cell.verdict]).format(message=problem.message)
+        return str(notes[cell.verdict]).format(message=marking.submission.problem(place).message)
     lines = [str(notes["first" if cell.first else cell.verdict])]
     if cell.first and cell.mistake:
         lines.append(plain(mistake_inlines(cell, key, words), key.language))

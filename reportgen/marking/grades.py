@@ -29,8 +29,9 @@ def grade_rows(
 ) -> tuple[tuple[Value, ...], ...]:
     """Head and rows of `grades.csv`: who, points, the mark, points by part, all first errors, warnings, flags, remarks,
     what was handed in, how late and for how much off the mark, the instructor's corrections.  Where reports or drawings
-    were read in place of sheets, two more columns say how much of each was read and how many values are open; where
-    feedback could not be written, the last one says of which file and why.
+    were read in place of sheets, two more columns say how much of each was read and how many values are open.  A column
+    lists the values that were not read, and earn nothing until somebody settles them; where feedback could not be
+    written, the last one says of which file and why.
 
     The points of those who are `unmarked` stay empty.
     """
@@ -53,6 +54,7 @@ def grade_rows(
     submissions |= {one.key.id: one.unsettled for one in unmarked if one.unsettled is not None}
     of_files = any(submission.own_files for submission in submissions.values())
     head += tuple(names[name] for name in ("read", "to_settle")) if of_files else ()
+    head += (names["unread"],)
     head += (names["unwritten"],) if (unwritten := any(marking.unwritten for marking in markings)) else ()
     keys = (*(marking.key for marking in markings), *(one.key for one in unmarked))
     people = {key.id: person(key) for key in keys}
@@ -93,10 +95,31 @@ def grade_rows(
     if of_files:
         ids = [*(marking.key.id for marking in markings), *(one.key.id for one in unmarked)]
         rows[1:] = [(*row, *_read(submissions.get(id))) for row, id in zip(rows[1:], ids, strict=True)]
+    unread = [*(open_cells(marking) for marking in markings), *(_open_places(one) for one in unmarked)]
+    rows[1:] = [(*row, text) for row, text in zip(rows[1:], unread, strict=True)]
     if unwritten:
         told = ["; ".join(marking.unwritten) for marking in markings] + [""] * len(unmarked)
         rows[1:] = [(*row, text) for row, text in zip(rows[1:], told, strict=True)]
     return tuple(rows)
+
+
+def open_cells(marking: Marking) -> str:
+    """The values of a sheet that were not read, each with what stands there: v_B (3): 1.2.3."""
+    return "; ".join(open_text(marking, cell) for cell in marking.open)
+
+
+def open_text(marking: Marking, cell: Marked) -> str:
+    """A value that was not read, and why: v_B (3): “1.2.3” is no number."""
+    problem = marking.submission.problem((cell.id, cell.position))
+    return f"{cell_text(marking.key, cell.id, cell.position)}: {problem.message}"
+
+
+def _open_places(student: Unmarked) -> str:
+    """The same of work that has no marks yet."""
+    if student.unsettled is None:
+        return ""
+    places = {**student.unsettled.problems, **student.unsettled.unread}
+    return "; ".join(f"{cell_text(student.key, *place)}: {problem.message}" for place, problem in places.items())
 
 
 def _read(submission: Submission | None) -> tuple[Value, Value]:
@@ -109,6 +132,8 @@ def _read(submission: Submission | None) -> tuple[Value, Value]:
 def state(student: Unmarked, words: Mapping[str, Any]) -> str:
     """Why a student has no marks: nothing was handed in, or what was could not be marked."""
     states = words["states"]
+    if student.unsettled is not None and student.unsettled.is_unrecognised:
+        return str(states["unrecognised"])
     if student.unsettled is not None:
         read = round(100 * student.unsettled.share_read)
         return str(states["to_settle"].format(read=read, count=len(student.unsettled.unread)))
@@ -157,9 +182,13 @@ def _points_of_owner(marking: Marking, owner: str) -> float:
 
 
 def _cell_text(key: Key, cell: Marked) -> str:
+    return cell_text(key, cell.id, cell.position)
+
+
+def cell_text(key: Key, id: str, position: int) -> str:
     """A quantity and its position in one line: v_BA (3)."""
-    symbol = symbol_text(key.row(cell.id), key)
-    return f"{symbol} ({key.label(cell.position, cell.id)})" if cell.position else symbol
+    symbol = symbol_text(key.row(id), key)
+    return f"{symbol} ({key.label(position, id)})" if position else symbol
 
 
 SHOWN = 4

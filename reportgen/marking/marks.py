@@ -44,8 +44,8 @@ class Submission:
     formulas, numbers that could be read in two ways.  `rows` are the ids of all its rows, filled in or not.
 
     Of the student's `own_files`, a report or a drawing in place of a sheet, `unread` is what stands there and was not
-    read beyond doubt: it neither earns nor costs anything until it is settled.  Of a drawing, `measured` says how what
-    it shows was read, and `drawn` are the places of which it has to show something.
+    read beyond doubt: it is not wrong, and earns nothing until somebody settles it.  Of a drawing, `measured` says how
+    what it shows was read, and `drawn` are the places of which it has to show something.
     """
 
     assignment: str
@@ -63,9 +63,23 @@ class Submission:
 
     @property
     def share_read(self) -> float:
-        """The share of what stands in the student's own files that was read, 1 where nothing stands there."""
+        """The share of what stands in the student's own files that was read, 0 where nothing was recognised.
+
+        Of a sheet it is 1.
+        """
+        if not self.own_files:
+            return 1.0
         count = len(self.values) + len(self.unread)
-        return len(self.values) / count if count else 1.0
+        return len(self.values) / count if count else 0.0
+
+    def problem(self, place: Place) -> Problem:
+        """Why the value of a place was not read; raises `KeyError` where it was."""
+        return self.problems[place] if place in self.problems else self.unread[place]
+
+    @property
+    def is_unrecognised(self) -> bool:
+        """Whether nothing in the student's own files was recognised as a value."""
+        return self.own_files and not self.values and not self.unread
 
 
 class Verdict(StrEnum):
@@ -78,7 +92,11 @@ class Verdict(StrEnum):
     implausible = "implausible"
     """It follows, or is right by chance, but its marks were taken for a reason that the marking lists."""
     unread = "unread"
-    """It stands in the student's own file, but was not read beyond doubt: it is not counted until it is settled."""
+    """It stands in the student's own file, but was not read beyond doubt: it earns nothing until it is settled."""
+
+
+OPEN = frozenset({Verdict.unreadable, Verdict.unread})
+"""Something stands there, and nobody knows yet whether it is right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,11 +147,6 @@ class Marked:
     """The number in the cell, in that unit."""
 
     @property
-    def counts(self) -> bool:
-        """Whether it counts for the mark: not while nobody has settled what stands there."""
-        return self.verdict is not Verdict.unread
-
-    @property
     def on_sheet(self) -> OnSheet:
         """The values as a sheet has them: for those who read it, and for what is found on it without working out."""
         return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
@@ -143,8 +156,8 @@ Cells = Mapping[Place, Marked]
 
 
 def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
-    """The points that cells earned, and those that they are worth; what is unread is not counted."""
-    earned = [(cell.points, cell.worth) for cell in cells if cell.counts]
+    """The points that cells earned, and those that they are worth: also while nobody has settled what stands there."""
+    earned = [(cell.points, cell.worth) for cell in cells]
     return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 
@@ -196,6 +209,11 @@ class Marking:
     def points_at(self, places: Container[Place]) -> tuple[float, float]:
         """The points that the cells of some places earned, and those that they are worth."""
         return points_of(cell for cell in self.cells if (cell.id, cell.position) in places)
+
+    @property
+    def open(self) -> tuple[Marked, ...]:
+        """The values that were not read, and earn nothing until somebody settles them."""
+        return tuple(cell for cell in self.cells if cell.verdict in OPEN and not cell.corrected)
 
     @property
     def elsewhere(self) -> list[Marked]:

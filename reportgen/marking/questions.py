@@ -50,7 +50,7 @@ def judged(markings: Sequence[Marking], name: Callable[[Key, Marked], object]) -
     for marking in markings:
         own: dict[object, list[Marked]] = {}
         for cell in marking.cells:
-            if cell.worth and cell.counts:
+            if cell.worth and cell.verdict is not Verdict.unread:
                 own.setdefault(name(marking.key, cell), []).append(cell)
         for called, cells in own.items():
             of_name.setdefault(called, []).append((marking, cells))

@@ -17,6 +17,8 @@ from reportgen.classes import assess, outcome
 from reportgen.handin import agree, submission, word_report
 from reportgen.handin.checking import compare, read, reading
 from reportgen.handin.reading_book import NAME, is_unchanged, reading_book
+from reportgen.marking.comment import comment
+from reportgen.marking.grades import grade_rows
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.marks import Answer, Submission, Verdict
@@ -97,15 +99,23 @@ def test_the_same_values_give_the_same_verdicts_by_sheet_and_by_report() -> None
         assert verdicts[0] == verdicts[1]
 
 
-def test_what_is_not_read_neither_earns_nor_costs(key: Key) -> None:
+def test_what_is_left_open_earns_nothing_and_the_total_stays(key: Key) -> None:
+    """Else who leaves a fifth of the values open, “3 or 4”, has full marks for the rest."""
     scheme = marking_scheme(open_case(FILE, "vi"), RULES)
     content = report(key, {"a.D": "a_D = 3 m/s² hoặc 4 m/s²"})
     own = submission([word_report.read(Path("r.docx"), content, key)], "vi")
     marking = mark(replace(scheme, key=key), own)
     (cell,) = (cell for cell in marking.cells if cell.verdict is Verdict.unread)
     assert (cell.id, cell.points) == ("a.D", 0)
-    assert marking.share == 1
-    assert marking.out_of == sum(one.worth for one in marking.cells) - cell.worth
+    assert marking.out_of == sum(one.worth for one in marking.cells)
+    assert marking.points == marking.out_of - cell.worth
+    # It is open, not wrong, and everybody is told.
+    assert marking.open == (cell,)
+    assert not marking.first_errors
+    (line,) = (line for line in comment(marking, RULES) if line.startswith("– a_D"))
+    assert "3 m/s² hoặc 4 m/s²" in line
+    rows = grade_rows([marking], "en", (), RULES)
+    assert (rows[0][-1], str(rows[1][-1])[:3]) == ("not read", "a_D")
     assert own.share_read == len(own.values) / (len(own.values) + 1)
 
 
@@ -129,6 +139,7 @@ def test_a_class_hands_in_reports_and_sheets_together(assignments: Path, key: Ke
     assert [one.code for one in graded.problems if one.level == "note"] == ["own-beside-sheet"]
     first, second, third = grades(graded)
     assert (first["read"], first["to settle"]) == (f"{100 * (len(right) - 1) / len(right):.1f}".rstrip("0"), "1")
+    assert first["not read"].startswith("a_D")
     assert (second["read"], second["to settle"], second["per cent"]) == ("100", "0", "100")
     assert (third["read"], third["per cent"]) == ("", "100")
     out = tmp_path / "out"
@@ -200,7 +211,8 @@ def test_where_too_little_is_read_there_is_no_mark(assignments: Path, key: Key, 
     assert len(graded.missing) == 2
     assert not graded.refused
     made = dict(outcome.files_of(graded, RULES, "typst", "en"))
-    assert list(map(str, made)) == [f"K01/{NAME}"]
+    assert list(map(str, made)) == ["K01/feedback.txt", f"K01/{NAME}", "grades.csv", "class.pdf"]
+    assert "This is no mark of 0" not in made[Path("grades.csv")].decode("utf-8-sig")
     assert "no mark" in "".join(outcome.summary(graded, "en"))
     # A policy may take less.
     policy = tmp_path / "policy.yaml"
@@ -208,7 +220,25 @@ def test_where_too_little_is_read_there_is_no_mark(assignments: Path, key: Key, 
     rules = read_policy(policy)
     assert rules.least_read == pytest.approx(0.4)
     (marking,) = assess.grade([handed], assignments, rules, "en").markings
-    assert marking.share == 1
+    assert marking.points == len(marking.submission.values)
+    assert not marking.first_errors
+
+
+def test_a_report_of_pictures_only_has_no_mark(assignments: Path, key: Key, tmp_path: Path) -> None:
+    """Nothing recognised is no mark of 0: log, grades.csv and the student say so, whatever `least_read` is."""
+    (tmp_path / "K01.docx").write_bytes(wml.package(wml.paragraph(wml.run("Báo cáo K01"))))
+    for rules in (RULES, replace(RULES, least_read=0.0)):
+        graded = assess.grade([tmp_path / "K01.docx"], assignments, rules, "en")
+        assert not graded.markings
+        (student,) = graded.unsettled
+        assert student.unsettled is not None
+        assert student.unsettled.is_unrecognised
+        made = dict(outcome.files_of(graded, rules, "typst", "en"))
+        assert "0" in made[Path("K01/feedback.txt")].decode().splitlines()[0]
+        rows = made[Path("grades.csv")].decode("utf-8-sig").splitlines()
+        assert "handed in, but no mark: nothing was recognised" in rows[1]
+        said = next(iter(outcome.summary(graded, "en")))
+        assert said.startswith("K01 Nguyễn Văn An: no mark: nothing was recognised")
 
 
 @proof

@@ -191,9 +191,10 @@ def test_grades_have_a_row_for_everyone_and_no_live_formula() -> None:
 def test_the_class_page_has_marks_and_counts() -> None:
     found = [marking(student=f"Student {n}") for n in range(12)]
     tree = class_document(found, "crank", "en", [Unmarked(small_key(student="Absent"))])
-    table, absent, sections, questions = (block for block in tree.blocks if isinstance(block, Table))
+    table, absent, unread, sections, questions = (block for block in tree.blocks if isinstance(block, Table))
     assert len(table.rows) == 13
-    for one in (table, absent, sections, questions):
+    assert len(unread.rows) == 12
+    for one in (table, absent, unread, sections, questions):
         assert sum(column.width for column in one.columns) <= 160
     # Of a question's cells those that are right or follow, of all; what all had right is only counted.
     shares = [[plain(cell.inlines, "en") for cell in row] for row in (*sections.rows, *questions.rows)]

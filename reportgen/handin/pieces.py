@@ -1,0 +1,141 @@
+"""The lines of a drawing as somebody meant them: a line drawn twice counts once, and a line in pieces is one line.
+
+CAD programs break a line where another one crosses it, and leave it in pieces of one direction.  Whether such pieces
+are one vector or several, as weights that are laid one behind the other, only the plan can say: so each run of pieces
+is a candidate beside the pieces themselves, and a plan takes either (`plan_fit.py`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from reportgen.handin.arrowheads import arrowheads
+from reportgen.handin.line_set import Lines, close_pairs
+
+COVERED = 0.1
+"""Lines with ends no farther apart (mm) are one line."""
+EXACT = 0.02
+"""Pieces of one line lie on it within this distance (mm): nobody drew them apart."""
+GAP = 3.0
+"""A line is broken over a gap of this width (mm) at most."""
+MOST_PIECES = 4
+"""A line has no more pieces; a chain of more is a dashed line."""
+
+
+def distinct(ends: np.ndarray) -> np.ndarray:
+    """Return the lines [M, 2] (mm) without those that another one before them covers."""
+    if not len(ends):
+        return ends
+    middle = ends.sum(axis=1) / 2
+    first, second = close_pairs(middle, COVERED)
+    a, b = ends[first], ends[second]
+    straight = np.abs(a - b).max(axis=1)
+    turned = np.abs(a - b[:, ::-1]).max(axis=1)
+    same = np.minimum(straight, turned) <= COVERED
+    kept = np.ones(len(ends), dtype=bool)
+    for earlier, later in sorted(zip(*(np.sort([first[same], second[same]], axis=0)), strict=True)):
+        if kept[earlier]:
+            kept[later] = False
+    return ends[kept]
+
+
+@dataclass(frozen=True, slots=True)
+class _Run:
+    """Pieces one behind the other: the first and the last end, and the inner ends as (piece, end)."""
+
+    first: complex
+    last: complex
+    pieces: tuple[int, ...]
+    inner: tuple[tuple[int, int], ...]
+
+
+def meant(lines: Lines) -> tuple[Lines, np.ndarray]:
+    """Return the lines that may be meant, and whether each of their ends [M, 2] has an arrowhead.
+
+    These are the lines as drawn, without the strokes of arrowheads, and each run of pieces as a further line.  No run
+    goes over an arrowhead, and none repeats a line that was drawn.
+    """
+    runs = _unlike(lines, list(_runs(lines)))
+    count = len(lines.ends)
+    ends = np.concatenate((lines.ends, np.array([(run.first, run.last) for run in runs]).reshape(-1, 2)))
+    every = Lines(ends, lines.error, (*lines.pieces, *(frozenset(run.pieces) for run in runs)))
+    # The last piece of a line may be shorter than the arrowhead at its end: the whole line shows it.
+    marked = arrowheads(every)
+    strokes = frozenset(np.flatnonzero(marked.strokes[:count]).tolist())
+    kept = [n for n in range(count) if n not in strokes]
+    for number, run in enumerate(runs, start=count):
+        if not every.pieces[number] & strokes and not any(marked.heads[place] for place in run.inner):
+            kept.append(number)
+    index = np.array(kept, dtype=int)
+    return every.only(index), marked.heads[index]
+
+
+def _unlike(lines: Lines, runs: list[_Run]) -> list[_Run]:
+    """Return the runs that no line and no run before them covers."""
+    if not runs:
+        return runs
+    ends = np.concatenate((lines.ends, np.array([(run.first, run.last) for run in runs])))
+    left = {(complex(a), complex(b)) for a, b in distinct(ends)}
+    return [run for run in runs if (run.first, run.last) in left]
+
+
+def _runs(lines: Lines) -> Iterator[_Run]:
+    """Yield the runs of two pieces or more, each once."""
+    count = len(lines.ends)
+    following: dict[tuple[int, int], list[tuple[int, int]]] = {}
+    first, second = close_pairs(lines.points, GAP)
+    for one, other in (*zip(first, second, strict=True), *zip(second, first, strict=True)):
+        piece, end = int(one % count), int(one // count)
+        beside, its_end = int(other % count), int(other // count)
+        if piece != beside and _in_line(lines.ends[piece], end, lines.ends[beside], its_end):
+            following.setdefault((piece, end), []).append((beside, its_end))
+    pending = [_Run(complex(lines.ends[piece, 1 - end]), 0j, (piece,), ((piece, end),)) for piece, end in following]
+    while pending:
+        run = pending.pop()
+        for piece, end in following.get(run.inner[-1], ()):
+            pieces = (*run.pieces, piece)
+            if piece in run.pieces or len(pieces) > MOST_PIECES:
+                continue
+            last = complex(lines.ends[piece, 1 - end])
+            if not _are_straight(lines, run.first, last, (*run.inner, (piece, end))):
+                continue
+            # Each run is met from both of its ends.
+            if pieces[0] < pieces[-1]:
+                yield _Run(run.first, last, pieces, (*run.inner, (piece, end)))
+            pending.append(_Run(run.first, 0j, pieces, (*run.inner, (piece, end), (piece, 1 - end))))
+
+
+def _in_line(piece: np.ndarray, end: int, beside: np.ndarray, its_end: int) -> bool:
+    """Return whether a line goes on, over no more than a gap, at the end of another one."""
+    start, last = complex(piece[1 - end]), complex(beside[1 - its_end])
+    whole = last - start
+    if not whole:
+        return False
+    along = [((complex(z) - start) / whole * abs(whole)) for z in (piece[end], beside[its_end])]
+    return (
+        all(abs(z.imag) <= EXACT for z in along)
+        and -EXACT <= along[1].real - along[0].real <= GAP
+        and 0 < along[0].real < abs(whole)
+        and 0 < along[1].real < abs(whole)
+    )
+
+
+def _are_straight(lines: Lines, first: complex, last: complex, inner: tuple[tuple[int, int], ...]) -> bool:
+    way = last - first
+    if not way:
+        return False
+    return all(abs(((complex(lines.ends[at]) - first) / way).imag) * abs(way) <= EXACT for at in inner)
+
+
+def goes_on(lines: Lines, start: complex, end: complex) -> bool:
+    """Return whether a line that begins behind the `end` of another one lies in its direction.
+
+    Nobody can tell then whether the two are pieces of one line.
+    """
+    way = (end - start) / abs(end - start)
+    along = (lines.ends - end) / way
+    on_it = (np.abs(along.imag) <= EXACT).all(axis=1) & (along.real >= -EXACT).all(axis=1)
+    return bool((on_it & (along.real.min(axis=1) <= abs(end - start))).any())
