@@ -94,7 +94,7 @@ def entered(given: JointFriction | None, linkage: Linkage, faces: dict[int, Face
             if value is not None:
                 datum(id, value, "", "")
     for link in dict.fromkeys(joint.links[1] for joint in rubbing if joint.kind == "P"):
-        datum(friction_ids.coefficient(link), given.sliders[link], "", "")
+        datum(friction_ids.coefficient_of_slider(link), given.sliders[link], "", "")
     return friction if rubbing else None
 
 

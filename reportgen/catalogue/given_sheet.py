@@ -15,7 +15,7 @@ from reportgen.catalogue.parameters import Driven, FixedPoint, Flywheel
 from reportgen.catalogue.typed import as_typed, size_of
 from reportgen.formula import NOTHING, PI, Expression, Number, Operand, Ref, Symbol, ids, signed, turned, vocabulary
 from reportgen.formula.sheet import Sheet
-from reportgen.formula.vocabulary import drawn_length
+from reportgen.formula.vocabulary import KINDS, drawn_length
 from reportgen.machine import DRIVER, Inertia, LinkPoint
 from reportgen.machine.laws import FULL_TURN
 
@@ -23,6 +23,15 @@ CRANK_DRAWN = 0.04
 """Drawn length of the crank (m on paper) when none is asked for."""
 MIDDLE = 0.5
 """Where the mass centre of a uniform bar lies."""
+
+
+MOST_FIGURES = 6
+"""A number of more significant figures is not typed but converted."""
+
+
+def _figures(value: float) -> int:
+    """The significant figures of a number, without the last bits of floats."""
+    return len(f"{abs(value):.11e}".partition("e")[0].replace(".", "").rstrip("0"))
 
 
 class GivenSheet(Sheet):
@@ -33,12 +42,17 @@ class GivenSheet(Sheet):
         self.given = given
 
     def datum(self, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
-        """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page."""
+        """Enter a quantity as typed; a ratio `1/3.6` is worked out on the page.
+
+        One that another unit gives more figures than anyone types (6 lb = 2.72155422 kg) is rounded like a result.
+        """
         top, slash, bottom = given.text.partition("/")
         if slash and not given.unit:
             return self.define(id, Number(float(top)) / float(bottom), symbol, kind)
         self.typed[id] = as_typed(given)
-        return self.give(id, given.si, symbol, kind)
+        scale = KINDS[kind or vocabulary.row(id).kind].scale
+        typed = max(_figures(given.value), MOST_FIGURES)
+        return self.give(id, given.si, symbol, kind, converted=_figures(given.si / scale) > typed)
 
     def speed(
         self,

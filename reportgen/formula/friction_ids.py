@@ -8,7 +8,8 @@ from reportgen.formula import friction_exercises
 from reportgen.formula.ids import Name
 from reportgen.formula.vocabulary import Chapter, QuantityKind, VocabularyRow
 
-coefficient = Name("friction.f.{at}")  # of a pin by its point, of a slider by its link
+coefficient = Name("friction.f.{point}")  # of a pin
+coefficient_of_slider = Name("friction.f.{link}")
 pin_radius = Name("friction.r.{point}")
 circle = Name("friction.rho.{point}")
 angle = Name("friction.phi.{link}")
@@ -26,12 +27,15 @@ torque_of_round = Name("friction.round.{round}")
 efficiency = "friction.eta"
 mean = "friction.mean"
 cycle_efficiency = "friction.eta.cycle"
-dead = Name("friction.dead.{slider}.{number}.{side}")
+dead = Name("friction.dead.{link}.{number}.{side}")
 """How far before or behind a dead centre a slider cannot move its crank."""
+dead_before = Name("friction.dead.{link}.{number}.before")
+dead_behind = Name("friction.dead.{link}.{number}.behind")
 
 KINDS: Mapping[str, QuantityKind] = friction_exercises.KINDS
 ROWS = (
     VocabularyRow(coefficient, "f", "ratio", name="friction coefficient"),
+    VocabularyRow(coefficient_of_slider, "f", "ratio", name="slider friction"),
     VocabularyRow(pin_radius, "r", "length", name="pin radius"),
     VocabularyRow(circle, "ρ", "length", Chapter.forces, name="friction circle"),
     VocabularyRow(angle, "φ", "angle", Chapter.forces, name="friction angle"),
@@ -48,6 +52,7 @@ ROWS = (
     VocabularyRow(Name(efficiency), "η", "ratio", Chapter.torque, name="efficiency"),
     VocabularyRow(Name(mean), "M", "torque", Chapter.cycle, below="m", above="fr", name="mean torque with friction"),
     VocabularyRow(Name(cycle_efficiency), "η", "ratio", Chapter.cycle, below="m", name="efficiency over the cycle"),
-    VocabularyRow(dead, "Δφ", "angle", Chapter.cycle, below="{slider}", name="dead zone"),
+    VocabularyRow(dead_before, "Δφ", "angle", Chapter.cycle, below="{link}", name="dead zone before"),
+    VocabularyRow(dead_behind, "Δφ", "angle", Chapter.cycle, below="{link}", name="dead zone behind"),
     *friction_exercises.ROWS,
 )

@@ -123,7 +123,11 @@ def _largest(family: Family) -> float:
 
 def _is_typed(family: Family) -> bool:
     """Whether a value is printed as it was given."""
-    return family.is_plane or family.hidden or (family.exact and is_typed(family.values / family.how.scale))
+    return (
+        family.is_plane
+        or family.hidden
+        or (family.exact and not family.converted and is_typed(family.values / family.how.scale))
+    )
 
 
 def _named_again(family: Family) -> str:

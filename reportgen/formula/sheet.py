@@ -70,6 +70,7 @@ class Family:
     signed value or vector this is, of an arm the load, `about` the point an arm is measured from; both are ""
     for any other quantity.  `written` is a formula of the same value in place of the definition on the page, where
     printed figures would be too few for that.  A `residue` is what rounding leaves between two ways to one number.
+    What is `converted` was typed in a unit that gives more figures than anyone types; it is rounded like a result.
     """
 
     id: str
@@ -87,6 +88,7 @@ class Family:
     about: str = ""
     written: Expression | None = None
     residue: bool = False
+    converted: bool = False
 
     @property
     def line(self) -> Expression | None:

@@ -7,10 +7,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any
 
+import numpy as np
+
 from reportgen import report as tree
 from reportgen.base.errors import Problem
-from reportgen.base.units import MINUS, Language, rounded, write
+from reportgen.base.settled import significant
+from reportgen.base.units import Language, rounded, write
 from reportgen.formula import Number
+from reportgen.formula.sheet import ZERO
 from reportgen.marking.key import shown_number, words_of
 from reportgen.marking.key_files import band, band_decimals
 from reportgen.marking.marks import Amendment, Marked, Marking, Verdict, points_of
@@ -289,10 +293,10 @@ def points_text(points: float, language: Language) -> str:
 
 
 def _given_value(row: KeyRow, value: float) -> Inline:
-    """A student's value with its unit, to six figures; one of any size takes little room."""
-    if value and not LEAST < abs(value) < MOST:
-        return Text(f"{value:.4g} {row.unit}".replace("-", MINUS).strip())
-    return tree.Value(Number(float(f"{value:.6g}"), None, row.unit))
+    """A student's value with its unit, to six figures; what is noise beside the values of the key is 0."""
+    if abs(value) < ZERO * np.nanmax(np.abs(row.values), initial=0.0):
+        value = 0.0
+    return tree.Value(Number(significant(value, 6 if LEAST < abs(value) < MOST else 4), None, row.unit))
 
 
 def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines:

@@ -12,7 +12,7 @@ import numpy as np
 from reportgen import report as tree
 from reportgen.base.settled import significant
 from reportgen.base.units import significant_decimals
-from reportgen.formula import Number, Symbol
+from reportgen.formula import Number
 from reportgen.formula.plain import formula
 from reportgen.formula.sheet import ZERO
 from reportgen.marking.key import shown_number, symbol_text, words_of
@@ -23,10 +23,10 @@ from reportgen.marking.paper import (
     heading,
     paper,
     paragraph,
-    shared_symbols,
     student_rows,
     symbol_inlines,
     symbol_width,
+    unnamed_rows,
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
 from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text, plain
@@ -218,38 +218,38 @@ def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow
         yield _list(words, name, singles)
     turning = [row for row in rows if not row.single and any(row.sense)]
     others = [row for row in rows if not row.single and not any(row.sense)]
-    shared = shared_symbols((*others, *turning))
+    unnamed = unnamed_rows((*others, *turning))
     for group in (others, turning):
         width = VALUE + 2 * BAND + (SENSE if group is turning else 0.0)
         most = int((tree.TEXT_WIDTH - tree.FIRST_COLUMN) // width)
         for start in range(0, len(group), most):
-            yield _by_position(key, words, name, group[start : start + most], shared)
+            yield _by_position(key, words, name, group[start : start + most], unnamed)
 
 
 def _list(words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Table:
     """Single values, a quantity a row."""
-    heads, shared = words["table"], shared_symbols(rows)
+    heads, unnamed = words["table"], unnamed_rows(rows)
     senses = any(any(row.sense) for row in rows)
-    symbol = symbol_width(rows, shared, SYMBOL)
+    symbol = symbol_width(unnamed, SYMBOL)
     widths = [UNIT, SINGLE, SINGLE_BAND, SINGLE_BAND, *([SENSE] if senses else [])]
     columns = (Column(symbol), Column(tree.TEXT_WIDTH - symbol - sum(widths), "left"), *map(Column, widths))
     titles = [heads["symbol"], words["answer_sheet"]["what"], heads["unit"], heads["value"]]
     titles += [words["key"][name] for name in ("drawn", "computed", *(["sense"] if senses else []))]
     body = (
-        cells((symbol_inlines(row, row.symbol in shared), row.described, row.unit, *_values(row, 0, senses)))
+        cells((symbol_inlines(row, row.id in unnamed), row.described, row.unit, *_values(row, 0, senses)))
         for row in rows
     )
     return Table(columns, (cells(titles),), tuple(body), (Text(name),))
 
 
 def _by_position(
-    key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow], shared: Container[Symbol]
+    key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow], unnamed: Container[str]
 ) -> Table:
     """Quantities beside one another, positions below one another."""
     heads, senses = words["key"], any(any(row.sense) for row in rows)
     widths = (VALUE, BAND, BAND, *((SENSE,) if senses else ()))
     under = ("", heads["drawn"], heads["computed"], *((heads["sense"],) if senses else ()))
-    titles = (Cell(_title(row, row.symbol in shared), len(widths)) for row in rows)
+    titles = (Cell(_title(row, row.id in unnamed), len(widths)) for row in rows)
     head = ((*cells((words["table"]["position"],)), *titles), (Cell(), *cells(under) * len(rows)))
     body = (
         cells((label, *(value for row in rows for value in _values(row, index, senses))))

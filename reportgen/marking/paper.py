@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -12,7 +12,7 @@ from typing import Any
 from reportgen import report as tree
 from reportgen.base.units import Language
 from reportgen.drawing.label_size import box
-from reportgen.formula import Number, Symbol
+from reportgen.formula import Number
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import words_of
 from reportgen.marking.sheet import asked_positions, info_rows, open_cells
@@ -114,15 +114,16 @@ def symbol_inlines(row: KeyRow, with_id: bool) -> Inlines:
     return (InlineMath(row.symbol), *((tree.LineBreak(), Text(row.id)) if with_id else ()))
 
 
-def symbol_width(rows: Iterable[KeyRow], shared: Container[Symbol], least: float) -> float:
-    """The width (mm) of a column of symbols, those that are `shared` with their ids below."""
-    ids = (row.id for row in rows if row.symbol in shared)
-    return max((least, *(box(id, TABLE_SIZE).width + PADDING for id in ids)))
+def symbol_width(unnamed: Iterable[str], least: float) -> float:
+    """The width (mm) of a column of symbols, with the ids of `unnamed` rows below them."""
+    return max((least, *(box(id, TABLE_SIZE).width + PADDING for id in unnamed)))
 
 
-def shared_symbols(rows: Iterable[KeyRow]) -> frozenset[Symbol]:
-    """Symbols that several of the rows have."""
-    return frozenset(symbol for symbol, count in Counter(row.symbol for row in rows).items() if count > 1)
+def unnamed_rows(rows: Iterable[KeyRow]) -> frozenset[str]:
+    """Return the ids of rows that neither a symbol nor words of their own tell from another: only these print it."""
+    rows = tuple(rows)
+    count = Counter((row.symbol, row.described) for row in rows)
+    return frozenset(row.id for row in rows if count[row.symbol, row.described] > 1)
 
 
 # --- the task -------------------------------------------------------------------------------------
@@ -233,9 +234,9 @@ def _heads(key: Key, positions: Sequence[int]) -> tuple[str, ...]:
 
 def _answer_table(key: Key, rows: Sequence[KeyRow], positions: Sequence[int], headed: bool) -> Table:
     """Quantities below one another, each with what it is in words, those of a part below its name if it is `headed`."""
-    shared, open_at = shared_symbols(rows), open_cells(key)
+    unnamed, open_at = unnamed_rows(rows), open_cells(key)
     count = max(len(positions), 1)
-    symbol = symbol_width(rows, shared, SYMBOL)
+    symbol = symbol_width(unnamed, SYMBOL)
     rest = tree.TEXT_WIDTH - symbol - UNIT
     # A formula is broken at its equals sign at most.
     formulas = (one.expression for row in rows for one in row.described if isinstance(one, InlineMath))
@@ -244,7 +245,7 @@ def _answer_table(key: Key, rows: Sequence[KeyRow], positions: Sequence[int], he
     columns = (Column(symbol), Column(rest - value * count, "left"), Column(UNIT), *(Column(value),) * count)
 
     def fill_in(row: KeyRow) -> tuple[Cell, ...]:
-        what = cells((symbol_inlines(row, row.symbol in shared), row.described, row.unit))
+        what = cells((symbol_inlines(row, row.id in unnamed), row.described, row.unit))
         if row.single:
             return (*what, Cell((Text("" if 0 in open_at[row.id] else DASH),), span=count))
         return (*what, *cells("" if k in open_at[row.id] else DASH for k in positions))

@@ -65,7 +65,7 @@ def rubbing_joints(q: Sheet | Mapping[str, object], linkage: Linkage, friction: 
         digits = next(
             digits for digits in (ids.joint(first, second), ids.joint(second, first)) if ids.reaction(digits) in q
         )
-        share = friction_ids.circle(joint.point) if joint.kind == "R" else friction_ids.coefficient(second)
+        share = friction_ids.circle(joint.point) if joint.kind == "R" else friction_ids.coefficient_of_slider(second)
         solved.append(RubbingJoint(joint, digits, share))
     return tuple(solved)
 
@@ -79,7 +79,7 @@ def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked:
         if id not in q and r in q:
             q.define(id, q[f] * q[r])
     for link in friction.coefficients:
-        if (of := q.find(friction_ids.coefficient(link))) is not None:
+        if (of := q.find(friction_ids.coefficient_of_slider(link))) is not None:
             q.define(friction_ids.angle(link), atan(of))
     rates = {each: rate for each in rubbing_joints(q, machine.linkage, friction) if (rate := _rate(q, machine, each))}
     letter, kind, driver = _balanced(q, machine.linkage)
@@ -221,7 +221,7 @@ def misconceptions(families: Mapping[str, Family]) -> dict[str, list[tuple[str, 
             if (r := friction_ids.pin_radius(names["point"])) in families:
                 solved[id] = [("radius-for-circle", Ref(r))]
         elif names := friction_ids.angle.read(id):
-            solved[id] = [("coefficient-for-angle", Ref(friction_ids.coefficient(names["link"])))]
+            solved[id] = [("coefficient-for-angle", Ref(friction_ids.coefficient_of_slider(names["link"])))]
         elif id in friction_ids.turning:
             assert isinstance(family.definition, Call)
             (difference,) = family.definition.arguments

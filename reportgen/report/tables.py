@@ -219,6 +219,10 @@ PRINTED = ("mm", "cm", "m", "°", "N", "kN", "kg", "kg·m²", "N·m", "MPa", "ba
 """Units that are printed as they were typed; any other is turned into the one of the report."""
 
 
+OTHER = ("lb", "in", "inch", "ft", "lbf", "kgf", "gf", "oz", "hp", "psi")
+"""Units that are printed as they were typed, with what the report makes of them."""
+
+
 def _as_typed(report: Report, id: str) -> Inlines:
     """A given number with its unit; a ratio written 1/3.6 stays one."""
     definition = report.ledger[id].definition
@@ -227,9 +231,11 @@ def _as_typed(report: Report, id: str) -> Inlines:
         if len(ends) == 2:
             return Value(ends[0]), Text("/"), Value(ends[1])
     typed = report.machine.sheet.typed.get(id)
-    if typed is None or typed.unit not in PRINTED:
-        return (Value(report.ledger.number(id)),)
-    return (Value(replace(typed, unit=report.ledger.printed_unit(typed.unit))),)
+    number = report.ledger.number(id)
+    if typed is None or typed.unit not in (*PRINTED, *OTHER):
+        return (Value(number),)
+    shown = Value(replace(typed, unit=report.ledger.printed_unit(typed.unit)))
+    return (shown,) if typed.unit in PRINTED else (shown, Text(" = "), Value(number))
 
 
 def indicator(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:

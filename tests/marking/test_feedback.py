@@ -134,7 +134,7 @@ def test_the_page_tells_errors_by_name_what_followed_and_points_by_part() -> Non
     text = text_of(feedback_document(marking(), "Crank"))
     assert "Result: 4 of 10 points." in text
     assert "1. ω_1: your value is 300 rad/s, expected is 31.42 rad/s. The speed in revolutions per minute" in text
-    assert "2. M_cb at position 2: your value is 1e+300 N·m" in text
+    assert "2. M_cb at position 2: your value is 1·10³⁰⁰ N·m" in text
     assert "earned their points: v_B (1)." in text
     assert "Answers!H11: “see page 3” is no number." in text
     assert "Velocities | 2 | 1 | 2 | 1 | 1 | 1 | 3 | 8" in text
