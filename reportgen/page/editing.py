@@ -59,7 +59,8 @@ REST = 0.3
 PATIENCE = 10.0
 """What can wait waits no longer (s)."""
 HERE = Mark("")
-SCRIPTS, STYLES = ("live.js", "edit.js"), ("live.css", "edit.css")
+SCRIPTS = "live.js", "drafts.js", "redraw.js", "tables.js", "edit.js", "owned.js"
+STYLES = "live.css", "edit.css"
 Asked = Mapping[str, Any]
 
 
@@ -69,6 +70,8 @@ class Change:
 
     before: bytes
     after: bytes
+    typing: str = ""
+    """The typing that it belongs to: what is sent in its pauses is undone as a whole."""
 
 
 class RefusedChangeError(Exception):
@@ -107,8 +110,9 @@ class EditSession(LiveSession):
     dragging: threading.Lock = field(default_factory=threading.Lock)
     _resident: tuple[int, Resident | None] = 0, None
     """The machine as it moves, by the number of its revision."""
-    _form: tuple[object, str] = None, ""
-    """What the form was written of last, and the form."""
+    _form: tuple[object, str, int] = None, "", 0
+    """What the form was written of last, the form, and how many others there were before."""
+    _forming: threading.Lock = field(default_factory=threading.Lock)
     _drawn: float = 0.0
     """When a value was drawn last (s)."""
     _opening: threading.Lock = field(default_factory=threading.Lock)
@@ -143,7 +147,7 @@ class EditSession(LiveSession):
 
     @property
     def answers(self) -> Mapping[str, Callable[[], Mapping[str, Any]]]:
-        return {**super().answers, "form.json": lambda: {"form": self.form()}, "owners.json": self.owners}
+        return {**super().answers, "form.json": self.numbered_form, "owners.json": self.owners}
 
     @property
     def takes(self) -> Mapping[str, Callable[[Asked], Mapping[str, Any] | bytes]]:
@@ -184,7 +188,19 @@ class EditSession(LiveSession):
             return {str(file): (f"{PART}{self._parts[file][0]}/", file.name) for file in files}
 
     def form(self) -> str:
-        """The form of the file as it stands, with its faults; of a text that is no table, the faults alone."""
+        """Return the form of the file as it is, with its faults; of a text that is not a table, the faults alone."""
+        return str(self.numbered_form()["form"])
+
+    def numbered_form(self) -> Mapping[str, Any]:
+        """Return the form with the number of its revision.
+
+        Forms are made one at a time, so that a page can ignore an answer that is older than what it shows.
+        """
+        with self._forming:
+            written = self._written_form()
+            return {"form": written, "revision": self._form[2]}
+
+    def _written_form(self) -> str:
         language, words = self._spoken()
         with self.lock:
             text, undo, redo = text_in(self.path), bool(self.done), bool(self.undone)
@@ -220,7 +236,7 @@ class EditSession(LiveSession):
             whole=self.whole and self.whole.name,
             kind_titles=titles(language),
         )
-        self._form = shown, written
+        self._form = shown, written, self._form[2] + 1
         return written
 
     def owners(self) -> Mapping[str, Any]:
@@ -267,8 +283,9 @@ class EditSession(LiveSession):
     # --- what is asked
 
     def edit(self, asked: Asked) -> Mapping[str, Any]:
-        """Make a change and answer with the form as it then is; what keeps it from being made is `refused`.
+        """Make a change and return the form as it then is, with `written`, the value that is now at its place.
 
+        If the change cannot be made, `refused` says why; the file stays as it was.
         Raises `KeyError`, `TypeError` and `ValueError` for what no page of this program asks.
         """
         operation, where = str(asked["op"]), _place(asked.get("where", []))
@@ -278,15 +295,16 @@ class EditSession(LiveSession):
                 if operation in ("undo", "redo"):
                     self._step(operation)
                 else:
-                    self._change(operation, where, asked)
+                    said["written"] = self._change(operation, where, asked)
             except RefusedChangeError as refusal:
                 said["refused"] = refusal.in_words(self._spoken()[1]["edit"])
                 if refusal.key == "meanwhile":
                     said["meanwhile"] = refusal.arguments["there"]
         self.touched.set()
-        return {"form": self.form(), **said}
+        return {**self.numbered_form(), **said}
 
-    def _change(self, operation: str, where: Where, asked: Asked) -> None:
+    def _change(self, operation: str, where: Where, asked: Asked) -> str:
+        """Make a change and return what the file then has at its place."""
         if not where:
             raise ValueError("the whole file is no value")
         before = self._bytes()
@@ -308,8 +326,9 @@ class EditSession(LiveSession):
                 after = mark + changed.encode(codec)
             except UnicodeEncodeError as error:
                 raise RefusedChangeError("no_letter", codec=codec) from error
-            self._write(Change(before, after))
+            self._write(Change(before, after, str(asked.get("typing", ""))))
             self.undone.clear()
+        return written_at(at(read_text(changed).top, where))
 
     def _same(self, text: str, place: Where, was: str, wanted: str) -> None:
         """Raise where another value stands at a place than the page shows, and than it asks for."""
@@ -376,6 +395,10 @@ class EditSession(LiveSession):
         if len(change.after) > LARGEST:
             raise RefusedChangeError("too_large")
         self._put(change.after)
+        last = self.done[-1] if self.done else None
+        if last is not None and change.typing and (last.typing, last.after) == (change.typing, change.before):
+            self.done.pop()
+            change = replace(change, before=last.before)
         self.done.append(change)
         del self.done[:-MOST_STEPS]
 

@@ -43,6 +43,8 @@ class Revision:
     fault: str = ""
     moving: int = 0
     reports: int = 0
+    reads: int = 0
+    """How often the file was read: a fault that stays the same may be that of another text."""
     busy: bool = False
     """Whether a report of the file as it stands is still to come."""
     making: Mapping[str, Any] = field(default_factory=dict)
@@ -54,6 +56,7 @@ class Revision:
         return {
             "moving": self.moving,
             "report": self.reports,
+            "reads": self.reads,
             "fault": self.fault,
             "busy": self.busy,
             "language": self.language,
@@ -108,10 +111,12 @@ class LiveSession:
             language, words = case.assignment.language, case.words
         except Exception as error:
             self._to_write = None
-            self._publish(fault=self._in_words(error), busy=False)
+            self._publish(fault=self._in_words(error), busy=False, reads=number)
             return
         count = self.revision.moving + 1
-        self._publish(language=language, words=words, panels=moving, case=case, moving=count, fault="", busy=True)
+        self._publish(
+            language=language, words=words, panels=moving, case=case, moving=count, fault="", busy=True, reads=number
+        )
         with self.changed:
             self._to_write = number, case
             self.changed.notify_all()

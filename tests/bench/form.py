@@ -65,7 +65,7 @@ new MutationObserver((_, observer) => {
   requestAnimationFrame(() => setTimeout(() => done([begun, now()])));
 }).observe(document.body, { attributes: true, attributeFilter: ["data-moving", "data-drawn"] });
 field.value = arguments[1];
-field.dispatchEvent(new Event("change", { bubbles: true }));
+for (const name of ["input", "change"]) field.dispatchEvent(new Event(name, { bubbles: true }));
 """
 """When a value was typed, and when the machine that has it was drawn (ms)."""
 

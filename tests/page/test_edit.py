@@ -30,7 +30,7 @@ TYPE = """
 const field = document.getElementById(arguments[0]);
 field.focus();
 field.value = arguments[1];
-field.dispatchEvent(new Event("change", { bubbles: true }));
+for (const name of ["input", "change"]) field.dispatchEvent(new Event(name, { bubbles: true }));
 """
 SLIDE = """
 const bar = document.getElementById(arguments[0]).closest(".field").querySelector("[type=range]");
@@ -127,6 +127,8 @@ def test_a_file_is_begun_changed_and_put_right(browser: Browser, tmp_path: Path)
         browser.run(SLIDE, "f:parameters.r", 160)
         until(lambda: browser.run(PLACE) != here)
         assert file.read_text(encoding="utf-8") == begun, "nothing is written while a value is drawn"
+        browser.run(PRESS, "f:parameters.r", ["Escape"])
+        until(lambda: browser.run("return document.getElementById('f:parameters.r').value") == "150 mm")
         until(lambda: "f:parameters.r" in browser.run(POINTED, "A", "B"))
         browser.run(TYPE, "f:parameters.l", "650")
         until(lambda: written(file, "l") == "650")

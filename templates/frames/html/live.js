@@ -21,7 +21,10 @@
 
   // After a page is loaded anew it goes on where it was.
   const KEEP = "reportgen" + location.pathname;
-  const leave = () => {
+  const leave = async () => {
+    const until = [];
+    document.dispatchEvent(new CustomEvent("leaving", { detail: until }));
+    await Promise.all(until);
     try { sessionStorage.setItem(KEEP, JSON.stringify({ scroll: scrollY, angles: moves.map((panel) => panel.angle()) })); } catch { /* no memory */ }
     location.reload();
   };
@@ -79,8 +82,8 @@
       while (news) {
         const now = news;
         news = null;
-        const changed = now.moving !== shown.moving || Boolean(now.fault) !== shown.faulty;
-        shown.faulty = Boolean(now.fault);
+        const changed = now.reads !== shown.reads;
+        shown.reads = now.reads;
         document.dispatchEvent(new CustomEvent("news", { detail: { making: now.making, changed } }));
         fault.hidden = !now.fault;
         fault.lastElementChild.textContent = now.fault;
@@ -88,7 +91,7 @@
         const said = now.moving || now.report ? given.words.fault : given.words.never;
         fault.firstElementChild.textContent = said;
         fault.setAttribute("aria-label", said);
-        if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { leave(); return; }
+        if (now.language !== shown.language && !now.fault || !alike(now.moves) && !now.fault) { await leave(); return; }
         if (now.moving !== shown.moving) await renewMoving();
         showing(now.moving);
         if (now.report !== shown.report) await renewReport();

@@ -1,0 +1,92 @@
+"use strict";
+// What is typed and not yet in the file: one draft per field, by the place of its value.  Knows no elements.
+// base: the value of the file that the typing began with; text: what the field shows; due: what is to be written, in
+// order; sent: what is on its way to the file.  Each bears the typing that it belongs to, which is undone as a whole.
+const drafts = (() => {
+  const all = new Map(), page = Math.random().toString(36).slice(2);
+  let file = new Map(), count = 0, sure = () => true;
+
+  const typed = (place, text, shown) => {
+    const draft = all.get(place) || { base: shown, due: [], sent: null };
+    Object.assign(draft, { text, typing: `${page}.${count}` });
+    all.set(place, draft);
+    if (isVain(place)) all.delete(place);
+  };
+  // Nothing is to be written: the file has it, and nothing is on its way that could change that.
+  const isVain = (place) => {
+    const { base, text, due, sent } = all.get(place), there = file.get(place) ?? base;
+    return text === there && !due.length && !sent && sure();
+  };
+  // The file has another value than the one that the draft is based on: neither may be lost.
+  const conflict = (place) => {
+    const draft = all.get(place), there = file.get(place);
+    const parted = draft && !draft.sent && there !== undefined && there !== draft.base && there !== draft.text;
+    return parted ? { mine: draft.text, there } : null;
+  };
+  // After Enter, Tab, a click elsewhere or a pause; returns what is to be written that was not before.  The same text of
+  // another typing is: a step back may be on its way between both.
+  const commit = (place) => {
+    const draft = all.get(place);
+    if (!draft) return null;
+    const { text, typing, due, sent } = draft, last = due.at(-1);
+    draft.refused = false;
+    if (last?.typing === typing) last.text = text;
+    if (last?.typing === typing || sent?.typing === typing && sent.text === text || isVain(place)) return null;
+    due.push({ text, typing });
+    return due.at(-1);
+  };
+  const send = (place, entry) => {
+    const draft = all.get(place);
+    if (!draft || draft.due[0] !== entry || draft.refused || conflict(place)) return null;
+    draft.sent = draft.due.shift();
+    if (draft.sent.text === draft.base) {
+      written(place, draft.base);
+      return null;
+    }
+    return { value: draft.sent.text, typing: draft.sent.typing, was: draft.base };
+  };
+  const written = (place, text) => {
+    const draft = all.get(place);
+    if (!draft?.sent) return;
+    if (draft.typing === draft.sent.typing && draft.text === draft.sent.text && !draft.due.length) all.delete(place);
+    Object.assign(draft, { base: text, sent: null });
+  };
+  // What could not be written is kept, and tried again when the file has changed.
+  const unwritten = (place) => {
+    const draft = all.get(place);
+    if (!draft?.sent) return;
+    draft.due.unshift(draft.sent);
+    Object.assign(draft, { sent: null, refused: true });
+  };
+  // The values of the file are known anew; after an `own` step back or forth, what is typed meanwhile follows on it.
+  const learn = (values, own = false) => {
+    const old = file;
+    file = values;
+    for (const [place, draft] of all) {
+      draft.refused = false;
+      if (own && draft.base === old.get(place)) draft.base = file.get(place) ?? draft.base;
+      if (isVain(place)) all.delete(place);
+    }
+  };
+  const keepMine = (place) => {
+    const draft = all.get(place);
+    Object.assign(draft, { base: file.get(place), due: [] });
+    return commit(place);
+  };
+  return {
+    typed, conflict, commit, send, written, unwritten, learn, keepMine,
+    // Whether nothing is on its way to the file is for the sender to say.
+    sureIf: (says) => { sure = says; },
+    // What is typed from here on is a typing by itself.
+    begin: () => { count += 1; },
+    drop: (place) => all.delete(place),
+    text: (place) => all.get(place)?.text,
+    isOpen: (place) => all.has(place) && !all.get(place).due.length && !all.get(place).sent,
+    places: () => [...all.keys()],
+    // What is to be written, [place, entry] each.
+    due: () => [...all].flatMap(([place, { due, refused }]) => (refused ? [] : due.map((entry) => [place, entry]))),
+    // What outlives a page that is loaded anew.
+    kept: () => [...all].map(([place, { base, text }]) => [place, base, text]),
+    restore: (kept) => kept.forEach(([place, base, text]) => { typed(place, text, base); commit(place); }),
+  };
+})();

@@ -1,0 +1,174 @@
+"""Typing at the form in a browser: nothing typed is lost, nothing is written that nobody typed."""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from reportgen import catalogue
+from reportgen.base.errors import Where
+from reportgen.base.source import MappingNode, Scalar, read_text
+from reportgen.page.editing import EditSession
+from tests.lanes import matrix
+from tests.page.browser import Browser
+from tests.page.typist import SHIFT, Model, Typist, edit_beside, form_alone, play, until, value
+
+KIND = "slider-crank"
+KEYS = ["r", "l", "n"]
+NOTE = "return document.querySelector('.conflict')?.firstChild.textContent || ''"
+SETTLE = "document.querySelector(`[data-settle=${arguments[0]}]`).click()"
+EVENTS = """
+window.unasked = [];
+for (const name of ["change", "input"]) {
+  addEventListener(name, (event) => { if (!event.isTrusted) window.unasked.push(name); }, true);
+}
+window.before = document.getElementById("f:parameters.l");
+"""
+
+
+@pytest.fixture
+def file(tmp_path: Path) -> Path:
+    (made := tmp_path / "mine.yaml").write_text(catalogue.sample(KIND, "en"), encoding="utf-8")
+    return made
+
+
+def texts(file: Path) -> dict[Where, str]:
+    """All single values of a file by their places."""
+
+    def below(node: object, where: Where) -> Iterator[tuple[Where, str]]:
+        if isinstance(node, MappingNode):
+            for key, held in node.entries:
+                yield from below(held, (*where, key.text))
+        elif isinstance(node, Scalar):
+            yield where, "" if node.null else node.text
+
+    return dict(below(read_text(file.read_text(encoding="utf-8")).top, ()))
+
+
+@pytest.mark.parametrize("run", matrix(range(6), [0]))
+def test_values_typed_along_are_written_as_typed(browser: Browser, file: Path, run: int) -> None:
+    """From field to field with Tab at ordinary speed, while answers come at once or up to two seconds later."""
+    chance = random.Random(run)
+    with form_alone(file, lambda: chance.uniform(0, run / 5)) as server:
+        browser.show(server.address, still=True)
+        browser.run(EVENTS)
+        typist = Typist(browser, 0.01 if run == 0 else 0.08)
+        typist.replace("r", "145 mm")
+        # The last but one has no unit: a button that mends it appears where Tab goes next.
+        given = {"r": "145 mm", "l": "525 mm", "n": "85", "s": "0.4"}
+        for key in ("l", "n", "s"):
+            typist.press("Tab")
+            typist.to_a_field()
+            assert typist.focused() == ("parameters", key)
+            typist.type(given[key])
+        typist.press("Tab", SHIFT)
+        typist.to_a_field(SHIFT)
+        assert typist.focused() == ("parameters", "n")
+        typist.type(given.setdefault("n", ""))
+        typist.press("Enter")
+        typist.idle()
+        assert {key: value(file, ("parameters", key)) for key in given} == given
+        assert browser.run("return window.unasked") == []
+        assert browser.run("return window.before.isConnected"), "no field was replaced"
+
+
+def test_an_editor_changes_what_is_being_typed(browser: Browser, file: Path) -> None:
+    """Both values are shown, either can be chosen, and the field in which one types is never changed."""
+    where = "parameters", "l"
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        for chosen in ("mine", "theirs"):
+            typist.replace("l", "170")
+            edit_beside(file, where, "15" + str(len(chosen) - 3) + " mm")
+            until(lambda: browser.run(NOTE))
+            typist.type(" mm")
+            assert browser.run("return document.activeElement.value") == "170 mm"
+            typist.press("Tab")
+            time.sleep(0.2)
+            there = value(file, where)
+            assert there in ("151 mm", "153 mm"), "nothing is overwritten"
+            assert {"170 mm", there} <= set(browser.run(NOTE).replace(": ", " · ").replace(" (", " · ").split(" · "))
+            browser.run(SETTLE, chosen)
+            typist.idle()
+            assert value(file, where) == (there if chosen == "theirs" else "170 mm")
+            assert browser.run("return document.getElementById('f:parameters.l').value") == value(file, where)
+            assert not browser.run(NOTE)
+
+
+def test_what_is_typed_outlives_a_file_that_cannot_be_read(browser: Browser, file: Path) -> None:
+    """An editor leaves half a line: the field stays, its value is written when the file is mended."""
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        typist.replace("l", "170")
+        whole = file.read_text(encoding="utf-8")
+        file.write_text(whole.replace("positions:", "positions: ["), encoding="utf-8")
+        until(lambda: browser.run("return document.querySelector('#problems li') !== null"))
+        typist.type(" mm")
+        assert browser.run("return document.activeElement.value") == "170 mm"
+        typist.press("Enter")
+        until(lambda: browser.run("return document.getElementById('refused').textContent"))
+        assert "170" not in file.read_text(encoding="utf-8")
+        file.write_text(whole, encoding="utf-8")
+        typist.idle()
+        assert value(file, ("parameters", "l")) == "170 mm"
+
+
+def test_a_key_removed_beside_leaves_its_field_while_one_types(browser: Browser, file: Path) -> None:
+    with form_alone(file) as server:
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        typist.replace("s", "0.3")
+        text = file.read_text(encoding="utf-8")
+        file.write_text(text.replace("  s: 0.5", "  # s: 0.5"), encoding="utf-8")
+        until(lambda: browser.run(NOTE))
+        typist.type("5")
+        assert browser.run("return document.activeElement.value") == "0.35"
+        browser.run(SETTLE, "mine")
+        typist.idle()
+        assert value(file, ("parameters", "s")) == "0.35"
+
+
+def test_what_is_sent_in_a_pause_is_undone_with_the_rest(tmp_path: Path) -> None:
+    """Half a value, the whole value: one step back leads to what was there before the typing."""
+    (file := tmp_path / "mine.yaml").write_text(catalogue.sample(KIND, "en"), encoding="utf-8")
+    begun, edited = file.read_bytes(), EditSession(lambda: pytest.fail("not opened"), "en", path=file)
+    for was, text, typing in (("600 mm", "17", "a.1"), ("17", "170 mm", "a.1"), ("170 mm", "180 mm", "a.2")):
+        edited.edit({"op": "set", "where": ["parameters", "l"], "value": text, "was": was, "typing": typing})
+    undone = []
+    for _ in range(3):
+        edited.edit({"op": "undo"})
+        undone.append(value(file, ("parameters", "l")))
+    assert undone == ["170 mm", "600 mm", "600 mm"]
+    assert file.read_bytes() == begun
+    edited.edit({"op": "redo"})
+    assert value(file, ("parameters", "l")) == "170 mm"
+
+
+def test_answers_are_numbered(tmp_path: Path) -> None:
+    """A page that is told of an older form than it shows can know it."""
+    (file := tmp_path / "mine.yaml").write_text(catalogue.sample(KIND, "en"), encoding="utf-8")
+    edited = EditSession(lambda: pytest.fail("not opened"), "en", path=file)
+    first = edited.numbered_form()["revision"]
+    answer = edited.edit({"op": "set", "where": ["parameters", "l"], "value": "170 mm"})
+    assert (answer["revision"], answer["written"]) == (first + 1, "170 mm")
+    assert edited.numbered_form()["revision"] == first + 1
+
+
+@pytest.mark.parametrize("seed", matrix(range(200), range(5)))
+def test_the_file_has_what_was_typed(browser: Browser, file: Path, seed: int) -> None:
+    """Anything done at the form in any order, answers late, an editor beside it: the file is that of the model."""
+    chance = random.Random(seed)
+    longest = chance.choice([0.0, 0.05, 0.3]) if seed < 20 else chance.choice([0.0, 0.1, 0.5, 1.5])
+    with form_alone(file, lambda: chance.uniform(0, longest)) as server:
+        browser.show(server.address, still=True)
+        model, log = Model(texts(file)), list[str]()
+        play(Typist(browser), file, model, KEYS, seed, 10, log)
+        assert {where: text for where, text in texts(file).items() if text} == {
+            where: text for where, text in model.values.items() if text
+        }, log
