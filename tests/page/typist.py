@@ -25,7 +25,7 @@ from reportgen.page.watch import edited
 from reportgen.report.case import Case
 from tests.page.browser import Browser
 
-PATIENCE = 30.0
+PATIENCE = 20.0
 FOCUSED = """
 const field = document.activeElement;
 return field.matches("#fields input:not([type=range], [data-list])") && field.dataset.was !== undefined
@@ -36,6 +36,11 @@ IDLE = """
 const words = JSON.parse(document.getElementById("live").textContent).words;
 return document.getElementById("saved").textContent === words.saved && !drafts.places().length;
 """
+STATE = """
+const text = (name) => document.getElementById(name).textContent;
+return [text("saved"), text("refused"), JSON.stringify(drafts.kept()), document.activeElement.outerHTML.slice(0, 200)];
+"""
+"""What a page that does not come to rest is at."""
 SENT = """
 const words = JSON.parse(document.getElementById("live").textContent).words;
 return document.getElementById("saved").textContent !== words.saving && drafts.places().every(drafts.isOpen);
@@ -52,10 +57,10 @@ CODES = {"Tab": 9, "Enter": 13, "Escape": 27, "End": 35, "a": 65, "y": 89, "z": 
 CONTROL, SHIFT = 2, 8
 
 
-def until(condition: Callable[[], object]) -> None:
+def until(condition: Callable[[], object], told: Callable[[], object] = lambda: "") -> None:
     end = time.monotonic() + PATIENCE
     while not condition():
-        assert time.monotonic() < end
+        assert time.monotonic() < end, told()
         time.sleep(0.02)
 
 
@@ -118,7 +123,7 @@ class Typist:
 
     def idle(self) -> None:
         """Wait until everything typed is in the file and the page knows."""
-        until(lambda: self.browser.run(IDLE))
+        until(lambda: self.browser.run(IDLE), lambda: self.browser.run(STATE))
 
     def shows(self, key: str, text: str) -> None:
         """Wait until the page knows what a parameter is in the file."""

@@ -31,7 +31,11 @@ const drafts = (() => {
     const { text, typing, due, sent } = draft, last = due.at(-1);
     draft.refused = false;
     if (last?.typing === typing) last.text = text;
-    if (last?.typing === typing || sent?.typing === typing && sent.text === text || isVain(place)) return null;
+    if (last?.typing === typing || sent?.typing === typing && sent.text === text) return null;
+    if (isVain(place)) {
+      all.delete(place);
+      return null;
+    }
     due.push({ text, typing });
     return due.at(-1);
   };

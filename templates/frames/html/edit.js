@@ -184,10 +184,12 @@ const fields = (() => {
   const type = (field, text = field.value) => {
     if (field.value !== text) field.value = text;
     drafts.typed(field.dataset.w, text, field.dataset.was);
+    tell();
   };
   const commit = (field) => {
     clearTimeout(pause);
     const key = field.dataset.w, entry = drafts.commit(key);
+    tell();
     if (!entry) return;
     push(setting([key, entry]));
     // What moves takes a number at once, before all is made anew from the file.
