@@ -21,15 +21,16 @@ from __future__ import annotations
 import hashlib
 import unicodedata
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import chain
 
 from reportgen import catalogue
 from reportgen.assignment.common import PARTS
 from reportgen.base.errors import Fault
 from reportgen.base.source_text import path_text
 from reportgen.cases import opened
-from reportgen.classes.roster import Roster, RosterEntry
+from reportgen.classes.roster import Roster, RosterEntry, comparable
 from reportgen.classes.spec import DRAWN_SECTIONS, Settings, Spec, place
 
 ATTEMPTS = 64
@@ -69,8 +70,60 @@ class Draw:
     keys: dict[Combination, Key] = field(default_factory=dict)
     faults: list[Fault] = field(default_factory=list)
 
-    def each(self, roster: Roster) -> Iterator[DrawnVariant]:
-        """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end."""
+    def each(
+        self, roster: Roster, redrawn: Mapping[str, int] | None = None, anew: Collection[str] = ()
+    ) -> Iterator[DrawnVariant]:
+        """The students' variants in the order of the roster; nobody's counts if there are `faults` in the end.
+
+        `redrawn` are the numbers, from 1, of variants that were drawn anew before, by `comparable` id.  Those to be
+        drawn `anew` get a variant that nobody has had; the first variants stay taken, so that the others keep theirs.
+        """
+        stated = {comparable(student.id): student for student in roster.students}
+        kept: dict[str, Combination] = {}
+        for id, number in (redrawn or {}).items():
+            if id in stated and 0 < number <= self.spec.size:
+                combination = self.spec.combination(number - 1)
+                if not self._faults(stated[id], combination):
+                    kept[id] = combination
+                    self.taken[self._key(stated[id], combination)] += 1
+        if not kept and not anew:
+            yield from self._first(roster)
+            return
+        for variant in list(self._first(roster)):
+            id = comparable(variant.student.id)
+            if id in anew:
+                yield from self._anew(variant, kept.get(id, variant.combination))
+            else:
+                yield self._drawn(variant.student, kept[id]) if id in kept else variant
+
+    def _anew(self, first: DrawnVariant, current: Combination) -> Iterator[DrawnVariant]:
+        """Another variant of a student than the first and the current one, which others have as seldom as can be."""
+        student, spec = first.student, self.spec
+        had = {self._key(student, first.combination), self._key(student, current)}
+        further = (
+            tuple(
+                pick(spec.name, spec.salt, student.id, axis.name, ATTEMPTS + k, len(axis.choices)) for axis in spec.axes
+            )
+            for k in range(ATTEMPTS)
+        )
+        chosen: Combination | None = None
+        fewest = 0
+        for combination in chain(further, self._in_order(student)):
+            key = self._key(student, combination)
+            if key in had or self._faults(student, combination):
+                continue
+            if chosen is None or self.taken[key] < fewest:
+                chosen, fewest = combination, self.taken[key]
+            if not fewest:
+                break
+        if chosen is None:
+            self.faults.append(Fault("no-other-variant", student.mark, {"text": student.id}))
+            return
+        self.taken[self._key(student, chosen)] += 1
+        yield self._drawn(student, chosen)
+
+    def _first(self, roster: Roster) -> Iterator[DrawnVariant]:
+        """What each student draws first, in the order of the roster."""
         for student in roster.students:
             variant = self._draw_for(student)
             if variant is not None:

@@ -281,7 +281,7 @@ def _assigned(order: Order, roster: Roster) -> tuple[list[Assigned], list[str]]:
         folder = order.out / DRAWN
         remove_unfinished(folder)
         variants = make_variants(order.spec, order.roster, folder, language=order.language, shared=order.shared)
-        return list(zip(roster.students, (file.path for file in variants.files), strict=True)), list(variants.remarks)
+        return [(file.drawn.student, file.path) for file in variants.files], list(variants.remarks)
     if order.assignments is None:
         raise ValueError("assignments are either drawn or given")
     assigned, unused = match_files(roster.students, order.assignments, order.language)

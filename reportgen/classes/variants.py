@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
@@ -34,8 +34,9 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem, word
 from reportgen.cases import opened
 from reportgen.classes.draw import Draw, DrawnVariant, judge_of, shared
+from reportgen.classes.earlier_draw import DROPPED, MARKED, REDRAWN, read_earlier, students_named
 from reportgen.classes.pool import each_within
-from reportgen.classes.roster import read_roster
+from reportgen.classes.roster import comparable, read_roster
 from reportgen.classes.spec import Spec, assembled, read_spec
 from reportgen.workbook import write_csv
 
@@ -138,16 +139,23 @@ def make_variants(
     language: Language | None = None,
     shown: Shown = lambda files, _: files,
     shared: Sequence[Path] = (),
+    redraw: Sequence[str] = (),
+    drop: Sequence[str] = (),
 ) -> Variants:
     """Draw for the class of a roster and write each student's assignment file into `out`.
 
     The spec's table may lie below a `shared` folder, too.  Files appear whole; one that was edited since it was made
     is kept unless `force`.  A school's words that the spec names go with them.  Also writes `out`/variants.csv, which
-    is for the instructor alone.  Raises
-    `AssignmentError` with the faults of spec and roster, before anything is written.
+    is for the instructor alone.  Students to `redraw`, by id, e-mail or name, get another variant than
+    they have; those to `drop` lose theirs, and their files; it is kept for later runs in the table, and all others keep
+    their variants.  Raises `AssignmentError` with the faults of spec and roster, before anything is written, and
+    `UnknownNameError` for a student whom nobody knows.
     """
     spec = read_spec(spec_path, language, shared)
-    roster = read_roster(roster_path, spec.language)
+    listed = read_roster(roster_path, spec.language)
+    earlier = read_earlier(out / TABLE, spec.language).with_dropped(drop, listed, spec.language)
+    anew = students_named(redraw, listed, spec.language)
+    roster = earlier.whole(listed)
     _refuse(spec.column_faults(roster.columns), spec)
     stems = [student.folder for student in roster.students]
     names = (
@@ -160,27 +168,36 @@ def make_variants(
     for name, content in words_beside(spec_path).items():
         (out / name).parent.mkdir(parents=True, exist_ok=True)
         put_file(out / name, content)
-    draw, files = Draw(spec, judge_of(spec)), list[StudentFile]()
+    draw, files, everyone = Draw(spec, judge_of(spec)), list[StudentFile](), list[StudentFile]()
 
     def each() -> Iterator[StudentFile]:
-        for drawn in draw.each(roster):
-            files.append(_student_file(spec, drawn, out, force))
-            yield files[-1]
+        for drawn in draw.each(roster, earlier.redrawn, anew):
+            file = _student_file(spec, drawn, out, force)
+            everyone.append(file)
+            if comparable(drawn.student.id) not in earlier.dropped:
+                files.append(file)
+                yield file
 
-    count = len(roster.students)
+    count = len(roster.students) - len(earlier.dropped & {comparable(one.id) for one in roster.students})
     # While some are drawn, other processes find the figures of those before.
     efforts = tuple(shown(_efforts(each(), count), count))
     _refuse(draw.faults, spec)
     out.mkdir(parents=True, exist_ok=True)
     made = [file.files for file in files if file.state in ("new", "changed")]
-    put_set({**{path: content for one in made for path, content in one.items()}, out / TABLE: _csv(files, efforts)})
+    known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
+    table = _csv(spec, everyone, known, anew | earlier.redrawn.keys(), earlier.dropped)
+    dropped = [file for file in everyone if file not in files]
+    left = [file for file in dropped if file.state == "kept"]
+    gone = [path for file in dropped if file not in left for path in file.files if path.exists()]
+    put_set({**{path: content for one in made for path, content in one.items()}, out / TABLE: table}, gone)
     remarks = (
         *map(str, roster.notes),
+        *(word("variants_dropped", spec.language, id=file.drawn.student.id) for file in dropped),
+        *(word("variants_kept", spec.language, path=file.path) for file in left),
         *_doubts(spec),
         *_remarks(files, efforts, spec.language),
         *_sharing(draw, files, spec),
     )
-    known = {file.drawn.student.id: one for file, one in zip(files, efforts, strict=True) if one is not None}
     return Variants(tuple(files), remarks, tuple(_summary(known, spec.language)))
 
 
@@ -399,16 +416,33 @@ def _summary(efforts: Mapping[str, Effort], language: Language) -> Iterator[str]
             yield word("variants_apart", language, ids=", ".join(apart), **about)
 
 
-def _csv(files: Sequence[StudentFile], efforts: Sequence[Effort | None]) -> bytes:
-    """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures."""
-    places: list[Where] = list(dict.fromkeys(where for file in files for where in file.drawn.settings))
-    rows: list[list[str | float | None]] = [["id", "name", "file", "variant", *map(path_text, places), *Effort._fields]]
-    for file, effort in zip(files, efforts, strict=True):
+def _csv(
+    spec: Spec,
+    files: Sequence[StudentFile],
+    efforts: Mapping[str, Effort],
+    redrawn: Collection[str],
+    dropped: Collection[str],
+) -> bytes:
+    """One row a student: id, name, file, variant, values drawn or set, as the file now has them, and its figures.
+
+    The last columns have the number of a variant that was drawn anew, and a mark at who has left the class and has no
+    file; the rows stand in the order of the draw.
+    """
+    present = [file for file in files if comparable(file.drawn.student.id) not in dropped]
+    places: list[Where] = list(dict.fromkeys(where for file in present for where in file.drawn.settings))
+    head = ["id", "name", "file", "variant", *map(path_text, places), *Effort._fields, REDRAWN, DROPPED]
+    rows: list[list[str | float | None]] = [[*head]]
+    for file in files:
+        student = file.drawn.student
+        key = comparable(student.id)
+        number = spec.number(file.drawn.combination) + 1 if key in redrawn else None
+        if key in dropped:
+            rows.append([student.id, student.card.get("name"), *(None for _ in head[4:]), number, MARKED])
+            continue
         top = file.whole
         nodes = (at(top, where) for where in (("variant",), *places))
         values = [node.text if isinstance(node, Scalar) else None for node in nodes]
-        tail = effort or (None,) * len(Effort._fields)
+        tail = efforts.get(student.id) or (None,) * len(Effort._fields)
         rounded = [None if value is None else float(f"{value:.6g}") for value in tail]
-        student = file.drawn.student
-        rows.append([student.id, student.card.get("name"), file.path.name, *values, *rounded])
+        rows.append([student.id, student.card.get("name"), file.path.name, *values, *rounded, number, None])
     return write_csv(rows)

@@ -60,6 +60,16 @@ def variants(
     policy: PolicyOption = None,
     lang: LangOption = None,
     shared: SharedOption = None,
+    redraw: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--redraw", metavar="ID", help="Give this student another variant; repeatable.", show_default=False
+        ),
+    ] = None,
+    drop: Annotated[
+        list[str] | None,
+        typer.Option("--drop", metavar="ID", help="This student has left the class; repeatable.", show_default=False),
+    ] = None,
 ) -> None:
     """Draw a variant for each student of a class. It is frozen into DIR/<id>.yaml.
 
@@ -75,7 +85,9 @@ def variants(
 
             refuse_inputs([out / quiz.NAME], [spec, roster, policy], lang)
         rules = api.policy(policy, lang)
-        made = make_variants(spec, roster, out, force, lang, _bar, shared=shared or ())
+        made = make_variants(
+            spec, roster, out, force, lang, _bar, shared=shared or (), redraw=redraw or (), drop=drop or ()
+        )
         print(
             *(path for file in made.files for path in (file.path, *file.parts)),
             *(("", *made.summary) if made.summary else ()),

@@ -212,7 +212,7 @@ def test_the_instructors_table_has_values_and_figures(put_file: Put) -> None:
     (page,) = read(path.parent / "out" / "variants.csv")
     head, *rows = [[cell.text for cell in row] for row in page.rows]
     assert head[:4] == ["id", "name", "file", "variant"]
-    assert head[-5:] == ["worked", "largest", "speed", "positive", "zeros"]
+    assert head[-7:] == ["worked", "largest", "speed", "positive", "zeros", "redrawn", "dropped"]
     assert len(rows) == len(result.files) == 12
     assert len({tuple(row[4:9]) for row in rows}) == 12
     for row, file in zip(rows, result.files, strict=True):

@@ -1,0 +1,94 @@
+"""What `variants.csv` keeps of earlier draws: whose variant was drawn anew, and who has left the class.
+
+Both are needed for good: the others keep their variants only while those that were drawn first count as taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from reportgen.base.errors import Mark, UnknownNameError
+from reportgen.base.units import Language
+from reportgen.base.words import unknown
+from reportgen.classes.roster import Roster, RosterEntry, comparable
+from reportgen.workbook import read
+
+REDRAWN, DROPPED = "redrawn", "dropped"
+"""Columns: the number of the combination that was drawn anew, from 1; a mark at who has left."""
+MARKED = "x"
+
+
+@dataclass(frozen=True, slots=True)
+class EarlierDraw:
+    """The students of an earlier table in its order, by `comparable` id, with the numbers and marks of its columns."""
+
+    students: Mapping[str, RosterEntry] = field(default_factory=dict)
+    redrawn: Mapping[str, int] = field(default_factory=dict)
+    dropped: frozenset[str] = frozenset()
+
+    def with_dropped(self, wanted: Sequence[str], roster: Roster, language: Language) -> EarlierDraw:
+        """The same with further students who have left; raises `UnknownNameError` for one whom nobody knows."""
+        known = dict(self.students) | {comparable(student.id): student for student in roster.students}
+        return replace(self, dropped=self.dropped | set(_known(wanted, known, language)))
+
+    def whole(self, roster: Roster) -> Roster:
+        """The roster with those who have left and stand in it no more, at their old places."""
+        present = [comparable(student.id) for student in roster.students]
+        order = list(self.students)
+        students: list[RosterEntry] = []
+        gone = [id for id in order if id in self.dropped and id not in present]
+        for id, student in zip(present, roster.students, strict=True):
+            at = order.index(id) if id in self.students else len(order)
+            before = [one for one in gone if order.index(one) < at]
+            students += (self.students[one] for one in before)
+            gone = gone[len(before) :]
+            students.append(student)
+        students += (self.students[one] for one in gone)
+        return replace(roster, students=tuple(students))
+
+
+def read_earlier(table: Path, language: Language | None) -> EarlierDraw:
+    """What an earlier table says; nothing without one.  Raises `AssignmentError` for one that cannot be read."""
+    if not table.exists():
+        return EarlierDraw()
+    rows = [row for page in read(table, language) for row in page.rows]
+    head = {cell.text: number for number, cell in enumerate(rows[0])} if rows else {}
+    students: dict[str, RosterEntry] = {}
+    redrawn: dict[str, int] = {}
+    dropped: set[str] = set()
+    for row in rows[1:]:
+        said = {name: row[number].label.strip() for name, number in head.items() if number < len(row)}
+        if not (id := said.get("id", "")):
+            continue
+        key = comparable(id)
+        card = {name: said[name] for name in ("id", "name") if said.get(name)}
+        students[key] = RosterEntry(card, {}, Mark(str(table)))
+        if said.get(REDRAWN, "").isdecimal():
+            redrawn[key] = int(said[REDRAWN])
+        if said.get(DROPPED):
+            dropped.add(key)
+    return EarlierDraw(students, redrawn, frozenset(dropped))
+
+
+def students_named(wanted: Sequence[str], roster: Roster, language: Language) -> frozenset[str]:
+    """The `comparable` ids of students of the roster; raises `UnknownNameError`."""
+    known = {comparable(student.id): student for student in roster.students}
+    return frozenset(_known(wanted, known, language))
+
+
+def _known(wanted: Sequence[str], known: Mapping[str, RosterEntry], language: Language) -> Collection[str]:
+    """The ids of students who are named by id, e-mail or name."""
+    found: list[str] = []
+    for text in wanted:
+        ids = [id for id, student in known.items() if id == comparable(text)]
+        ids = ids or [
+            id
+            for id, student in known.items()
+            if comparable(text) in {comparable(student.card.get(name, "")) for name in ("email", "name")}
+        ]
+        if len(ids) != 1:
+            raise UnknownNameError(unknown("no_student", text, [one.id for one in known.values()], language))
+        found += ids
+    return found
