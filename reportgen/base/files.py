@@ -29,7 +29,7 @@ SETS = {
     "plots": r".+\.(svg|png|pdf|eps)",
     "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
     "feedback": r"feedback\.(pdf|xlsx|txt)|marked\.docx",
-    "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.zip",
+    "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.(zip|pdf)",
 }
 """The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")

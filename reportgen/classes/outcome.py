@@ -21,6 +21,7 @@ from reportgen.classes.archives import zipped
 from reportgen.classes.assess import Graded
 from reportgen.classes.gradebooks import Gradebook, StudentResult
 from reportgen.classes.isolation import isolated
+from reportgen.classes.one_pdf import bind_feedback
 from reportgen.classes.own_work import renewable
 from reportgen.classes.platforms import Handed
 from reportgen.classes.reading_sheets import marked_copies
@@ -203,6 +204,11 @@ def put(
         # The marks are written even if the typesetter fails.
         for (folder, _), files in groupby(made, key=lambda file: (file[0].parent, file[0] == CLASS_PAGE)):
             yield from put_files(out / folder, {path.name: content for path, content in files})
+
+
+def put_one_pdf(graded: Graded, out: Path) -> Iterator[Path]:
+    """Write one PDF of all pages of feedback below `out`; raises `OutputError`, `TypesetterError`."""
+    yield from bind_feedback(out, [(str(_folder(one.key)), person(one.key)) for one in graded.markings])
 
 
 def filled_gradebook(path: Path, out: Path) -> Path:

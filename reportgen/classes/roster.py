@@ -164,6 +164,11 @@ class RosterEntry:
         return self.card["id"]
 
     @property
+    def title(self) -> str:
+        """The id with the name: K225520103001 Nguyễn Văn An."""
+        return " ".join(filter(None, (self.id, self.card.get("name", ""))))
+
+    @property
     def folder(self) -> str:
         """The name of the student's files and folders."""
         return folder_name(self.id)

@@ -83,6 +83,8 @@ class Result:
 
     manifest: Path
     notes: list[str]
+    students: list[tuple[str, str]] = field(default_factory=list)
+    """The folder of each student, in the order of the roster, and what he or she is called."""
     made: int = 0
     kept: int = 0
     failures: list[Failure] = field(default_factory=list)
@@ -148,7 +150,8 @@ def _run(
     number = {student.id: number for number, (student, _) in enumerate(assigned)}
     entries = {key: entry for key, entry in before.items() if entry.student in number}
     with reported(out):
-        result = Result(write_manifest(out, entries.values()), notes)
+        people = [(student.folder, student.title) for student, _ in assigned]
+        result = Result(write_manifest(out, entries.values()), notes, people)
     how = {name: _how(order, name) for name in makers}
     kept: list[Job] = []
     jobs: list[Job] = []

@@ -34,6 +34,9 @@ PolicyOption = Annotated[
     typer.Option("--policy", metavar="FILE", help="What is asked for and how it is marked.", show_default=False),
 ]
 Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV or XLSX.", show_default=False)]
+OnePdfOption = Annotated[
+    bool, typer.Option("--one-pdf", help="Also put all PDFs of the class into one, for each kind.")
+]
 SharedOption = Annotated[
     list[Path] | None,
     typer.Option(
@@ -131,10 +134,12 @@ def batch(
     shared: SharedOption = None,
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
+    one_pdf: OnePdfOption = False,
 ) -> None:
     """Make tasks, reports, keys or sheets of a whole class. It goes on where an earlier run was stopped."""
     from reportgen import api
     from reportgen.classes.manifest import NAME
+    from reportgen.classes.one_pdf import bind_products
     from reportgen.classes.run import Order, run_batch
 
     if (spec is None) == (assignments is None):
@@ -166,6 +171,8 @@ def batch(
             raise typer.Exit(INTERRUPTED) from None
         print(*result.summary(lang), sep="\n", file=sys.stderr)
         print(result.manifest, flush=True)
+        if one_pdf:
+            print(*bind_products(out, result.students, products), sep="\n")
         raise typer.Exit(result.exit_code)
 
 
@@ -236,6 +243,7 @@ def grade(
     ] = "",
     standard: StandardOption = USUAL_STANDARDS,
     templates: TemplatesOption = None,
+    one_pdf: OnePdfOption = False,
 ) -> None:
     """Mark sheets, or reports, from each student's own values. Feedback, grades.csv and the class page are written."""
     from reportgen import api
@@ -259,6 +267,8 @@ def grade(
         problems = list(graded.problems)
         for path in outcome.put(graded, rules, out, engine, lang, standards, problems=problems):
             print(path, flush=True)
+        if one_pdf:
+            print(*outcome.put_one_pdf(graded, out), sep="\n", flush=True)
         if table is not None:
             written, unknown = outcome.put_gradebook(graded, table, rules, out, lang)
             print(written, flush=True)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import tempfile
 import warnings
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -39,11 +40,16 @@ def compile(source: str, system: bool = False, standards: Standards = STANDARDS)
 
 
 def compile_as(
-    source: str, format: Literal["pdf", "png", "svg"], system: bool = False, dpi: int = 0, standards: Standards = ()
+    source: str,
+    format: Literal["pdf", "png", "svg"],
+    system: bool = False,
+    dpi: int = 0,
+    standards: Standards = (),
+    beside: Mapping[str, bytes] | None = None,
 ) -> list[bytes]:
     """A PDF of a Typst source, or a picture of each of its pages, of `dpi` dots an inch.
 
-    Raises `TypesetterError`.
+    The source may name the files `beside` it.  Raises `TypesetterError`.
     """
     try:
         import typst
@@ -60,6 +66,8 @@ def compile_as(
     with tempfile.TemporaryDirectory(prefix="typst-") as folder:
         path = Path(folder) / "report.typ"
         path.write_text(source, encoding="utf-8", newline="")
+        for name, content in (beside or {}).items():
+            (Path(folder) / name).write_bytes(content)
 
         def made(kept: Standards) -> Any:
             asked: dict[str, Any] = {"pdf_standards": list(kept)} if kept else {}

@@ -1,0 +1,46 @@
+"""One PDF of all tasks, reports, keys, sheets or pages of feedback of a class, to print or to read in one piece."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+
+from reportgen.base.files import SETS, contents, put_files, reported, scratch
+from reportgen.writers.bound_pdf import bound
+
+NAMES = {"task": "tasks.pdf", "report": "reports.pdf", "key": "keys.pdf", "sheet": "sheets.pdf"}
+"""Products that have PDFs, and what all of one are called."""
+FEEDBACK = "feedback.pdf"
+LARGEST = 100_000_000
+"""Bytes of one student's file."""
+
+
+def bind_products(out: Path, students: Sequence[tuple[str, str]], products: Iterable[str]) -> Iterator[Path]:
+    """Bind the PDFs of each product below `out`; students have a folder and a title.
+
+    Raises `OutputError`, and `TypesetterError`.
+    """
+    for product in products:
+        if product in NAMES:
+            yield from _put(out, NAMES[product], students, SETS[product])
+
+
+def bind_feedback(out: Path, students: Sequence[tuple[str, str]]) -> Iterator[Path]:
+    """Bind the pages of feedback of a class, as `bind_products`."""
+    yield from _put(out, FEEDBACK, students, re.escape(FEEDBACK))
+
+
+def _put(out: Path, name: str, students: Sequence[tuple[str, str]], pattern: str) -> list[Path]:
+    """Write one PDF of the files of the students that fit a pattern, none where there are none."""
+    with reported(out), scratch(out):
+        parts = [
+            (title, contents(file, LARGEST)) for folder, title in students for file in _pdfs(out / folder, pattern)
+        ]
+        return put_files(out, {name: bound(parts)}) if parts else []
+
+
+def _pdfs(folder: Path, pattern: str) -> list[Path]:
+    """The PDFs of a student whose names fit a pattern, by the numbers in their names."""
+    files = (path for path in folder.glob("*.pdf") if re.fullmatch(pattern, path.name))
+    return sorted(files, key=lambda path: (len(path.name), path.name))
