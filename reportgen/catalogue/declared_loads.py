@@ -42,6 +42,7 @@ from reportgen.machine import DRIVER, Crank, Guide, Linkage
 from reportgen.machine.laws import AngleLaw, ConstantLaw, Floats, Law, MotionAt, Resistance, WayLaw, opposing
 from reportgen.machine.loads import Applied, Torque, fixed
 from reportgen.machine.motion import Motion
+from reportgen.machine.senses import moving, pace
 
 MOST_LOADS = LAST_LINK = 40
 LEVEL = Given(0.0, 0.0, "deg", "0 deg")
@@ -264,8 +265,8 @@ def law_of(load: PlainLoad, motion_at: MotionAt, *, through: bool = True, span: 
 
     def rate(motion: Motion) -> Floats:
         if load.at is None:
-            return motion.links[load.link].omega
-        return np.asarray(np.real(np.conj(direction) * motion.points[load.at].v))
+            return moving(motion.links[load.link].omega, pace(motion, "R")[0])
+        return moving(np.real(np.conj(direction) * motion.points[load.at].v), pace(motion, "P")[0])
 
     return against(abs(size.si), rate, motion_at, through=through)
 

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.machine import Joint
-from reportgen.machine.analysis import ROUNDING as OF_TORQUE
-from reportgen.machine.analysis import Machine, analyse, breaks, motion_at, possible
+from reportgen.machine.analysis import ROUNDING, Machine, analyse, breaks, motion_at, possible
 from reportgen.machine.forces import Load
-from reportgen.machine.joint_friction import ROUNDING, Friction, largest, relative_motion, solve_with_friction
+from reportgen.machine.joint_friction import Friction, relative_motion, solve_with_friction
 from reportgen.machine.laws import FULL_TURN, STEPS, Stroke, halved, opposing
 from reportgen.machine.motion import Flags, Floats
 from reportgen.machine.quadrature import mean_over
+from reportgen.machine.senses import moving, pace
 
 HALVINGS = 40
 """Past the spacing of floats beside an angle."""
@@ -26,13 +26,10 @@ def turning_back(machine: Machine, joint: Joint) -> Iterator[float]:
     """The cycle angles (rad) at which the links of a joint turn back, or slide back, against each other."""
 
     def rate(angle: Floats) -> Floats:
-        return relative_motion(joint, motion_at(machine, angle))[0]
+        motion = motion_at(machine, angle)
+        return moving(relative_motion(joint, motion)[0], pace(motion, joint.kind)[0])
 
-    grid = np.linspace(0.0, FULL_TURN, 64)
-    motion = motion_at(machine, grid)
-    fastest = max(largest(link.omega) for link in motion.links.values())
-    size = fastest if joint.kind == "R" else max(largest(slide.v) for slide in motion.slides.values())
-    if largest(rate(grid)) > ROUNDING * size:
+    if rate(np.linspace(0.0, FULL_TURN, 64)).any():
         for turn in range(machine.turns):
             yield from (turn * FULL_TURN + angle for angle in opposing(1.0, rate).reversals)
 
@@ -45,19 +42,25 @@ def mean_torque(machine: Machine) -> float:
     if machine.friction is None:
         raise ValueError("nothing rubs")
     corners = [angle for joint in machine.friction.joints(machine.linkage) for angle in turning_back(machine, joint)]
-    standing = []
 
     def torque(angle: Floats) -> Floats:
         solved = analyse(machine, angle).with_friction
         assert solved is not None
-        standing.append(bool(solved.stands.all()))
-        return np.nan_to_num(solved.torque)
+        if not solved.stands.all():
+            raise _LocksError
+        return solved.torque
 
     whole = machine.turns * FULL_TURN
     sampled = analyse(machine, np.linspace(0.0, whole, STEPS))
-    least = OF_TORQUE * possible(sampled.motion, sampled.loads)
-    mean = mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole, least)
-    return mean if all(standing) else np.nan
+    least = ROUNDING * possible(sampled.motion, sampled.loads)
+    try:
+        return mean_over(torque, np.mod([*corners, *breaks(machine)], whole), 0.0, whole, least)
+    except _LocksError:
+        return np.nan
+
+
+class _LocksError(Exception):
+    """The mechanism locks on its way."""
 
 
 @dataclass(frozen=True, slots=True)

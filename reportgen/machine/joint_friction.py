@@ -6,28 +6,32 @@ leans by arctan f against the sliding.  So each joint brings a couple or a force
     M_ij = −sgn(ω_j − ω_i) ρ R_ij,   F_ij = −sgn(v_ji) f |N_ij|,
 
 on link j, and the opposite on link i.  They are put on the links as further loads and the links are balanced anew,
-round after round, until the reactions stand (Artobolevsky's method of successive approximations).
+round after round, until the reactions stand (Artobolevsky's method of successive approximations).  Where the rounds do
+not settle, the equations of the position are solved exactly (`bearing_equations`); only if they have no solution, the
+mechanism locks.
+
+Where the links of a joint do not move against each other at all, there is no friction.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Joint, Linkage, joints
+from reportgen.machine.bearing_equations import BearingEquations
 from reportgen.machine.faces import Faces
-from reportgen.machine.forces import Equilibrium, Forces, Load, reaction_name
+from reportgen.machine.forces import Equilibrium, Forces, Load, Reaction, reaction_name
 from reportgen.machine.motion import Complexes, Flags, Floats, LinkMotion, Motion, cross
+from reportgen.machine.senses import pace, sense_of
 
-ROUNDING = 1e-12
-"""A rate below this share of those that it is the difference of stands still."""
 STANDS = 1e-12
 """Of the greatest reaction: what a round changes by less than this has come to stand."""
-MOST_ROUNDS = 200
-"""A joint that wants more turns each round's change into one at least nine tenths as large: it locks, or nearly so."""
+MOST_ROUNDS = 40
+"""Rounds that halve their change at least settle by then; for others the equations are solved."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +61,9 @@ class FrictionForces:
     loads: tuple[Load, ...]
     """What friction does to each link of each joint: couples of pins, forces of guides."""
     held: Mapping[str, Flags]
-    """The joints by their reactions, with the positions [N] at which theirs does not stand."""
+    """The joints by their reactions, with the positions [N] at which theirs cannot be found: the mechanism locks."""
+    exact: Flags
+    """The positions [N] at which the rounds do not settle, and the last of them is the solution of the equations."""
 
     @property
     def forces(self) -> Forces:
@@ -66,7 +72,7 @@ class FrictionForces:
 
     @property
     def stands(self) -> Flags:
-        """Where the reactions came to stand [N]; elsewhere the mechanism locks, or is near it."""
+        """Where there are reactions with friction [N]; elsewhere the mechanism locks."""
         return np.asarray(~np.any(list(self.held.values()), axis=0))
 
     @property
@@ -88,41 +94,40 @@ def relative_motion(joint: Joint, motion: Motion) -> tuple[Floats, Floats]:
 def relative_sense(joint: Joint, motion: Motion) -> Floats:
     """The sign of a joint's relative motion [N]; where that stands still, of the motion that follows.
 
-    What is below 1e-12 of the rates that it is the difference of is rounding.
+    It is 0 where neither is more than rounding beside how fast the whole mechanism moves: the links of the joint do not
+    move against each other.
     """
     rate, change = relative_motion(joint, motion)
-    links = [motion.links[link] for link in joint.links if link != GROUND]
-    size, size_of_change = (
-        (largest(rate), largest(change))
-        if joint.kind == "P"
-        else (max(largest(link.omega) for link in links), max(largest(link.epsilon) for link in links))
-    )
-    follows = np.where(np.abs(change) > ROUNDING * size_of_change, np.sign(change), 0.0)
-    return np.where(np.abs(rate) > ROUNDING * size, np.sign(rate), follows)
+    moves, hastens = pace(motion, joint.kind)
+    sense = sense_of(rate, moves)
+    return np.asarray(np.where(sense != 0, sense, sense_of(change, hastens)))
 
 
-def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> Floats:
-    """The force (N) [N] that presses the links of a joint together: R of a pin, |N| of a guide.
+def reactions_that_press(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> tuple[Complexes, ...]:
+    """The reactions (N) [N] whose sizes press the links of a joint together: R of a pin; N of a guide, as a number.
 
-    Both ends of a wide slider that tilts press: |N₁| + |N₂|.
+    A wide slider has two, N₁ and N₂ of its ends: they add up to N unless it tilts.
     """
     reaction = forces.reactions[reaction_name(*joint.links)]
     if joint.kind == "R":
-        return np.abs(reaction.force)
+        return (reaction.force,)
     normal = cross(motion.slides[joint.links].direction, reaction.force)
     faces = friction.faces.get(joint.links[1])
-    if faces is None:
-        return np.abs(normal)
-    first, last = faces.ends(normal, reaction.moment)
-    return np.where(faces.tilts(normal, reaction.moment), np.abs(first) + np.abs(last), np.abs(normal))
+    of_ends = (normal,) if faces is None else faces.ends(normal, reaction.moment)
+    return tuple(np.asarray(end, dtype=np.complex128) for end in of_ends)
 
 
-def _rubbing(friction: Friction, joint: Joint, sense: Floats, motion: Motion, forces: Forces) -> tuple[Load, ...]:
-    """What friction does at given reactions, against the `sense` [N] of the motion in a joint.
+def pressing(friction: Friction, joint: Joint, motion: Motion, forces: Forces) -> Floats:
+    """The force (N) [N] that presses the links of a joint together: R, |N|, or |N₁| + |N₂| of the ends of a slider."""
+    return np.asarray(sum(np.abs(each) for each in reactions_that_press(friction, joint, motion, forces)))
+
+
+def _rubbing(friction: Friction, joint: Joint, sense: Floats, motion: Motion, pressed: Floats) -> tuple[Load, ...]:
+    """What friction does in a joint that is `pressed` together (N) [N], against the `sense` [N] of the motion in it.
 
     M = −sgn(ω_rel) ρ R of a pin, F = −sgn(v) f |N| along a guide, at the face of a wide slider.
     """
-    at, pressed = motion.points[joint.point].p, pressing(friction, joint, motion, forces)
+    at = motion.points[joint.point].p
     if joint.kind == "R":
         return _on_both(joint, np.zeros_like(at), at, -sense * friction.circles[joint.point] * pressed)
     along, slider = motion.slides[joint.links].direction, joint.links[1]
@@ -145,34 +150,81 @@ def solve_with_friction(
 ) -> FrictionForces:
     """Balance every link under `loads` and the friction of its joints, which goes by the reactions.
 
-    Positions at which the reactions do not come to stand are told, not raised: the mechanism locks there, or nearly so.
+    Positions at which the mechanism locks have nan: no reactions agree with the friction that they cause.
     """
     equilibrium = Equilibrium.of(linkage, motion)
     rounds = [frictionless or equilibrium.under(loads)]
     senses = {joint: relative_sense(joint, motion) for joint in friction.joints(linkage)}
     names = [reaction_name(*joint.links) for joint in senses]
-    rubbing: tuple[Load, ...] = ()
-    before = _forces_in(rounds[0], names)
+
+    def rubbing(pressed: Sequence[Floats]) -> tuple[Load, ...]:
+        """The friction of all joints, each `pressed` together (N) [N]."""
+        each = zip(senses.items(), pressed, strict=True)
+        return tuple(load for (joint, sense), p in each for load in _rubbing(friction, joint, sense, motion, p))
+
+    def pressed_by(forces: Forces) -> list[Floats]:
+        return [pressing(friction, joint, motion, forces) for joint in senses]
+
+    rubs: tuple[Load, ...] = ()
+    before, open_ = _forces_in(rounds[0], names), np.zeros((len(names), motion.driver.size), dtype=np.bool_)
     for _ in range(MOST_ROUNDS):
-        with np.errstate(over="ignore", invalid="ignore"):
-            rubbing = tuple(
-                load for joint, sense in senses.items() for load in _rubbing(friction, joint, sense, motion, rounds[-1])
-            )
-            rounds.append(equilibrium.under((*loads, *rubbing)))
-            after = _forces_in(rounds[-1], names)
-            off = np.abs(after - before)
-            open_ = motion.reachable & ~(off <= STANDS * np.max(np.abs(after), axis=0, initial=0.0))
+        rubs = rubbing(pressed_by(rounds[-1]))
+        rounds.append(equilibrium.under((*loads, *rubs)))
+        after = _forces_in(rounds[-1], names)
+        off = np.abs(after - before)
+        open_ = motion.reachable & ~(off <= STANDS * np.max(np.abs(after), axis=0, initial=0.0))
         if not open_.any():
             break
         before = after
-    return FrictionForces(tuple(rounds), rubbing, dict(zip(names, open_, strict=True)))
+    unsettled = open_.any(axis=0)
+    locked = np.zeros_like(unsettled)
+    if unsettled.any():
+        exact = _exactly(friction, senses, motion, rounds[0], equilibrium, rubbing)
+        pressed = np.where(unsettled, exact, pressed_by(rounds[-1]))
+        locked = np.asarray(unsettled & np.isnan(pressed).any(axis=0))
+        rubs = rubbing(list(np.where(locked, 0.0, pressed)))
+        rounds.append(_without(equilibrium.under((*loads, *rubs)), locked))
+    held = {name: each & locked for name, each in zip(names, open_, strict=True)}
+    return FrictionForces(tuple(rounds), rubs, held, unsettled & ~locked)
+
+
+def _exactly(
+    friction: Friction,
+    senses: Mapping[Joint, Floats],
+    motion: Motion,
+    frictionless: Forces,
+    equilibrium: Equilibrium,
+    rubbing: Callable[[Sequence[Floats]], tuple[Load, ...]],
+) -> Floats:
+    """The forces (N) that press the joints together [joints, N] by the exact equations, nan where there are none."""
+
+    def reactions(forces: Forces) -> list[Complexes]:
+        return [each for joint in senses for each in reactions_that_press(friction, joint, motion, forces)]
+
+    still = np.zeros_like(motion.driver)
+    ones = np.eye(len(senses))
+    causes = [reactions(equilibrium.under(rubbing([still + each for each in row]))) for row in ones]
+    counts = [len(reactions_that_press(friction, joint, motion, frictionless)) for joint in senses]
+    return BearingEquations(
+        joint=np.repeat(np.arange(len(senses)), counts),
+        guides=np.repeat([joint.kind == "P" for joint in senses], counts),
+        base=np.array(reactions(frictionless)),
+        slope=np.moveaxis(np.array(causes), 0, 1),
+    ).solve()
+
+
+def _without(forces: Forces, at: Flags) -> Forces:
+    """The forces with nan at some positions [N]."""
+    unknown = np.where(at, np.nan, 0.0)
+    return Forces(
+        {
+            name: Reaction(one.force + unknown, one.point + unknown, one.moment + unknown)
+            for name, one in forces.reactions.items()
+        },
+        forces.torque + unknown,
+    )
 
 
 def _forces_in(forces: Forces, names: Sequence[str]) -> Complexes:
     """The reactions of some joints [joints, N]."""
     return np.array([forces.reactions[name].force for name in names]).reshape(len(names), -1)
-
-
-def largest(values: Floats) -> float:
-    """The greatest size among values that may be nan, 0 of none."""
-    return float(np.nanmax(np.abs(values), initial=0.0))

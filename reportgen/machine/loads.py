@@ -15,6 +15,7 @@ from reportgen.machine.forces import Load
 from reportgen.machine.gas import Indicator
 from reportgen.machine.laws import BEFORE_A_TURN, FULL_TURN, Floats, GasLaw, Law, MotionAt, Stroke, opposing
 from reportgen.machine.motion import Complexes, Motion, solve_motion
+from reportgen.machine.senses import moving, pace
 
 # --- sliders of a linkage ---------------------------------------------------------------------------
 
@@ -51,7 +52,8 @@ def turning_points(linkage: Linkage, link: int, motion_at: MotionAt) -> tuple[fl
     along = cmath.exp(1j * guide.angle)
 
     def rate(angle: Floats) -> Floats:
-        return np.asarray(np.real(np.conj(along) * motion_at(angle).points[dyad.middle].v))
+        motion = motion_at(angle)
+        return moving(np.real(np.conj(along) * motion.points[dyad.middle].v), pace(motion, "P")[0])
 
     return opposing(1.0, rate).reversals
 

@@ -23,7 +23,7 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.friction_cycle import dead_zones, mean_torque
-from reportgen.machine.joint_friction import Friction, FrictionForces, pressing
+from reportgen.machine.joint_friction import Friction, FrictionForces, pressing, relative_sense
 from reportgen.plans.motion import natural_sizes
 from reportgen.plans.rests import with_rest
 from reportgen.plans.sides import scheme, sides
@@ -81,7 +81,11 @@ def enter_friction(q: Sheet, analysis: Analysis, solved: FrictionForces, worked:
     for link in friction.coefficients:
         if (of := q.find(friction_ids.coefficient_of_slider(link))) is not None:
             q.define(friction_ids.angle(link), atan(of))
-    rates = {each: rate for each in rubbing_joints(q, machine.linkage, friction) if (rate := _rate(q, machine, each))}
+    rates = {
+        each: rate
+        for each in rubbing_joints(q, machine.linkage, friction)
+        if relative_sense(each.joint, analysis.motion).any() and (rate := _rate(q, machine, each))
+    }
     letter, kind, driver = _balanced(q, machine.linkage)
     size = float(np.nanmax(np.abs(solved.rounds[0].torque)))
 

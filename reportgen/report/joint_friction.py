@@ -69,6 +69,20 @@ def rubbing(report: Report) -> tuple[Rubbing, ...]:
     )
 
 
+def resting(report: Report) -> str:
+    """The links of the joints in which nothing rubs, since they never move against each other: "2–3, 1–4"."""
+    friction = report.machine.friction
+    if friction is None or not report.has_forces:
+        return ""
+    joints = rubbing_joints(report.ledger.families, report.machine.linkage, friction)
+    return ", ".join("–".join(map(str, sorted(each.joint.links))) for each in joints if each.lost not in report.ledger)
+
+
+def solved_exactly(report: Report, k: int) -> bool:
+    """Whether the rounds do not settle at a position, and the equations are solved instead."""
+    return bool(_found(report).exact[k - 1])
+
+
 def data(report: Report) -> Inlines:
     """What is given of the joints that rub."""
     joints = rubbing(report)
@@ -416,6 +430,7 @@ VALUES: Mapping[str, Callable[[Report], object]] = {
     "friction_losses": loss_lines,
     "friction_means": mean_lines,
     "friction_parts": part_lines,
+    "friction_resting": resting,
     "friction_turning": turning_lines,
 }
 """What templates name of it without parentheses."""

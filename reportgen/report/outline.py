@@ -325,6 +325,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "counted": phrases.counted,
     "drawn_group": phrases.drawn_group,
     "drives": friction.drives,
+    "solved_exactly": friction.solved_exactly,
     "face_state": wide_sliders.face_state,
     "first_turn": Report.first_turn,
     "parts": Report.parts,

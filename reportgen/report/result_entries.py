@@ -161,13 +161,19 @@ def _position(analysis: Analysis, k: int) -> Entries | None:
 
 
 def _with_friction(analysis: Analysis, found: FrictionForces, k: int) -> Entries:
-    """Reactions without the force along a guide, what friction does to the links, the torque and the efficiency."""
+    """Reactions without the force along a guide, what friction does to the links, the torque and the efficiency.
+
+    They are None where the mechanism locks.
+    """
+    balance = "torque" if isinstance(analysis.machine.linkage.driver, Crank) else "force"
+    if not found.stands[k]:
+        return {"reactions": dict.fromkeys(found.forces.reactions), "loads": {}, balance: None, "efficiency": None}
     torque = float(found.torque[k])
     drives = analysis.machine.turn * analysis.torque[k] > 0
     return {
         "reactions": {name: reaction.force[k] for name, reaction in found.forces.reactions.items()},
         "loads": _loads(found.loads, k),
-        "torque" if isinstance(analysis.machine.linkage.driver, Crank) else "force": torque,
+        balance: torque,
         "efficiency": analysis.torque[k] / torque if drives else None,
     }
 

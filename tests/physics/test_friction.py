@@ -9,6 +9,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
+from pathlib import Path
 
 import linkages as made
 import numpy as np
@@ -17,11 +18,14 @@ from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 from lanes import proof
 
+from reportgen import api
+from reportgen.base.errors import AssignmentError
 from reportgen.machine import Crank, Dyad, Guide, Linkage, joints
 from reportgen.machine.faces import Faces
 from reportgen.machine.forces import Load, inertia_loads, reaction_name, solve_forces, weights
-from reportgen.machine.joint_friction import Friction, FrictionForces, solve_with_friction
+from reportgen.machine.joint_friction import Friction, FrictionForces, relative_sense, solve_with_friction
 from reportgen.machine.motion import Motion, cross, dot, solve_motion
+from reportgen.report import text_of
 
 r, L, f = 0.1, 0.4, 0.12
 ρ_O, ρ_A, ρ_B = 0.0025, 0.002, 0.0015
@@ -180,3 +184,94 @@ def test_a_mechanism_that_locks_is_told() -> None:
     assert list(found.stands) == [True, False]
     assert list(found.held) == ["R03"]
     assert np.isnan(found.torque[1])
+
+
+# --- exact equations, and joints without motion ------------------------------------------------------
+
+STEEP = Linkage(
+    {"O": 0j}, Crank("O", "A", 0.05), (Dyad("RRP", (2, 3), "A", "B", Guide(0.045j, 0.0), lengths=(0.1, 0)),)
+)
+"""r 50, l 100, e 45 mm, f 0.4 in the guide: at −72.62° f tan β = 0.99."""
+
+
+def driven(friction: Friction, degrees: float, force: float) -> FrictionForces:
+    motion = solve_motion(STEEP, np.radians([degrees]), 10.0)
+    load = Load("P3", 3, np.array([force + 0j]), motion.points["B"].p, np.zeros(1))
+    return solve_with_friction(friction, STEEP, motion, [load])
+
+
+def by_hand(degrees: float, force: float, f: float) -> float:
+    """The slider in equilibrium under P, the rod's force S and f|N|, N = S sin β: S = P/(cos β ± f sin β)."""
+    A = 0.05 * cmath.exp(1j * math.radians(degrees))
+    rod = complex(math.sqrt(0.01 - (0.045 - A.imag) ** 2), 0.045 - A.imag) / 0.1
+    against = 1 if force > 0 else -1  # the slider moves to the right at these angles
+    S = force / (rod.real + against * f * abs(rod.imag))
+    return -cross(A, S * rod)
+
+
+@pytest.mark.parametrize("force", [P, -P])
+@pytest.mark.parametrize("degrees", [-72.623, -72.54, -71.0])
+def test_rounds_that_do_not_settle(degrees: float, force: float) -> None:
+    """f tan β = 0.99: the rounds change by nearly as much each time, and overshoot where the slider drives."""
+    found = driven(Friction({}, {3: 0.4}), degrees, force)
+    assert found.stands.all()
+    assert found.torque[0] == pytest.approx(by_hand(degrees, force, 0.4), rel=AGREEMENT)
+
+
+def test_what_locks_and_what_does_not() -> None:
+    """f tan β = 1.24: a slider that drives still moves the crank; no torque of the crank moves the slider."""
+    drives, locks = (driven(Friction({}, {3: 0.5}), -72.623, force) for force in (P, -P))
+    assert drives.torque[0] == pytest.approx(by_hand(-72.623, P, 0.5), rel=AGREEMENT)
+    assert list(drives.exact) == [True]
+    assert list(locks.stands) == [False]
+    assert np.isnan(locks.torque[0])
+    assert np.isnan(locks.forces.reactions["R03"].force[0])
+
+
+def test_pins_and_guide_by_the_exact_equations() -> None:
+    """With friction in the pins too, the reactions cause the friction that goes by them."""
+    friction = Friction({"O": 0.004, "A": 0.004, "B": 0.003}, {3: 0.4})
+    found = driven(friction, -71.5, P)
+    motion = solve_motion(STEEP, np.radians([-71.5]), 10.0)
+    assert list(found.exact) == [True]
+    gained = (found.torque - found.rounds[0].torque) * 10.0
+    assert gained == pytest.approx(lost(friction, STEEP, motion, found), rel=AGREEMENT)
+
+
+def test_a_block_that_never_slides() -> None:
+    """A slotted link about the crank's own centre turns with the crank: its block rests, and nothing rubs."""
+    linkage = Linkage({"A": 0j}, Crank("A", "B", 0.06), (Dyad("RPR", (2, 3), "B", "D", "A"),))
+    motion = solve_motion(linkage, np.radians(np.arange(0.0, 360.0, 7.0)), 9.0)
+    load = Load("P3", 3, np.full(motion.driver.shape, -40j), 2 * motion.points["B"].p, np.zeros(motion.driver.shape))
+    found = solve_with_friction(Friction({}, {2: 0.3}), linkage, motion, [load])
+    slide = next(joint for joint in joints(linkage) if joint.kind == "P")
+    assert not relative_sense(slide, motion).any()
+    assert np.array_equal(found.torque, found.rounds[0].torque)
+
+
+LOCKING = """
+kind: slider-crank
+report: {language: en, worked_positions: [5]}
+positions: {count: 6, start: -72 deg}
+parameters:
+  r: 50 mm
+  l: 100 mm
+  e: 45 mm
+  n: 95 rpm
+  force: {by: constant, F: -1000 N, stroke: both}
+  friction: {sliders: {3: 0.44}}
+"""
+
+
+def test_a_machine_that_locks_on_its_way(tmp_path: Path) -> None:
+    """f tan β = 1.07 at position 1, where the crank cannot move the slider: no value there, and no mean."""
+    path = tmp_path / "locking.yaml"
+    path.write_text(LOCKING, encoding="utf-8")
+    first, second, *_ = api.solve(api.load(path))["positions"]
+    assert first["friction"]["torque"] is None
+    assert second["friction"]["torque"] > 0
+    path.write_text(LOCKING.replace("[5]", "[1]"), encoding="utf-8")
+    with pytest.raises(AssignmentError, match="locks"):
+        api.load(path)
+    path.write_text(LOCKING.replace("[5]", "[1]").replace("-1000", "1000"), encoding="utf-8")
+    assert "are solved exactly" in text_of(api.document(api.load(path)))

@@ -1,0 +1,95 @@
+"""The forces that press joints with friction together, from the exact equations of a position.
+
+Friction goes by the forces p that press joints together, and the reactions u are linear in friction:
+
+    p_j = Σ |u_t|,  u_t = a_t + Σ b_tk p_k,  t over the reactions of joint j.
+
+In a guide u is a number, and |u| = ±u: once it is known on which side each guide bears, the equations are linear.  In a
+pin u is a vector, and Newton's method solves for its size.  `joint_friction` asks for them where its rounds do not
+settle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain, combinations, islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+
+MOST_STEPS = 40
+"""Newton's method settles in ten steps or not at all."""
+SETTLED = 1e-12
+"""Of the greatest reaction: what is left of the equations is rounding."""
+STARTS = (1.0, 0.0, 10.0)
+"""Of the forces without friction: where Newton's method begins."""
+MOST_PATTERNS = 1024
+"""Choices of sides that are tried: all of them up to ten faces of guides."""
+
+
+@dataclass(frozen=True, slots=True)
+class BearingEquations:
+    """The reactions [T] that press joints at positions [N]: a = `base` [T, N], b = `slope` [T, J, N].
+
+    `joint` is the number of each reaction's joint [T], `guides` says which reactions are those of guides [T].
+    """
+
+    joint: NDArray[np.int64]
+    guides: Flags
+    base: Complexes
+    slope: Complexes
+
+    def solve(self) -> Floats:
+        """Return the forces p ≥ 0 that press each joint [J, N], nan at a position without any.
+
+        Of several solutions that one counts whose guides bear on the sides on which they bear without friction, or on
+        as many of them as possible: it is the one that grows out of them as friction grows.
+        """
+        count = self.slope.shape[1]
+        solved = np.full((count, self.base.shape[1]), np.nan)
+        natural = np.where(self.base.real < 0, -1.0, 1.0)
+        for flipped in _patterns(int(self.guides.sum())):
+            signs = natural.copy()
+            signs[np.flatnonzero(self.guides)[list(flipped)]] *= -1
+            for start in STARTS if not self.guides.all() else STARTS[:1]:
+                at = np.flatnonzero(np.isnan(solved[0]))
+                if not at.size:
+                    return solved
+                solved[:, at] = self._bearing(at, signs[:, at], start)
+        return solved
+
+    def _bearing(self, at: NDArray[np.int64], signs: Floats, start: float) -> Floats:
+        """The forces at the positions `at` if the guides bear by `signs` [T, n]; nan where the equations deny it."""
+        base, slope = self.base[:, at], self.slope[:, :, at]
+        belongs = (self.joint == np.arange(slope.shape[1])[:, None]).astype(np.float64)
+        guides = self.guides[:, None]
+        p = start * (belongs @ np.abs(base))
+        with np.errstate(all="ignore"):
+            for _ in range(MOST_STEPS):
+                u = base + np.einsum("tkn,kn->tn", slope, p)
+                along = np.where(guides, signs, np.conj(u) / np.where(u == 0, 1.0, np.abs(u)))
+                left = p - belongs @ np.real(along * u)
+                step = np.eye(len(p)) - np.einsum("jt,tn,tkn->njk", belongs, along, slope).real
+                regular = np.abs(np.linalg.det(step)) > SETTLED
+                step[~regular] = np.nan
+                change = np.linalg.solve(step, left.T[:, :, None])[:, :, 0].T
+                p = p - change
+                if not (np.abs(change) > SETTLED * np.abs(p).max(axis=0)).any():
+                    break
+            u = base + np.einsum("tkn,kn->tn", slope, p)
+            nothing = 1e3 * SETTLED * np.maximum(np.abs(base).max(axis=0), np.abs(u).max(axis=0))
+            bears = (~guides | (signs * u.real >= -nothing)).all(axis=0)
+            left = p - belongs @ np.where(guides, signs * u.real, np.abs(u))
+            right = bears & (np.abs(left) <= nothing).all(axis=0) & (p >= -nothing).all(axis=0)
+        return np.where(right, np.maximum(p, 0.0), np.nan)
+
+
+def _patterns(guides: int) -> Iterator[tuple[int, ...]]:
+    """The guides that bear on the other side than without friction, none first."""
+    every = chain.from_iterable(combinations(range(guides), count) for count in range(guides + 1))
+    return islice(every, MOST_PATTERNS)

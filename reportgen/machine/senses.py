@@ -1,0 +1,41 @@
+"""In which sense something moves: the sign of a speed, or none where the speed is only rounding.
+
+A relative speed is the difference of two speeds.  Where they are equal, rounding is left of them, and its sign says
+nothing; so each is compared with how fast the whole mechanism moves, not with itself.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reportgen.machine.motion import Complexes, Floats, Motion
+
+STILL = 1e-12
+"""A speed below this share of the mechanism's own is rounding."""
+
+
+def sense_of(rate: Floats, pace: float) -> Floats:
+    """Return the sign of a rate [N], 0 where it is only rounding beside the mechanism's `pace` in the same unit."""
+    return np.asarray(np.sign(moving(rate, pace)))
+
+
+def moving(rate: Floats, pace: float) -> Floats:
+    """Return a rate [N] without rounding: 0 where it is nothing beside the mechanism's `pace` in the same unit."""
+    return np.asarray(np.where(np.abs(rate) > STILL * pace, rate, 0.0))
+
+
+def pace(motion: Motion, kind: str) -> tuple[float, float]:
+    """Return how fast a mechanism moves and how fast that changes, of links for pins ("R"), of points for guides ("P").
+
+    The change is at least that by ω² of the fastest link: a mechanism that turns steadily changes its directions.
+    """
+    turning = largest(*(link.omega for link in motion.links.values()))
+    if kind == "R":
+        return turning, max(largest(*(link.epsilon for link in motion.links.values())), turning**2)
+    moving = largest(*(point.v for point in motion.points.values()))
+    return moving, max(largest(*(point.a for point in motion.points.values())), turning * moving)
+
+
+def largest(*values: Floats | Complexes) -> float:
+    """Return the greatest size among values that may be nan, 0 of none."""
+    return max((float(np.nanmax(np.abs(each), initial=0.0)) for each in values), default=0.0)
