@@ -101,7 +101,9 @@ def _misplaced(assignment: Assignment, machine: Machine) -> Iterator[Finding]:
             yield Finding("wrong-unit", ("positions", "at", index), words)
     if isinstance(assignment.parameters, UnderGravity):
         yield from wide_sliders.faults(assignment.parameters.faces, machine.linkage)
-        yield from given_springs.faults(assignment.parameters.springs, machine.linkage)
+        springs = assignment.parameters.springs
+        misplaced = list(given_springs.faults(springs, machine.linkage))
+        yield from misplaced or given_springs.wound_up(springs, machine)
         yield from given_balancing.faults(assignment.parameters.balancing, machine)
         yield from given_friction.faults(assignment.parameters.friction, machine)
     if isinstance(assignment.parameters, Driven):

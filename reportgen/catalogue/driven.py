@@ -112,7 +112,7 @@ def driven(
     turns = own.get("turns", assignment.turns)
     motion_at = crank_motion(linkage, positions, start)
     declared = declared_loads.loads(given.loads, linkage, motion_at, of_kind, through=not positions.at)
-    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared))
+    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, (*of_kind, *declared), motion_at)
     loads = LoadsByKind.of((*of_kind, *declared, *of_springs))
     faces = wide_sliders.entered(given.faces, linkage, q.datum)
     balancing = given_balancing.entered(given.balancing, q.datum)

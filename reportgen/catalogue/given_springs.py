@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated, Any
+
+import numpy as np
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Either, Quantity, Reader, Whole, fault, quantity
@@ -16,14 +19,19 @@ from reportgen.catalogue.typed import as_typed
 from reportgen.catalogue.wide_sliders import Datum
 from reportgen.formula import Number, Symbol, ids
 from reportgen.machine import GROUND, Linkage
+from reportgen.machine.analysis import Machine
+from reportgen.machine.analysis import motion_at as motion_of
 from reportgen.machine.coils import Anchor
+from reportgen.machine.laws import FULL_TURN, STEPS, MotionAt
 from reportgen.machine.loads import Applied, Torque
-from reportgen.machine.springs import SpringLaw, TorsionLaw
+from reportgen.machine.springs import SpringLaw, TorsionLaw, within_half_a_turn
 
 COORDINATE = quantity("mm", above=-1e5, below=1e5, tiny=1e-4)
 STIFFNESS = quantity("N/mm", least=0, most=1e9, tiny=1e-9)
 TORSION = quantity("N m/rad", least=0, most=1e9, tiny=1e-9)
 LENGTH = quantity("mm", least=0, below=1e5, tiny=1e-4)
+ROUNDING = 1e-9
+"""Of a turn."""
 ANGLE = quantity("deg", least=-360, most=360, tiny=1e-6)
 
 
@@ -159,8 +167,24 @@ def _other_point(linkage: Linkage, spring: Spring) -> str | None:
 # --- loads ----------------------------------------------------------------------------------------
 
 
+def swing(link: int, motion_at: MotionAt) -> tuple[float, float]:
+    """The middle and the range (rad) of the angles that a link takes on while the driver goes all its way."""
+    angle = motion_at(np.linspace(0.0, FULL_TURN, STEPS + 1)).links[link].angle
+    low, high = (float(extreme(angle)) for extreme in (np.nanmin, np.nanmax))
+    return (low + high) / 2, high - low
+
+
+def wound_up(springs: Sequence[Spring], machine: Machine) -> Iterator[Finding]:
+    """Torsion springs on links that turn round and round, and so wind their spring up; at instants nothing turns."""
+    for index, spring in enumerate(() if machine.instants else springs):
+        if spring.twists and spring.link in machine.linkage.links:
+            _, range_ = swing(spring.link, partial(motion_of, machine))
+            if not range_ < FULL_TURN * (1 - ROUNDING):
+                yield Finding("spring-winds-up", ("parameters", "springs", index), {"link": str(spring.link)})
+
+
 def loads(
-    springs: Sequence[Spring], linkage: Linkage, datum: Datum, others: Sequence[Applied | Torque]
+    springs: Sequence[Spring], linkage: Linkage, datum: Datum, others: Sequence[Applied | Torque], motion_at: MotionAt
 ) -> tuple[tuple[Applied | Torque, ...], tuple[SpringRow, ...]]:
     """The loads of the springs beside `others`, and what words tell of them; their data are entered.
 
@@ -175,17 +199,23 @@ def loads(
         datum(ids.spring_rate(number), spring.c, Symbol("c", str(number)), kinds[0])
         slack = Symbol("φ" if spring.twists else "l", f"0{number}")
         datum(ids.spring_free(number), spring.free, slack, kinds[1])
-        own = _loads(number, spring, linkage, (*others, *made))
+        own = _loads(number, spring, linkage, (*others, *made), motion_at)
         made += own
         rows.append(_row(number, spring, tuple(load.name for load in own)))
     return tuple(made), tuple(rows)
 
 
-def _loads(number: int, spring: Spring, linkage: Linkage, others: Sequence[Applied | Torque]) -> list[Applied | Torque]:
+def _loads(
+    number: int, spring: Spring, linkage: Linkage, others: Sequence[Applied | Torque], motion_at: MotionAt
+) -> list[Applied | Torque]:
     if spring.about is not None:
         point = _other_point(linkage, spring)
         assert point is not None, "a spring without its pin is refused by the file's checks"
-        law = TorsionLaw(number, spring.about, point, spring.c.si, spring.free.si)
+        middle, range_ = swing(spring.link, motion_at)
+        deflected = float(within_half_a_turn(middle - spring.free.si))
+        beyond = np.pi <= abs(deflected) + range_ / 2 < 2 * np.pi
+        wound = deflected if beyond else 0.0
+        law = TorsionLaw(number, spring.link, spring.about, point, spring.c.si, spring.free.si, wound)
         return [Torque(named(ids.applied_torque, spring.link, others), spring.link, law)]
     at, to = spring.at, spring.to
     assert at is not None

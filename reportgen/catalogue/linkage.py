@@ -130,7 +130,7 @@ def machine(assignment: Assignment) -> Machine:
     )
     declared = _loads(given, linkage, _motion_at(built), through=not positions.at, span=span)
     q = _sheet(given, linkage, built, drawn.si if (drawn := assignment.drawing.crank) else None)
-    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, declared)
+    of_springs, springs = given_springs.loads(given.springs, linkage, q.datum, declared, _motion_at(built))
     loads = LoadsByKind.of((*declared, *of_springs))
     acting = tuple(load.name for load in declared if load.name not in loads.idle)
     q.set_out("lengths", *(ids.length(arm) for arm in arms(given)))

@@ -76,23 +76,34 @@ class SpringLaw(Law):
         return pull(c, length, free)
 
 
+def within_half_a_turn(angle: Floats | float) -> Floats:
+    """Return an angle (rad) [N] without its whole turns, in (−π, π]."""
+    return np.asarray(np.angle(np.exp(1j * np.asarray(angle))))
+
+
 @dataclass(frozen=True)
 class TorsionLaw(Law):
-    """A torsion spring of c (N·m/rad) about a pin: M = −c(φ − φ₀), φ the angle of the line to another point.
+    """A torsion spring of c (N·m/rad) on a link about a pin: M = −c(φ − φ₀), φ the link's angle, φ₀ = `free` (rad).
 
-    The deflection φ − φ₀ lies within half a turn either way.
+    The deflection φ − φ₀ lies within half a turn of `wound` (rad), which is 0 of a spring that is never wound by more.
+    The angle is that of the line from the pin to `point`, of a slotted link that of its slot.
     """
 
     number: int
+    link: int
     pin: str
     point: str
     c: float
     free: float
+    wound: float = 0.0
     kind = "spring"
 
+    def deflection(self, motion: Motion) -> Floats:
+        """φ − φ₀ (rad) [N]."""
+        return self.wound + within_half_a_turn(motion.links[self.link].angle - self.free - self.wound)
+
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        line = motion.points[self.point].p - motion.points[self.pin].p
-        return np.asarray(-self.c * np.angle(line * np.exp(-1j * self.free)))
+        return -self.c * self.deflection(motion)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return ()
@@ -107,7 +118,8 @@ class TorsionLaw(Law):
 
     def formula(self, q: Sheet, link: int) -> Expression:
         """M = −c θ, θ = φ − φ₀ measured on the drawing in degrees."""
-        line = q[ids.place(self.point)] - q[ids.place(self.pin)]
-        turned = arg(quotient(line, cis(q[ids.spring_free(self.number)])))
-        θ = q.define(ids.spring_turn(self.number), turned, scale=1.0)
+        free, slot = q[ids.spring_free(self.number)], q.find(ids.slot(link))
+        line = slot if slot is not None else q[ids.place(self.point)] - q[ids.place(self.pin)]
+        turned: Expression = arg(quotient(line, cis(free + self.wound if self.wound else free)))
+        θ = q.define(ids.spring_turn(self.number), turned + self.wound if self.wound else turned, scale=1.0)
         return -(q[ids.spring_rate(self.number)] * θ * PI / Number(180.0, unit="°"))

@@ -14,6 +14,7 @@ from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
 import reportgen
+from reportgen.base.errors import AssignmentError
 from reportgen.machine import Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.coils import Anchor
@@ -95,7 +96,7 @@ def springs_on(linkage: Linkage, data: st.DataObject) -> list[Applied | Torque]:
         found.append(Applied(f"F{link}", link, tip, law.towards(0), law))
         if far:
             found.append(Applied(f"B{link}", int(far[1:]), far, law.towards(1), law))
-    found.append(Torque("M1", 1, TorsionLaw(0, "O", "A", 20.0, data.draw(made.ANGLE))))
+    found.append(Torque("M1", 1, TorsionLaw(0, 1, "O", "A", 20.0, data.draw(made.ANGLE))))
     return found
 
 
@@ -156,3 +157,42 @@ def test_springs_on_a_group(data: st.DataObject) -> None:
 @given(data=st.data())
 def test_springs_on_chains(data: st.DataObject) -> None:
     prove(data, tuple(data.draw(st.lists(st.sampled_from(made.KINDS), min_size=1, max_size=3))))
+
+
+SLOTTED = """
+kind: linkage
+positions: {count: 36}
+parameters:
+  frame: {A: [0 mm, 0 mm], D: [20 mm, -160 mm]}
+  driver: {type: crank, centre: A, pin: B, length: 60 mm, n: 90 rpm}
+  groups:
+    - {type: RPR, links: [2, 3], joints: [B, B3, D], offset: 30 mm, axis: away}
+  springs:
+    - {link: 3, about: D, c: 5 N m/rad, free: FREE deg}
+"""
+
+
+@pytest.mark.parametrize(("free", "turns"), [(40, 0), (-236.5, 0), (123.5, 1)])
+def test_a_torsion_spring_acts_by_the_angle_of_its_link(free: float, turns: int) -> None:
+    """The slot passes its pivot at 30 mm; M = −c(φ₃ − φ₀) does no work, though it is wound by more than half a turn.
+
+    φ₀ = −236.5° winds it by 143° to 187°; what is slack at φ₀ + 360° is the same spring.
+    """
+    model = reportgen.open(SLOTTED.replace("FREE", str(free)))
+    B = 0.06 * np.exp(1j * np.radians(np.arange(0, 360, 10)))
+    DB = B - (0.02 - 0.16j)
+    # The axis points away from the block, which lies to its left by the offset.
+    φ3 = np.angle(DB) - np.pi + np.arcsin(0.03 / np.abs(DB))
+    φ3 = np.unwrap(np.angle(np.exp(1j * φ3)))
+    assert φ3.max() - φ3.min() < np.pi
+    M = -5 * (φ3 - math.radians(free) + 2 * math.pi * turns)
+    assert np.array(model["M3"]) == pytest.approx(M, rel=1e-9)
+    greatest = float(np.abs(model.case.analysis.torque).max())
+    assert model.case.analysis.summary.mean_torque == pytest.approx(0, abs=1e-9 * greatest)
+
+
+def test_a_torsion_spring_on_a_link_that_turns_round() -> None:
+    """It is wound up without end: a link that makes whole turns has none."""
+    turning = SLOTTED.replace("D: [20 mm, -160 mm]", "D: [10 mm, -20 mm]").replace("offset: 30", "offset: 0")
+    with pytest.raises(AssignmentError, match="spring-winds-up"):
+        reportgen.open(turning.replace("FREE", "0"))
