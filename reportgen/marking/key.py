@@ -181,7 +181,7 @@ DEFAULT = (
     # How it was drawn: lengths and angles on paper, scales, arms.
     *("-drawn.*", "-seg.*", "-mu.*", "-h.*", "-ic.*"),
     # Second ways to the same result.
-    *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-psi.*"),
+    *("-formulas", "-l.*K[0-9]*", "-e.Pqt*", "-M.*.p", "-T.*", "-J.I", "-J.0", "-J.rest", "-psi.*"),
     *("-run.Mc*", "-run.slip*", "-run.step", "-run.mean*"),
     # What is read off a force plan beside the size of a reaction.
     *("-dir.R*", "-R.*.n", "-x.*"),

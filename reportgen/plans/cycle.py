@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, atan, call, friction_ids, ids, sqrt, total
 from reportgen.formula.sheet import Sheet
-from reportgen.machine import Linkage
+from reportgen.machine import DRIVER, Inertia, Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
 from reportgen.plans.rests import with_rest
 from reportgen.plans.scales import DIAGRAM, fitting_axis
 
+CONSTANT = 1e-9
+"""Of its size: a speed that varies by less is constant."""
 TERMS = 4
 """More terms than these are no longer one line of a page."""
 
@@ -53,7 +57,7 @@ def enter_flywheel(q: Sheet, analysis: Analysis, regulated: RegulatedCycle) -> N
     if inertia is not None:
         _energy_mass(q, regulated)
     if inertia is not None and regulated.moment > 0:
-        _constant_group(q, regulated, machine.speed)
+        _constant_group(q, machine.linkage, regulated, machine.speed)
     if regulated.moment > 0:
         energy = q["omega.max"] ** 2 * J_d / 2 - a + A
         with_rest(q, "omega.of", regulated.speed[at], sqrt(2 * energy / (J_d + J_r)), "ω")
@@ -89,17 +93,51 @@ def _energy_mass(q: Sheet, regulated: RegulatedCycle) -> None:
         q.define(ids.tangent(name), atan(μ_J * q[ids.bound_of_speed(name)] ** 2 / (2 * μ_A)))
 
 
-def _constant_group(q: Sheet, regulated: RegulatedCycle, speed: float) -> None:
-    """Mertsalov's method: the energy of the group with constant inertia, that of the links taken at the mean speed.
+def _constant_group(q: Sheet, linkage: Linkage, regulated: RegulatedCycle, speed: float) -> None:
+    """Mertsalov's method: the energy of the group with constant inertia, that of the others taken at the mean speed.
 
-    T_I = A − J_r ω₁²/2 but for a constant, J_I = ΔT_I/(δ ω₁²).
+    Group I is the flywheel and the links of constant reduced inertia J_0, the crank among them; J_r − J_0 is that of
+    group II.  T_I = A − (J_r − J_0) ω₁²/2 but for a constant, J_I = ΔT_I/(δ ω₁²), J_d = J_I − J_0.
     """
-    energy = regulated.work - speed**2 / 2 * regulated.inertia
+    J_0, fixed = _constant(q, linkage)
+    energy = regulated.work - speed**2 / 2 * (regulated.inertia - fixed)
     most, range_ = float(np.abs(energy).max()), float(np.ptp(energy))
-    T = q.define("T.I", q["A.excess"] - q["J.r"] * q["omega.1"] ** 2 / 2, scale=most)
+    J_II = q["J.r"] if J_0 is None else q["J.r"] - J_0
+    T = q.define("T.I", q["A.excess"] - J_II * q["omega.1"] ** 2 / 2, scale=most)
     ΔT = with_rest(q, "T.range", range_, call("highest", T) - call("lowest", T), Symbol("ΔT", "I"), "work")
     J_I = q.define("J.I", ΔT / (q["unevenness"] * q["omega.1"] ** 2))
+    if J_0 is not None:
+        J_I = q.define("J.rest", J_I - J_0, Symbol("J", "I,d"), "moment of inertia")
     q.define("J.share", abs(J_I - q["J.d"]) / q["J.d"], Symbol("δ", "J"), "share", scale=1.0, residue=True)
+
+
+def _constant(q: Sheet, linkage: Linkage) -> tuple[Ref | None, float]:
+    """The reduced inertia J_0 (kg·m²) of the links whose speeds are constant beside the crank's; None without any."""
+    ω1 = q["omega.1"]
+    terms: list[Expression] = []
+    for body, moving, turning in _moving(q, linkage):
+        rates = [q.value(rate) for rate in (moving, turning) if rate]
+        if any(np.ptp(rate) > CONSTANT * np.abs(rate).max() for rate in rates):
+            continue
+        if moving:
+            terms.append(q[ids.mass(body.link)] * call("highest", q[moving]) ** 2 / ω1**2)
+        if turning:
+            J = q[ids.inertia(body.link)]
+            terms.append(J if body.link == DRIVER else J * call("highest", q[turning]) ** 2 / ω1**2)
+    if not terms:
+        return None, 0.0
+    J_0 = q.define("J.0", total(terms), Symbol("J", "0"), "moment of inertia")
+    return J_0, float(q.value("J.0")[0])
+
+
+def _moving(q: Sheet, linkage: Linkage) -> Iterator[tuple[Inertia, str, str]]:
+    """The bodies with the ids of the speeds of their mass centre and of their turning, "" without such an inertia."""
+    for body in linkage.inertias:
+        centre, rotation = ids.velocity(body.centre), ids.angular_velocity(body.link)
+        moving = centre if body.mass > 0 and centre in q else ""
+        turning = rotation if body.moment > 0 and rotation in q else ""
+        if moving or turning:
+            yield body, moving, turning
 
 
 def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
@@ -109,15 +147,13 @@ def _reduced(q: Sheet, linkage: Linkage) -> Expression | None:
     """
     ω1 = q["omega.1"]
     parts: dict[int, list[Expression]] = {}
-    for body in linkage.inertias:
-        link, centre, rotation = body.link, ids.velocity(body.centre), ids.angular_velocity(body.link)
+    for body, moving, turning in _moving(q, linkage):
         own: list[Expression] = []
-        if body.mass > 0 and centre in q:
-            own.append(q[ids.mass(link)] * q[centre] ** 2)
-        if body.moment > 0 and rotation in q:
-            own.append(q[ids.inertia(link)] * q[rotation] ** 2)
-        if own:
-            parts[link] = own
+        if moving:
+            own.append(q[ids.mass(body.link)] * q[moving] ** 2)
+        if turning:
+            own.append(q[ids.inertia(body.link)] * q[turning] ** 2)
+        parts[body.link] = own
     terms = [term for own in parts.values() for term in own]
     if not terms:
         return None

@@ -168,9 +168,14 @@ def tangent_lines(report: Report) -> list[str]:
     return report.known(["mu.J", "mu.A", ids.tangent("max"), ids.tangent("min")])
 
 
+def constant_links(report: Report) -> list[str]:
+    """The moment of inertia of the links that belong to the flywheel's group in Mertsalov's method."""
+    return report.known(["J.0"])
+
+
 def constant_group(report: Report) -> list[str]:
     """What Mertsalov's method comes to; nothing where it is not used."""
-    return report.known(["T.range", "J.I"])
+    return report.known(["T.range", "J.I", "J.rest"])
 
 
 def stores(report: Report) -> str:

@@ -147,6 +147,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "turning": phrases.turning,
     # what is set out together, by ids
     "constant_group": chapters.constant_group,
+    "constant_links": chapters.constant_links,
     "crank_lines": chapters.crank_lines,
     "driver_joints": chapters.driver_joints,
     "driver_reactions": chapters.driver_reactions,
