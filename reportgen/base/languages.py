@@ -82,8 +82,8 @@ class LanguageSetting:
     """All that `language.yaml` says; what it leaves out is as here.
 
     `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
-    title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them;
-    `spaced` says whether it sets blanks between words; `draft` are the kinds of work whose words no native speaker has
+    title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them, and
+    `typed` what people type for units besides; `spaced` says whether it sets blanks between words; `draft` are the kinds of work whose words no native speaker has
     read, or all of them.
     """
 
@@ -97,6 +97,7 @@ class LanguageSetting:
     page: PageMargins = PageMargins()
     block: str = "iso"
     units: Mapping[str, str] = field(default_factory=dict)
+    typed: Mapping[str, str] = field(default_factory=dict)
     mobility: MobilityNotation = MobilityNotation()
     spaced: bool = True
     draft: bool | tuple[str, ...] = False
@@ -155,9 +156,38 @@ def common_unit(text: str) -> str:
     """A unit as typed in any language, with the letters that all of them read: м/с as m/s."""
     if text.isascii():
         return text
-    names = {shown: unit for language in languages() for unit, shown in setting_of(language).units.items()}
+    names = _typed_names()
     whole = names.get(text, text)
-    return _LETTERS.sub(lambda letters: names.get(letters[0], letters[0]), whole)
+    return _LETTERS.sub(lambda letters: _in_letters(letters[0], names), whole)
+
+
+@cache
+def _typed_names() -> Mapping[str, str]:
+    """Units by what stands for them in any language."""
+    settings = [setting_of(language) for language in languages()]
+    names = {shown: unit for setting in settings for unit, shown in setting.units.items()}
+    return names | {typed: unit for setting in settings for typed, unit in setting.typed.items()}
+
+
+def typed_units() -> tuple[str, ...]:
+    """What stands for a unit in letters that are not Latin, and products of two of them without a sign: Н, мм, Нм."""
+    single = [name for name in _typed_names() if name.isalpha() and not name.isascii()]
+    products = [force + length for force in single for length in single if _is_moment(force, length)]
+    return (*single, *products)
+
+
+def _is_moment(force: str, length: str) -> bool:
+    names = _typed_names()
+    return names[force] in ("N", "kN") and names[length] in ("m", "mm")
+
+
+def _in_letters(word: str, names: Mapping[str, str]) -> str:
+    """A word of a unit in Latin letters; of two units without a sign between them, Нм, the product."""
+    if word in names:
+        return names[word]
+    halves = ((word[:n], word[n:]) for n in range(1, len(word)))
+    both = next(((first, last) for first, last in halves if first in names and last in names), None)
+    return f"{names[both[0]]}·{names[both[1]]}" if both else word
 
 
 def read_setting(file: Path) -> LanguageSetting:

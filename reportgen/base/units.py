@@ -223,7 +223,8 @@ def read_unit(text: str, unit: str) -> float:
 
 def scale(unit: str) -> tuple[float, Dimension]:
     """SI factor and dimension of a unit's text; raises `ValueError` for one that nobody knows."""
-    unit = SPELLED.get(unit.casefold(), common_unit(unit))
+    unit = SPELLED.get(unit.casefold()) or common_unit(unit)
+    unit = SPELLED.get(unit.casefold(), unit)
     return PLAIN[unit] if unit in PLAIN else scale_by_pint(unit)
 
 

@@ -16,8 +16,10 @@ from fnmatch import fnmatchcase
 from functools import cache
 from pathlib import Path
 
+from reportgen.base.chinese import narrow
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.template_folders import languages
+from reportgen.base.typed import plain_signs
 from reportgen.base.units import NUMBER, Language, write
 from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
@@ -83,7 +85,7 @@ def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None
 def _judgement(text: str) -> Verdict | float | None:
     if verdict := _verdicts().get(folded(text)):
         return verdict
-    plain = text.replace(",", ".")
+    plain = plain_signs(narrow(text)).strip().replace(",", ".")
     return float(plain) if re.fullmatch(NUMBER, plain) and math.isfinite(float(plain)) else None
 
 

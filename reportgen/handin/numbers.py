@@ -7,7 +7,8 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from reportgen.base.languages import decimal_mark
+from reportgen.base.languages import decimal_mark, typed_units
+from reportgen.base.typed import SPACES
 from reportgen.base.units import Language, QuantityFault
 from reportgen.marking.key import typed_unit
 from reportgen.marking.numbers import DecimalMark, read_number
@@ -21,13 +22,13 @@ _PRODUCT = re.compile(r"\d\.\d+,\d|\d,\d+\.\d(?!0\s*\^)|\d\.\d+\.\d|\d,\d+,\d")
 _THOUSANDS = re.compile(r"[-+–]?\s*\d{1,3}[.,]\d{3}(?!\d)")
 
 _POWER = r"(?:\s*[·.x×*]\s*10\s*(?:\^\s*\{?\(?\s*[-–⁻+]?\s*\d{1,3}\s*\)?\}?|[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))"
-NUMBER = (
-    rf"(?:[+\-–]\s*)?(?:\d+(?:[ \u00a0\u2009\u202f]\d{{3}})*(?:[.,]\d+)*(?:[eE][-+]?\d{{1,3}})?)(?!\d)(?:{_POWER})?"
-)
-_NO_LETTER = "(?![A-Za-zÀ-ỹα-ω])"
-_WORDS_OF_UNITS = "N|kN|mm|cm|dm|m|s|kg|rad|J|W|kW|MPa|kPa|Pa|độ|v|vg|vòng|rpm|deg|bar"
+_MINUTES = r"\d+\s*[°º]\s*\d{1,2}\s*′(?!′)(?:\s*\d{1,2}(?:[.,]\d+)?\s*′′)?"
+NUMBER = rf"(?:[+\-–⁻]\s*)?(?:{_MINUTES}|(?:\d+(?:[ {SPACES}]\d{{3}}(?!\d))*(?:[.,]\d+)*(?:\s?[eE][-+–]?\d{{1,3}})?)(?!\d)(?:{_POWER})?)"
+_NO_LETTER = "(?![A-Za-zÀ-ỹα-ωЀ-ӿ])"
+_LATIN_UNITS = "Nmm|kNm|Nm|N|kN|mm|cm|dm|m|s|kgm|kg|rad|J|W|kW|MPa|kPa|Pa|độ|v|vg|vòng|rpm|deg|bar"
+_WORDS_OF_UNITS = "|".join((_LATIN_UNITS, *map(re.escape, sorted(typed_units(), key=len, reverse=True))))
 UNIT = (
-    rf"(?:°|%|º|(?:1/s|(?:{_WORDS_OF_UNITS}){_NO_LETTER}))"
+    rf"(?:°|%|º|(?:1/[sс]|(?:{_WORDS_OF_UNITS}){_NO_LETTER}))"
     rf"(?:\s*[/·.*]\s*(?:{_WORDS_OF_UNITS}|ph|phút|min|rev){_NO_LETTER}|\s(?:m|mm|s){_NO_LETTER}|\s*\^\s*\{{?\(?[-–]?\d\)?\}}?|[²³⁴⁻¹]+|\d(?!\d)"
     rf"|\s*/\s*\(\s*(?:{_WORDS_OF_UNITS})[^()=]{{0,8}}\))*"
 )

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Mark
+from reportgen.base.typed import DOTS, MINUSES, UNSEEN
 from reportgen.handin.word_nodes import XmlNode
 
 OBJECT = "\ufffc"
@@ -90,10 +91,14 @@ Block = TextLine | TextGrid
 
 def _letters() -> dict[str, str]:
     """Letters that look alike as one of them, and those that nobody sees as none."""
-    letters = dict.fromkeys("\u200b\u200c\u200d\u2060\u2061\u2062\u2063\u2064\ufeff\xad\u200e\u200f\u20d7\u0305", "")
+    letters = {
+        **dict.fromkeys((*UNSEEN, "\u20d7", "\u0305"), ""),
+        **dict.fromkeys(MINUSES, "-"),
+        **dict.fromkeys(DOTS, "·"),
+    }
     letters |= {"’": "′", "'": "′", "‘": "′", "ʹ": "′", "″": "′′", "”": "′′", '"': "′′", "‴": "′′′"}
-    letters |= {"µ": "μ", "ϕ": "φ", "ɸ": "φ", "ϵ": "ε", "ϑ": "θ", "∙": "·", "⋅": "·", "•": "·", "∗": "*"}
-    letters |= {"＝": "=", "≅": "≈", "≃": "≈", "≒": "≈", "∼": "~", "−": "-", "‐": "-", "‑": "-", "﹣": "-"}
+    letters |= {"µ": "μ", "ϕ": "φ", "ɸ": "φ", "ϵ": "ε", "ϑ": "θ", "∗": "*"}
+    letters |= {"＝": "=", "≅": "≈", "≃": "≈", "≒": "≈", "∼": "~"}
     letters |= {"⟹": "⇒", "⟶": "→", "➔": "→", "➜": "→"}
     letters |= {chr(code): str(code - 0x2080) for code in range(0x2080, 0x208A)}
     letters |= dict(zip("ₐₑₒₓₕₖₗₘₙₚₛₜᵢⱼᵣᵤᵥ", "aeoxhklmnpstijruv", strict=True))

@@ -10,6 +10,7 @@ from reportgen.base import units
 from reportgen.base.chinese import narrow
 from reportgen.base.languages import DecimalMark as DecimalMark
 from reportgen.base.languages import decimal_mark as language_mark
+from reportgen.base.typed import DASHES, RAISED_MINUS, SPACES, plain_signs
 from reportgen.base.units import Dimension, Language, QuantityFault
 
 BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
@@ -17,19 +18,24 @@ BLANKS = frozenset({"", "-", "–", "—", "−", "…", "...", "?", "/"})
 LONGEST = 60
 """Characters of a number."""
 
-_SPACES = re.compile(r"[\s\u00a0\u2007\u2009\u202f]+")
-_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺−", "0123456789-+-")
+_SPACES = re.compile(rf"[\s{SPACES}]+")
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
+_BRACED = re.compile(r"\^\s*\{\s*([^{}]*?)\s*\}")
+_MINUTES = re.compile(
+    r"([+-]?)\s*([0-9]{1,6})\s*[°º]\s*([0-5]?[0-9])\s*['′’](?:\s*([0-5]?[0-9](?:[.,][0-9]+)?)\s*(?:[\"″”]|[′'’]{2}))?"
+)
+"""An angle in degrees, minutes and seconds: 12°30′."""
 _RAISED_POWER = re.compile(r"(?<![0-9])10([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
 _POWER = re.compile(r"(?:(?<=[0-9])\s*[x×·⋅*.]\s*|^([+-]?))10\s*\^\s*\(?\s*([+-]?[0-9]{1,3})\s*\)?", re.IGNORECASE)
 _NUMBER = re.compile(
     r"(?P<sign>[+-]?)\s*(?P<body>[0-9]+(?:[ '][0-9]{3}(?![0-9])|[.,][0-9]+)*[.,]?|[.,][0-9]+)"
-    r"(?:[eE](?P<power>[+-]?[0-9]{1,3}))?(?P<unit>\s*[^\s0-9].*|\s+1/.*)?"
+    r"(?:\s?[eE](?P<power>[+-]?[0-9]{1,3}))?(?P<unit>\s*[^\s0-9].*|\s+1/.*)?"
 )
 
 
 def is_blank(text: str) -> bool:
     """Whether a cell's text says that there is no answer."""
-    return narrow(text).strip() in BLANKS
+    return plain_signs(narrow(text)).strip() in BLANKS
 
 
 def decimal_mark(texts: Iterable[str], language: Language) -> tuple[DecimalMark, bool]:
@@ -51,6 +57,10 @@ def read_number(text: str, unit: str, mark: DecimalMark, agreed: bool = False) -
     `mark` decides what 1.234 means where the text itself does not; that is doubtful unless the whole sheet
     `agreed` on the mark.  Raises `QuantityFault` (not-a-number, not-finite, unexpected-, unknown-, wrong-unit).
     """
+    if angle := _MINUTES.fullmatch(_tidy(text)):
+        sign, degrees, minutes, seconds = angle.groups(default="0")
+        size = int(degrees) + int(minutes) / 60 + float(seconds.replace(",", ".")) / 3600
+        return (-size if sign == "-" else size) * _factor("°", unit, text), False
     match = _matched(text)
     if match is None:
         raise QuantityFault("not-a-number", text=text)
@@ -70,10 +80,11 @@ def _matched(text: str) -> re.Match[str] | None:
 
 def _tidy(text: str) -> str:
     """One kind of blank, minus and power of ten: 1,2·10³ becomes 1,2e3."""
-    result = _SPACES.sub(" ", narrow(text)).strip().lstrip("≈~= ")
-    result = re.sub(r"^[−–—]", "-", result)
+    result = _SPACES.sub(" ", plain_signs(narrow(text))).strip().lstrip("≈~= ")
+    if result[:1] in {*DASHES, RAISED_MINUS}:
+        result = f"-{result[1:]}"
+    result = re.sub(rf"(?<=[eE^])\s*[{''.join(DASHES)}]", "-", _BRACED.sub(r"^\1", result))
     result = _RAISED_POWER.sub(lambda match: f"10^{match[1].translate(_RAISED)}", result)
-    result = re.sub(r"\^\s*\(?\s*−", "^-", result)
     return _POWER.sub(lambda match: f"{'' if match[1] is None else match[1] + '1'}e{match[2]}", result)
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from reportgen.base import units
 from reportgen.base.errors import Fault, Mark, Problem
 from reportgen.base.template_folders import languages
+from reportgen.base.typed import plain_signs
 from reportgen.base.units import Language, QuantityFault
 from reportgen.base.words import as_error, as_problem, common_words
 from reportgen.formula.vocabulary import Chapter
@@ -261,7 +262,7 @@ def _words(name: str) -> frozenset[str]:
 
 
 def _says(cell: SheetCell, name: str) -> bool:
-    return cell.text.strip().rstrip(":").casefold() in _words(name)
+    return plain_signs(cell.text).strip().rstrip(":").casefold() in _words(name)
 
 
 def _sheets(pages: Sequence[Page]) -> list[tuple[Page, int]]:
@@ -302,11 +303,11 @@ def _data_shown(key: Key, page: Page, head: int) -> Iterator[Fault | None]:
     at, column = (next(n for n, cell in enumerate(heads) if _says(cell, name)) for name in ("id", "value"))
     given = {row.id: row for row in key.rows if row.role is Role.given and row.single}
     for cells in page.rows[head + 1 :]:
-        row = given.get(cells[at].text.strip()) if max(at, column) < len(cells) else None
+        row = given.get(plain_signs(cells[at].text).strip()) if max(at, column) < len(cells) else None
         entry = given_entry(row, 0) if row else None
         if row is None or entry is None or cells[column].blank:
             continue
-        own = cells[column].text.strip().replace(units.MINUS, "-").replace(",", ".")
+        own = plain_signs(cells[column].text).strip().replace(",", ".")
         # Data that the sheet shows are read back to the figures that it was written with.
         if re.fullmatch(units.NUMBER, own):
             about = {"symbol": symbol_text(row, key), "text": own, "wanted": f"{entry.value} {row.unit}".strip()}
@@ -337,7 +338,9 @@ class _Reading:
         """Read all rows below the head."""
         at = next(number for number, cell in enumerate(page.rows[head]) if _says(cell, "id"))
         filled: dict[Place, SheetCell] = {}
-        rows = [(cells[at].text.strip() if at < len(cells) else "", cells) for cells in page.rows[head + 1 :]]
+        rows = [
+            (plain_signs(cells[at].text).strip() if at < len(cells) else "", cells) for cells in page.rows[head + 1 :]
+        ]
         columns = self.columns(page.rows[head], [id for id, _ in rows if self.key.find(id)])
         for place, cell in self.cells(rows, at, columns):
             if place not in filled:
@@ -446,7 +449,7 @@ def _is_empty(cell: SheetCell) -> bool:
 
 def _label(text: str) -> str | None:
     """The label of a position in the head of a column, with the word for it or bare; None for another column."""
-    plain = text.strip().casefold()
+    plain = plain_signs(text).strip().casefold()
     for word in _words("position") | _words("at"):
         match = re.fullmatch(re.escape(word).replace(r"\{label\}", "(.+)"), plain)
         if match:

@@ -100,6 +100,12 @@ PLACE = ("v.D", 2)
         ("- v_D = 0,25 m/s; a_D = 3 m/s²", 0.25),
         ("𝑣_𝐷 = 0,25 m/s", 0.25),
         ("v\u200b_D = 0,2\u200b5 m/s", 0.25),
+        ("v_D = 2,5∙10^{−1} m/s", 0.25),
+        ("v_D = 2,5e−1 m/s", 0.25),
+        ("v_D = 2,5 e-1 m/s", 0.25),
+        ("v_D = 250 мм/с", 0.25),
+        ("v_D = 250 毫米/秒", 0.25),
+        *((f"v_D = {minus}0,25 m/s", -0.25) for minus in "\u2010\u2011\u2012\u2212\ufe63\u207b"),
     ],
 )
 def test_a_statement_has_its_number(text: str, value: float) -> None:
@@ -137,6 +143,14 @@ def test_what_leaves_a_doubt_is_not_read(text: str, code: str) -> None:
 def test_what_is_no_value_of_it_is_nothing(text: str) -> None:
     reading = read(HERE, line(text))
     assert PLACE not in reading.values.keys() | reading.unread.keys()
+
+
+@pytest.mark.parametrize("text", ["12°30′", "12° 30'", "12,5°", "12°30′0″"])
+def test_an_angle_may_have_minutes(text: str) -> None:
+    row = next(row for row in key().asked if row.unit == "°" and not row.single)
+    symbol = row.symbol.base + (f"_{row.symbol.sub}" if row.symbol.sub else "")
+    reading = read(HERE, line(f"{symbol} = {text}"))
+    assert reading.values[row.id, 2].value == pytest.approx(12.5)
 
 
 def test_a_position_ends_with_its_heading() -> None:

@@ -73,6 +73,29 @@ HEAD, FIRST = 3, 5
         ("1.2 kgm2", "kg·m²", 1.2),
         ("4 m/s2", "m/s²", 4),
         ("2 m/(s.mm)", "m/(s·mm)", 2),
+        # Signs as Word, a phone or a web page put them: hyphens, a figure dash, small and raised minus.
+        *((f"{minus}3,5", "m", -3.5) for minus in "\u2010\u2011\u2012\u2013\u2014\ufe63\uff0d\u207b"),
+        ("1.2e\u22123", "N", 0.0012),
+        ("1,2e\u20133", "N", 0.0012),
+        ("1,2\u221910^-3", "N", 0.0012),
+        ("1,2·10^{-3}", "N", 0.0012),
+        ("1,2·10^{\u22123}", "N", 0.0012),
+        ("1.2 e1", "N", 12),
+        ("12\u2009300", "N", 12300),
+        ("12\u2007300,5", "N", 12300.5),
+        ("\u200b3,5", "m", 3.5),
+        ("\ufeff3,5 m", "m", 3.5),
+        # Units in Cyrillic and Han, and without the sign of a product.
+        ("12 Нм", "N·m", 12),
+        ("1,2 кНм", "N·m", 1200),
+        ("2 1/с", "rad/s", 2),
+        ("5 毫米", "m", 0.005),
+        ("3 牛·米", "N·m", 3),
+        ("3 米/秒", "m/s", 3),
+        # Degrees, minutes and seconds: 12° + 30/60 + 36/3600.
+        ("12°30′", "°", 12.5),
+        ("-12° 30' 36\"", "°", -12.51),
+        ("12°30′", "rad", math.radians(12.5)),
     ],
 )
 def test_a_number_is_read_as_it_is_meant(text: str, unit: str, value: float) -> None:
