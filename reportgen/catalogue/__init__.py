@@ -184,7 +184,7 @@ def problems_of(source: Source, path: Path, language: Language | None = None) ->
         return list(error.problems)
     warnings = getattr(module(assignment.kind), "WARNINGS", ())
     by_level: dict[Level, list[Finding]] = {
-        "warning": [finding for warning in warnings for finding in warning(assignment)],
+        "warning": [*(finding for warning in warnings for finding in warning(assignment)), *_doubts(assignment)],
         "note": list(_understood_positions(assignment)),
     }
     spoken = assignment.language
@@ -192,6 +192,12 @@ def problems_of(source: Source, path: Path, language: Language | None = None) ->
     doubtful = (*reading.doubtful(source), *reading.doubtful_parts(source, path))
     problems += [as_problem(one, spoken, "warning") for one in doubtful]
     return sorted(problems, key=lambda problem: problem.mark)
+
+
+def _doubts(assignment: Assignment) -> Iterator[Finding]:
+    """What is allowed in the file of a machine but hardly meant."""
+    if (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
+        yield from given_motion.warnings(machine_of(assignment))
 
 
 def examples(name: str) -> dict[str, Path]:

@@ -40,7 +40,7 @@ from reportgen.machine.drives import (
 )
 from reportgen.machine.flywheel import flywheel
 from reportgen.machine.running import NoMotionError
-from reportgen.machine.true_motion import true_motion
+from reportgen.machine.true_motion import OFF_SPEED, TrueMotion, true_motion
 
 FIND = "find"
 """The constant torque that balances the mean of the loads."""
@@ -263,11 +263,25 @@ def faults(machine: Machine) -> Iterator[Finding]:
     if not (machine.linkage.inertias or machine.loads):
         yield Finding("motion-without-loads", ("parameters", "motion"), at="key")
         return
-    regulated = None if machine.unevenness is None else flywheel(machine, machine.unevenness)
     try:
-        true_motion(machine, asked, regulated)
+        _moved(machine, asked)
     except NoMotionError as error:
         yield _told(error)
+
+
+def warnings(machine: Machine) -> Iterator[Finding]:
+    """A drive under which the machine runs at another speed than the one that it is calculated for."""
+    if machine.true_motion is None:
+        return
+    motion = _moved(machine, machine.true_motion)
+    if motion.off_speed(machine) > OFF_SPEED:
+        words = {"speed": f"{motion.states[motion.shown].mean:.4g}", "planned": f"{machine.speed:.4g}"}
+        yield Finding("motion-off-speed", ("parameters", "motion", "drive"), words, at="key")
+
+
+def _moved(machine: Machine, asked: MotionAsked) -> TrueMotion:
+    """The true motion, with the flywheel that is asked for."""
+    return true_motion(machine, asked, None if machine.unevenness is None else flywheel(machine, machine.unevenness))
 
 
 def _told(error: NoMotionError) -> Finding:
@@ -275,6 +289,8 @@ def _told(error: NoMotionError) -> Finding:
     where = {
         "no-inertia": motion,
         "does-not-start": (*motion, "start"),
+        "starts-nowhere": (*motion, "drive"),
+        "start-stalls": (*motion, "start"),
         "starts-too-slowly": (*motion, "start"),
         "does-not-stop": (*motion, "stop"),
     }.get(error.code, (*motion, "drive"))

@@ -52,9 +52,9 @@ NEAREST = 1.01
 class NoMotionError(Exception):
     """A motion that is asked for does not come about.
 
-    `code` is "stalls", "does-not-start", "runs-away", "runs-down", "no-steady-motion" or "starts-too-slowly"; `angle`
-    (rad) the cycle angle there, `missing` the torque (N·m) that is missing, `ranges` the angles (rad) from which the
-    machine would start, `speed` (rad/s) that meant.
+    `code` is "stalls", "start-stalls", "does-not-start", "starts-nowhere", "starts-too-slowly", "does-not-stop",
+    "runs-away", "runs-down" or "no-steady-motion"; `angle` (rad) the cycle angle there, `missing` the torque (N·m)
+    that is missing, `ranges` the angles (rad) from which the machine would start, `speed` (rad/s) that is meant.
     """
 
     def __init__(
@@ -386,10 +386,10 @@ def _simulated(body: ReducedMachine, path: ReducedWay, drive: Drive, speed: floa
             break
 
 
-def stalled(body: ReducedMachine, run: MotionRun) -> NoMotionError:
+def stalled(body: ReducedMachine, run: MotionRun, code: str = "stalls") -> NoMotionError:
     """The error of a machine that comes to rest at the end of a run."""
     missing = -float(run.torque[-1] + run.drive[-1])
-    return NoMotionError("stalls", angle=float(np.mod(run.angle[-1], body.whole)), missing=missing)
+    return NoMotionError(code, angle=float(np.mod(run.angle[-1], body.whole)), missing=missing)
 
 
 def _level(

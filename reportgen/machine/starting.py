@@ -16,6 +16,9 @@ from reportgen.machine.time_steps import TimeStepper
 Floats = NDArray[np.float64]
 NEAR_STEADY = 0.01
 """A start is over at the end of the first cycle whose last speed is as near to the steady one."""
+STALLS = "start-stalls"
+NEAR_ENOUGH = np.radians(1.0)
+"""To what the limit of the angles is found (rad) from which a machine starts."""
 MOST_SWINGS = 50
 
 
@@ -36,11 +39,37 @@ class StartFromRest:
 
 
 def starting_ranges(body: ReducedMachine, drive: Drive) -> list[tuple[float, float]]:
-    """From which cycle angles to which (rad) a machine at rest begins to move forward."""
+    """From which cycle angles to which (rad) a machine at rest starts and comes through a cycle.
+
+    The farther before a place where the loads are too strong it starts, the more energy it has there.
+    """
     angle = np.linspace(0.0, body.whole, body.machine.turns * 2 * PARTS + 1)
     moves = body.reduced(angle)[2] + drive.torque(np.zeros_like(angle)) > 0
     edges = np.flatnonzero(np.diff(np.concatenate(([False], moves, [False])).astype(int)))
-    return [(float(angle[low]), float(angle[high - 1])) for low, high in zip(edges[::2], edges[1::2], strict=True)]
+    ranges = []
+    for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
+        low, high = float(angle[first]), float(angle[last])
+        if not _comes_through(body, drive, low):
+            continue
+        if not _comes_through(body, drive, high):
+            inside, outside = low, high
+            while outside - inside > NEAR_ENOUGH:
+                middle = (inside + outside) / 2
+                inside, outside = (middle, outside) if _comes_through(body, drive, middle) else (inside, middle)
+            high = inside
+        ranges.append((low, high))
+    return ranges
+
+
+def _comes_through(body: ReducedMachine, drive: Drive, angle: float) -> bool:
+    """Whether a machine that starts from rest at an angle (rad) comes through a cycle."""
+    if not _moves(body, drive, angle):
+        return False
+    try:
+        _first_cycle(body, drive, body.parted(angle))
+    except NoMotionError:
+        return False
+    return True
 
 
 def start(
@@ -54,7 +83,8 @@ def start(
     torque = float(body.reduced(edges[:1])[2][0] + drive.torque(np.zeros(1))[0])
     if torque <= 0:
         ranges = starting_ranges(body, drive)
-        raise NoMotionError("does-not-start", angle=angle, missing=-torque, ranges=ranges)
+        code = "does-not-start" if ranges else "starts-nowhere"
+        raise NoMotionError(code, angle=angle, missing=-torque, ranges=ranges)
     run, turns_back = _first_cycle(body, drive, edges)
     wanted = float(to.run.speed[to.run.place(np.mod(angle, body.whole))])
     cycles, path = [run], body.along(edges)
@@ -63,7 +93,7 @@ def start(
             raise NoMotionError("starts-too-slowly", speed=float(cycles[-1].speed[-1]))
         run, arrives = passage(body, edges, drive, float(cycles[-1].speed[-1]), path)
         if not arrives:
-            raise stalled(body, run)
+            raise stalled(body, run, STALLS)
         cycles.append(run.shifted(len(cycles) * body.whole))
     ends = np.cumsum([len(cycle.angle) - 1 for cycle in cycles])
     return StartFromRest(cycles[0].joined(*cycles[1:]), tuple(map(int, ends)), turns_back)
@@ -82,10 +112,10 @@ def _first_cycle(body: ReducedMachine, drive: Drive, edges: Floats) -> tuple[Mot
         at = float(run.angle[-1])
         torque = float(body.reduced(np.array([at]), -1)[2][0] + run.drive[-1])
         if not body.yields or torque >= 0 or len(turns_back) >= MOST_SWINGS:
-            raise stalled(body, run)
+            raise stalled(body, run, STALLS)
         behind = _swing(body, drive, at)
         if behind is None or behind.angle[-1] >= set_out or not _moves(body, drive, float(behind.angle[-1])):
-            raise stalled(body, run)
+            raise stalled(body, run, STALLS)
         turns_back.append(at)
         set_out = float(behind.angle[-1])
         forward, arrives = passage(body, np.append(set_out, every[every > set_out + SAME_ANGLE]), drive, 0.0)

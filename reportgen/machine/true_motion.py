@@ -21,6 +21,8 @@ from reportgen.machine.starting import StartFromRest, start, stop
 
 NO_INERTIA = 1e-12
 """A reduced moment of inertia below this share of its greatest is none."""
+OFF_SPEED = 0.1
+"""A machine that runs faster or slower than planned by more than this share is another one: the user is warned."""
 State = Literal["", "wheel"]
 """Without the flywheel, and with it."""
 
@@ -46,6 +48,10 @@ class TrueMotion:
     def states(self) -> dict[State, SteadyMotion]:
         """The steady motions, that without flywheel first."""
         return {"": self.alone} if self.wheeled is None else {"": self.alone, "wheel": self.wheeled}
+
+    def off_speed(self, machine: Machine) -> float:
+        """By what share the mean speed of the motion that starts and stops differs from the planned one."""
+        return abs(self.states[self.shown].mean / machine.speed - 1)
 
     def added(self, state: State) -> float:
         """What turns with the crank beside the links (kg·m²): motor and gear, the flywheel."""

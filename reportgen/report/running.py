@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.units import rounded, significant_decimals
 from reportgen.formula import NOTHING, Chain, Expression, Number, Symbol, plus
 from reportgen.machine.drives import ConstantDrive, Geared, TableDrive
 from reportgen.machine.running import MotionRun
+from reportgen.machine.true_motion import OFF_SPEED
 from reportgen.plans import run_ids
 from reportgen.report import Equation, InlineMath, Inlines, Paragraph, Table, Text, Value, listed, running_motors
 from reportgen.report.report import Report
@@ -18,8 +20,6 @@ from reportgen.report.running_curves import motion_of
 from reportgen.report.running_forces import asks_forces, forces_table
 from reportgen.report.tables import list_table, tables
 
-AS_ASKED = 1e-5
-"""The flywheel's calculation looks for the extremes at angles that miss no more than this share of δ."""
 RPM = 30 / math.pi
 """Revolutions a minute of a radian a second."""
 MOST_CYCLES = 12
@@ -84,8 +84,33 @@ def verdict(report: Report) -> str:
     motion, permitted = report.case.true_motion, report.machine.unevenness
     if motion is None or permitted is None:
         return ""
-    true = list(motion.states.values())[-1].unevenness
-    return "kept" if true <= permitted * (1 + AS_ASKED) else "exceeded"
+    return "exceeded" if _excess(report) > 0 else "kept"
+
+
+def _excess(report: Report) -> float:
+    """By what share the true unevenness exceeds the permitted one, both as they are printed; negative if it is less."""
+    motion, permitted = report.case.true_motion, report.machine.unevenness
+    assert motion is not None, "a verdict is about a motion"
+    assert permitted is not None, "a verdict names what is permitted"
+    printed = report.ledger.number(run_ids.in_state("delta", list(motion.states)[-1]))
+    allowed = permitted if printed.decimals is None else rounded(permitted, printed.decimals)
+    return float((printed.shown - allowed) / permitted)
+
+
+def exceeded_by(report: Report) -> Inlines:
+    """By how much the true unevenness exceeds the permitted one; nothing where it does not."""
+    return (_percent(_excess(report)),) if verdict(report) == "exceeded" else ()
+
+
+def off_speed(report: Report) -> Inlines:
+    """How far the mean speed is from the planned one; nothing where it is near."""
+    motion = report.case.true_motion
+    share = 0.0 if motion is None else motion.off_speed(report.machine)
+    return (_percent(share),) if share > OFF_SPEED else ()
+
+
+def _percent(share: float) -> Value:
+    return Value(Number(float(f"{100 * share:.2g}"), max(significant_decimals(100 * share, 2), 0), "%"))
 
 
 def with_wheel_or_alone(report: Report) -> str:
@@ -266,6 +291,8 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "characteristic_lines": characteristic_lines,
     "motion_verdict": verdict,
     "verdict_of": with_wheel_or_alone,
+    "exceeded_by": exceeded_by,
+    "off_speed": off_speed,
     "has_wheeled": has_wheeled,
     "starts": starts,
     "stops": stops,

@@ -248,7 +248,7 @@ def test_a_motor_that_is_strong_enough_in_the_mean_alone_stalls() -> None:
 
 
 def test_a_motor_starts_only_where_its_torque_suffices() -> None:
-    """140 N·m move the crank from where the slider asks for less: until 55° and from 101° on."""
+    """140 N·m get over 150 N·m at 90° with the energy of a longer way: from 101° on, and until before 55°."""
     motor = LinearDrive(140.0, 4.0)
     body = ReducedMachine(R3)
     motion = steady(body, motor, 27.0)
@@ -257,8 +257,36 @@ def test_a_motor_starts_only_where_its_torque_suffices() -> None:
     assert told.value.code == "does-not-start"
     assert told.value.missing == pytest.approx(10)
     (_, until), (since, _) = told.value.ranges
-    for angle, moves in ((until, 1), (until + math.radians(1), -1), (since, 1), (since - math.radians(1), -1)):
+    assert until < math.radians(54.0)
+    for angle, moves in ((since, 1), (since - math.radians(1), -1)):
         assert np.sign(reduced(R3, np.array([angle]))[2] + 140) == moves
+    assert start(body, motor, motion, until).time > 0
+    with pytest.raises(NoMotionError) as told:
+        start(body, motor, motion, until + math.radians(1.1))
+    assert told.value.code == "start-stalls"
+
+
+@pytest.mark.parametrize("inertia", [0.0, 50.0])
+def test_where_a_start_stalls_does_not_depend_on_the_inertia(inertia: float) -> None:
+    """A torque that is the same at every speed does the same work to every angle: more inertia is no remedy."""
+    body = ReducedMachine(R3, inertia)
+    with pytest.raises(NoMotionError) as told:
+        start(body, ConstantDrive(100.0), steady(body, ConstantDrive(MEAN), 27.0))
+    assert told.value.code == "start-stalls"
+    # ∫(100 + M_r) dφ vanishes there, by Simpson's rule.
+    angle = np.linspace(0.0, told.value.angle, 2001)
+    acting = reduced(R3, angle)[2] + 100.0
+    work = (acting[0] + 4 * acting[1:-1:2].sum() + 2 * acting[2:-1:2].sum() + acting[-1]) * angle[1] / 3
+    assert work == pytest.approx(0.0, abs=1e-8 * 100.0)
+
+
+def test_a_motor_that_starts_nowhere() -> None:
+    """5 N·m are less than the slider asks for at every angle from which it would have to get over 150 N·m."""
+    motor = KlossDrive(200.0, 0.001, 30.0)
+    body = ReducedMachine(R3)
+    with pytest.raises(NoMotionError) as told:
+        start(body, motor, steady(ReducedMachine(R3, 20.0), KLOSS, 27.0), math.radians(90.0))
+    assert told.value.code == "starts-nowhere"
 
 
 def test_a_resistance_holds_what_it_has_stopped() -> None:
@@ -270,7 +298,7 @@ def test_a_resistance_holds_what_it_has_stopped() -> None:
     motion = steady(ReducedMachine(machine, 50.0), KLOSS, 27.0)
     with pytest.raises(NoMotionError) as told:
         start(body, KLOSS, motion)
-    assert told.value.code == "stalls"
+    assert told.value.code == "start-stalls"
 
 
 # --- many machines --------------------------------------------------------------------------------------

@@ -68,7 +68,7 @@ def test_a_start_that_the_load_stops(begin: float) -> None:
     wheeled = steady(ReducedMachine(R3, 5.0), drive, 27.0)
     with pytest.raises(NoMotionError) as told:
         start(body, drive, wheeled, math.radians(begin))
-    assert told.value.code == "stalls"
+    assert told.value.code == "start-stalls"
     # In time from rest: between the instants about the stop the speed is all but linear.
     times = np.linspace(0.0, 0.4, 41)
     passed = in_time(R3, 0.0, of(drive), math.radians(begin), 0.0, times)

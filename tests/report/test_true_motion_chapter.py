@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 import pytest
 
+from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
 from reportgen.drawing import Label
 from reportgen.formula import Number
 from reportgen.machine.true_motion import at_positions
-from reportgen.report import Table, text_of
+from reportgen.report import Table, Value, running, text_of
 from reportgen.report.report import Report
 from reportgen.report.result_tables import residuals
 from reportgen.report.running_curves import stopping
@@ -93,3 +96,35 @@ def test_a_stop_within_a_few_degrees_has_its_curves(brake: int, tmp_path: Path) 
     over_angle = [item.content for item in scenes[0].items if isinstance(item, Label)]
     angles = [content.value for content in over_angle if isinstance(content, Number) and content.unit == "°"]
     assert len(angles) > 2
+
+
+def _with_drive(tmp_path: Path, text: str) -> Path:
+    file = tmp_path / "drive.yaml"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_a_machine_at_another_speed_than_planned_is_warned_of(tmp_path: Path) -> None:
+    """M₀/k = 30 rad/s without load: planned for 60 rad/s it is another machine, planned for 28 it is not."""
+    text = FILE.read_text(encoding="utf-8")
+    speed = next(line for line in text.splitlines() if line.lstrip().startswith(("n:", "omega1:")))
+    far = _with_drive(tmp_path, text.replace(speed, "  omega1: 60 rad/s"))
+    assert [problem.code for problem in catalogue.examine(far) if problem.level == "warning"] == ["motion-off-speed"]
+    assert "motion-off-speed" not in [problem.code for problem in catalogue.examine(FILE)]
+    case = open_case(far)
+    assert isinstance(case, MachineCase)
+    assert "máy chạy ở vận tốc khác" in text_of(case.document())
+
+
+@pytest.mark.parametrize(("true", "verdict"), [(0.033343, "exceeded"), (0.0333334, "kept"), (0.0333, "kept")])
+def test_the_verdict_compares_what_is_printed(true: float, verdict: str) -> None:
+    """1/30 to the decimals of δ is 0.033333; 0.033343 exceeds it by 0.03 %."""
+    report = Report(built.case(FILE, "en"))
+    delta = Number(true, 6)
+    with (
+        mock.patch.object(type(report), "machine", SimpleNamespace(unevenness=1 / 30)),
+        mock.patch.object(type(report.ledger), "number", return_value=delta),
+    ):
+        assert running.verdict(report) == verdict
+        by = running.exceeded_by(report)
+    assert [value.number.shown for value in by if isinstance(value, Value)] == ([0.03] if verdict == "exceeded" else [])
