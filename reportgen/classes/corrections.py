@@ -1,9 +1,9 @@
 """What the instructor judges otherwise, as a table that is applied at each marking: `corrections.csv`.
 
-A row names a student by id or name; a quantity by id, pattern or symbol, a section, a part of a coursework, or nothing
-for the whole sheet; a position, or nothing for all; then `right`, `wrong`, or the points that it earns altogether; and
-the reason.  With a `value` the row holds only for cells that have it.  Of two rows for one cell the later one holds.
-What a row no longer fits is told.
+A row names a student by id, e-mail or name; a quantity by id, pattern or symbol, a section, a part of a coursework, or
+nothing for the whole sheet; a position, or nothing for all; then `right`, `wrong`, or the points that it earns
+altogether; and the reason.  Who judged so, and when, may be added, and is shown with the reason.  With a `value` the
+row holds only for cells that have it.  Of two rows for one cell the later one holds; what no longer fits is told.
 """
 
 from __future__ import annotations
@@ -18,10 +18,11 @@ from pathlib import Path
 
 from reportgen.base.chinese import narrow
 from reportgen.base.errors import Fault, Mark, Problem
+from reportgen.base.moments import moment
 from reportgen.base.template_folders import languages
 from reportgen.base.typed import plain_signs
 from reportgen.base.units import NUMBER, Language, write
-from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages
+from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages, word
 from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.formula.vocabulary import Chapter
 from reportgen.marking.key import symbol_text, words_of
@@ -32,6 +33,8 @@ from reportgen.workbook import read
 
 NEEDED = ("judgement", "reason")
 """Columns that each row fills in, beside the student's."""
+SIGNED, DATED = "judged_by", "judged_on"
+"""Columns that may say who judged so, and when."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,6 +48,14 @@ class Correction:
     reason: str
     value: str
     marks: Mapping[str, Mark]
+    signed: tuple[str, ...] = ()
+    """Who judged so, and when, as typed."""
+
+    def reason_in(self, language: Language) -> str:
+        """The reason with who judged so, and when."""
+        if not self.signed:
+            return self.reason
+        return word("correction_signed", language, reason=self.reason, signed=", ".join(self.signed))
 
 
 def read_corrections(path: Path, language: Language | None = None) -> tuple[Correction, ...]:
@@ -56,7 +67,7 @@ def read_corrections(path: Path, language: Language | None = None) -> tuple[Corr
         faults: list[Fault] = []
         headed = columns(page.rows[head])
         names = {column.name for column in headed}
-        who = "id" if "id" in names else "name"
+        who = next((name for name in ("id", "email", "name") if name in names), "id")
         lacking = [name for name in (who, *NEEDED) if name not in names]
         faults += [Fault("correction-column", headed[0].mark, {"key": name}) for name in lacking]
         rows = [] if lacking else list(records(page, headed, head + 1, faults))
@@ -74,12 +85,17 @@ def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None
     judgement = None if "judgement" in lacking else _judgement(texts.get("judgement", ""))
     if judgement is None and "judgement" in texts:
         faults.append(Fault("correction-judgement", row.cells["judgement"], {"text": texts["judgement"]}))
+    if (date := texts.get(DATED)) and moment(date) is None:
+        faults.append(Fault("moment", row.cells[DATED], {"text": date}))
     if judgement is None or lacking:
         return None
     quantity, position, value = (texts.get(name, "") for name in ("quantity", "position", "value"))
     marks = {name: row.cells.get(name, row.mark) for name in ("quantity", "position", "judgement", "value")}
     marks["who"] = row.cells[who]
-    return Correction(texts[who], quantity, position, judgement, reason=texts["reason"], value=value, marks=marks)
+    signed = tuple(texts[name] for name in (SIGNED, DATED) if texts.get(name))
+    return Correction(
+        texts[who], quantity, position, judgement, texts["reason"], value=value, marks=marks, signed=signed
+    )
 
 
 def _judgement(text: str) -> Verdict | float | None:
@@ -132,9 +148,9 @@ def _verdicts_of(marking: Marking) -> list[tuple[Verdict, float]]:
 
 
 def _is_of(who: str, key: Key) -> bool:
-    """Whether an id, the stem of a file or a full name is that of the student of a key."""
+    """Whether an id, the stem of a file, an e-mail or a full name is that of the student of a key."""
     id = key.student.get("id", key.id)
-    names = {comparable(one) for one in (key.id, id, folder_name(id))}
+    names = {comparable(one) for one in (key.id, id, folder_name(id), key.student.get("email", "")) if one}
     return comparable(who) in names or folded(who) == folded(key.student.get("name", ""))
 
 
@@ -165,12 +181,13 @@ def corrected(marking: Marking, correction: Correction) -> Marking | Fault:
     if isinstance(points, float) and not 0 <= points <= worth + 1e-9:
         most = {"text": f"{points:g}", "most": f"{worth:g}"}
         return Fault("correction-points", correction.marks["judgement"], most)
-    places = {(cell.id, cell.position): _judged(cell, points, worth, correction.reason) for cell in cells}
+    reason = correction.reason_in(marking.key.language)
+    places = {(cell.id, cell.position): _judged(cell, points, worth, reason) for cell in cells}
     shown = (*what, Text(f" ({correction.position})")) if wanted else what
     return replace(
         marking,
         cells=tuple(places.get((cell.id, cell.position), cell) for cell in marking.cells),
-        amendments=(*marking.amendments, Amendment(shown, frozenset(places), correction.reason)),
+        amendments=(*marking.amendments, Amendment(shown, frozenset(places), reason)),
     )
 
 

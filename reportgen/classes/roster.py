@@ -5,7 +5,8 @@ and any path such as `parameters.H`, `positions.start` or `report.supervisor`, w
 Other columns are left alone, and so is a second one for the same thing (a class and a class of the course).  A name may
 stand in two columns, one for the family name and one for the given name, and is put together in their order.
 Headings may follow a title; empty rows are passed over.  A table of variants is read by the same headings.
-The participants' lists of Moodle and the gradebook of Canvas are rosters as they come.
+Without a column of ids the e-mails give them.  The participants' lists of Moodle and the gradebook of Canvas are
+rosters as they come.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from __future__ import annotations
 import hashlib
 import re
 import unicodedata
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -202,10 +204,13 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
         headed = [column for column in headed if column.name != "id" or page.rows[start][column.index].text != "ID"]
     headings = [_normal(column, faults) for column in headed]
     used = _used(headings)
+    by_mail = not any(column.name == "id" for column in used)
     rows = [row for row in records(page, used, start + 1, faults) if row.values or row.refused]
     if of_canvas:
         # Points possible, and a student for trying out, have no student number.
         rows = [_in_spoken_order(row) for row in rows if "id" in row.values]
+    if by_mail:
+        rows = _identified(rows)
     rows, left_out = _students_rows(rows)
     faults += [fault for row in rows for fault in _unfit(row)]
     faults += _id_faults(rows)
@@ -214,8 +219,25 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     if faults:
         raise as_error(faults, language)
     overriding = tuple(column for column in used if _PATH.fullmatch(column.name))
-    notes = (as_problem(Fault("roster-row-left", row.mark, {"text": _said(row)}), language, "note") for row in left_out)
+    by_address = [Fault("roster-ids-mail", headings[0].mark, {"text": rows[0].values["id"].text})] if by_mail else []
+    left = (Fault("roster-row-left", row.mark, {"text": _said(row)}) for row in left_out)
+    notes = (as_problem(fault, language, "note") for fault in (*by_address, *left))
     return Roster(tuple(map(_student, rows)), overriding, tuple(notes))
+
+
+def _identified(rows: Sequence[Record]) -> list[Record]:
+    """The rows with ids: the local part of each e-mail, or the whole of it where two students have one local part."""
+    mails = [row.values.get("email") for row in rows]
+    counts = Counter(comparable(mail.text.partition("@")[0]) for mail in mails if mail is not None)
+    identified: list[Record] = []
+    for row, mail in zip(rows, mails, strict=True):
+        if mail is None:
+            identified.append(row)
+            continue
+        local = mail.text.partition("@")[0]
+        id = local if counts[comparable(local)] == 1 and local else mail.text
+        identified.append(replace(row, values={**row.values, "id": Scalar(id, mail.mark)}))
+    return identified
 
 
 def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
@@ -253,12 +275,16 @@ def _in_spoken_order(row: Record) -> Record:
 
 
 def _page(pages: Sequence[Page]) -> tuple[Page, int | None]:
-    """The first visible sheet with an id column and the index of its headings; else the first that is not empty."""
+    """The first visible sheet with a column of ids, else of e-mails, and the index of its headings.
+
+    Without either, the first sheet that is not empty.
+    """
     full = [page for page in pages if any(page.rows) and not page.hidden] or list(pages)
-    for page in full:
-        start = heading_row(page, "id")
-        if start is not None:
-            return page, start
+    for wanted in ("id", "email"):
+        for page in full:
+            start = heading_row(page, wanted)
+            if start is not None:
+                return page, start
     return (full[0] if full else Page("", ())), None
 
 

@@ -137,3 +137,37 @@ def test_the_instructors_word_is_shown_to_the_student_and_in_the_class(path: Pat
     comments = [str(one) for page in feedback_book(found).sheets for one in page.rows]
     assert any("Judged by your lecturer: đo lại trên bản vẽ" in text for text in comments)
     assert found.cells[4].verdict is Verdict.right
+
+
+@pytest.mark.parametrize(
+    ("text", "signed"),
+    [
+        (
+            "id,quantity,position,judgement,reason,judged by,judged on\ncrank-07,v.B,3,right,seen,Lê Hoa,2026-11-21\n",
+            " (Lê Hoa, 2026-11-21)",
+        ),
+        (
+            "Mã sinh viên;Đại lượng;Vị trí;Điểm;Lý do;Ngày chấm\ncrank-07;v.B;3;đúng;seen;21/11/2026 08:00\n",
+            " (21/11/2026 08:00)",
+        ),
+        ("email,quantity,position,judgement,reason,by\nAN@X.vn,v.B,3,right,seen,Lê Hoa\n", " (Lê Hoa)"),
+        (HEAD + "crank-07,v.B,3,right,seen,\n", ""),
+    ],
+)  # fmt: skip
+def test_who_judged_so_and_when_stands_with_the_reason(text: str, signed: str, path: Path) -> None:
+    """In what the student reads, in the class's page and in the table of grades; a student may be named by e-mail."""
+    path.write_text(text, encoding="utf-8")
+    found = marking()
+    found = replace(found, key=replace(found.key, student={**found.key.student, "email": "an@x.vn"}))
+    (made,), problems = applied([found], [found.key], read_corrections(path), "en")
+    assert problems == []
+    line = f"v_B (3): 1 of 1 points – seen{signed}"
+    assert line in text_of(feedback_document(made, "Crank"))
+    head, row = grade_rows([made], "en")
+    assert dict(zip(head, row, strict=True))["judged by the lecturer"] == line
+
+
+def test_a_date_that_is_none_is_a_fault_of_its_cell(path: Path) -> None:
+    path.write_text("id,judgement,reason,judged on\ncrank-07,right,x,yesterday\n", encoding="utf-8")
+    with pytest.raises(AssignmentError, match=r"corrections\.csv:2:18: error\[moment\]"):
+        read_corrections(path, "en")

@@ -112,7 +112,10 @@ def test_every_language_has_headings_for_the_same_columns() -> None:
     assert (
         set(tables["vi"])
         == set(tables["en"])
-        == {*(*PERSONAL, *NAME_PARTS, HANDED_IN, "variant"), *("quantity", "position", "judgement", "value", "reason")}
+        == {
+            *(*PERSONAL, *NAME_PARTS, HANDED_IN, "variant"),
+            *("quantity", "position", "judgement", "value", "reason", "judged_by", "judged_on"),
+        }
     )
     for table in tables.values():
         headings = [folded(heading) for names in table.values() for heading in names]
@@ -239,6 +242,16 @@ def test_rows_below_the_students_are_left_out_with_a_note(put: Put, footer: str)
 def test_a_student_without_an_id_within_the_table_is_a_fault(put: Put) -> None:
     """So is the last row of the table, unless an empty row parts it from the others."""
     assert faults_of(put("id,name\nK1,An\n,Bình\n\nK3,Chi\n,Dung\n")) == ["FILE:3:1 missing-id", "FILE:6:1 missing-id"]
+
+
+def test_without_ids_students_are_known_by_their_e_mails(put: Put) -> None:
+    """A list of Moodle without ID numbers; a local part that two students have says nothing."""
+    table = "First name,Last name,Email address\nAn,Nguyễn,an.nguyen@x.vn\nBảo,Lê,lb@x.vn\nBình,Lê,LB@y.vn\n"
+    roster = read_roster(put(table), "en")
+    assert [one.id for one in roster.students] == ["an.nguyen", "lb@x.vn", "LB@y.vn"]
+    assert [one.card["email"] for one in roster.students] == ["an.nguyen@x.vn", "lb@x.vn", "LB@y.vn"]
+    assert [(note.code, note.level) for note in roster.notes] == [("roster-ids-mail", "note")]
+    assert faults_of(put("name,email\nAn,an@x.vn\nBảo,\nChi,chi@x.vn\n")) == ["FILE:3:1 missing-id"]
 
 
 # --- classes of China -------------------------------------------------------------------------------
