@@ -81,6 +81,7 @@ def assess(source: Source, path: Path) -> tuple[Assignment | None, list[Fault]]:
     if assignment is not None and (machine_of := getattr(module(assignment.kind), "machine", None)) is not None:
         machine = machine_of(assignment)
         findings = [*_misplaced(assignment, machine), *_out_of_reach(machine)]
+        findings = findings or list(given_springs.meetings(machine))
         findings = findings or list(given_friction.locks(machine, assignment.worked_positions))
         findings = findings or list(given_motion.faults(machine))
         faults = reading.placed(source, findings)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -110,11 +111,48 @@ class SpringRow:
 # --- checks ---------------------------------------------------------------------------------------
 
 
+LOOKED_AT = 720
+"""Angles of a turn at which the length of a spring is looked at first."""
+CLOSER = 12
+"""Rounds in which its least length is found, each eight times as near."""
+MEET = 1e-3
+"""Ends nearer than this share of the greatest length of a spring meet: no coil is as short."""
+
+
 def faults(springs: Sequence[Spring], linkage: Linkage) -> Iterator[Finding]:
     """Each spring has its ends on links and at points that are there, and sizes of its sort."""
     points = pins(linkage)
     for index, spring in enumerate(springs):
         yield from _faults(spring, linkage, points, ("parameters", "springs", index))
+
+
+def meetings(machine: Machine) -> Iterator[Finding]:
+    """A spring whose ends meet on the way: its force would have no direction there, and jump to the other side.
+
+    One without a free length pulls with c times the vector between its ends, which is nothing there.
+    """
+    grid = np.linspace(0.0, machine.turns * FULL_TURN, machine.turns * LOOKED_AT, endpoint=bool(machine.span))
+    motion = motion_of(machine, grid)
+    for law in {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw)}.values():
+        along = law.along(motion)
+        length = np.abs(along)
+        # Between two places of the grid the ends come nearer by no more than they move there.
+        if law.free > 0 and length.min() <= np.abs(np.diff(along)).max():
+            angle, least = _nearest(machine, law, float(grid[int(length.argmin())]), float(grid[1] - grid[0]))
+            if least < MEET * float(length.max()):
+                words = {"angle": f"{math.degrees(angle) % (360 * machine.turns):.1f}"}
+                yield Finding("spring-ends-meet", ("parameters", "springs", law.number - 1), words)
+
+
+def _nearest(machine: Machine, law: SpringLaw, angle: float, step: float) -> tuple[float, float]:
+    """The cycle angle (rad) within a step of one given at which the ends of a spring are nearest, and how near (m)."""
+    for _ in range(CLOSER):
+        places = np.linspace(angle - step, angle + step, 21)
+        if machine.span:
+            places = np.clip(places, 0.0, FULL_TURN)
+        length = np.abs(law.along(motion_of(machine, places)))
+        angle, step = float(places[int(length.argmin())]), step / 8
+    return angle, float(length.min())
 
 
 def _faults(spring: Spring, linkage: Linkage, points: Mapping[int, set[str]], at: Where) -> Iterator[Finding]:

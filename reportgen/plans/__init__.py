@@ -175,11 +175,14 @@ def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: floa
 def _applied(q: Sheet, analysis: Analysis) -> None:
     """Forces, positive along their own direction, with what they are read by; torques, anticlockwise positive."""
     machine = analysis.machine
+    # A slider has one way, from which the gas on it is computed; a working force beside it is read off its own table.
+    gassed = {force.link for force in machine.applied if force.name in analysis.gas}
     for force in machine.applied:
         if force.name in q:
             continue
         course = force.law.read_along
-        if course is not None:
+        own = force.name in analysis.gas or force.link not in gassed
+        if course is not None and own and ids.displacement(force.link) not in q:
             displacements = course.fraction(analysis.motion) * course.stroke
             _way(q, machine.linkage, force.link, displacements, course.stroke)
         if force.name in analysis.gas:

@@ -149,8 +149,10 @@ class _Entry:
     def _arms(self, name: str, arm: Expression) -> tuple[Ref, Ref]:
         """The coordinates of a point from a centre, measured on the drawing of the mechanism."""
         x, y = (
-            self.q.define(balance_ids.place(name, axis), call(part, arm), scale=self.crank.length)
-            for axis, part in zip(AXES, ("re", "im"), strict=True)
+            self.q.find(id) or self.q.define(id, call(part, arm), scale=self.crank.length)
+            for id, part in (
+                (balance_ids.place(name, axis), part) for axis, part in zip(AXES, ("re", "im"), strict=True)
+            )
         )
         return x, y
 

@@ -72,11 +72,10 @@ def _slope(q: Sheet, analysis: Analysis) -> Expression:
             v, a = (q[id] for id in plans)
             most = float(np.abs(q.value(ids.acceleration(centre))).max())
             along = q["mu.a"] * call("along", a, v)
-            own.append(
-                q[ids.mass(link)]
-                * q[velocity]
-                * q.define(run_ids.along_velocity(centre), along, Symbol("a", centre, "v"), scale=most)
-            )
+            # Links whose masses are in one pin share its acceleration.
+            id = run_ids.along_velocity(centre)
+            a_v = q.find(id) or q.define(id, along, Symbol("a", centre, "v"), scale=most)
+            own.append(q[ids.mass(link)] * q[velocity] * a_v)
         ω, ε = (q.find(ids.signed(rate, link)) for rate in ("omega", "eps"))
         if body.moment > 0 and link != DRIVER and ω is not None and ε is not None:
             own.append(q[ids.inertia(link)] * ω * ε)
