@@ -83,8 +83,8 @@ class LanguageSetting:
 
     `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
     title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them, and
-    `typed` what people type for units besides; `spaced` says whether it sets blanks between words; `draft` are the kinds of work whose words no native speaker has
-    read, or all of them.
+    `typed` what people type for units besides; `spaced` says whether it sets blanks between words; `draft` are the
+    kinds of work whose words no native speaker has read, or all of them.
     """
 
     name: str

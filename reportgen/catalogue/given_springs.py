@@ -253,7 +253,7 @@ def _loads(
         deflected = float(within_half_a_turn(middle - spring.free.si))
         beyond = np.pi <= abs(deflected) + range_ / 2 < 2 * np.pi
         wound = deflected if beyond else 0.0
-        law = TorsionLaw(number, spring.link, spring.about, point, spring.c.si, spring.free.si, wound)
+        law = TorsionLaw(number, spring.link, spring.about, point, spring.c.si, spring.free.si, wound=wound)
         return [Torque(named(ids.applied_torque, spring.link, others), spring.link, law)]
     at, to = spring.at, spring.to
     assert at is not None

@@ -23,7 +23,8 @@ _THOUSANDS = re.compile(r"[-+–]?\s*\d{1,3}[.,]\d{3}(?!\d)")
 
 _POWER = r"(?:\s*[·.x×*]\s*10\s*(?:\^\s*\{?\(?\s*[-–⁻+]?\s*\d{1,3}\s*\)?\}?|[⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+))"
 _MINUTES = r"\d+\s*[°º]\s*\d{1,2}\s*′(?!′)(?:\s*\d{1,2}(?:[.,]\d+)?\s*′′)?"
-NUMBER = rf"(?:[+\-–⁻]\s*)?(?:{_MINUTES}|(?:\d+(?:[ {SPACES}]\d{{3}}(?!\d))*(?:[.,]\d+)*(?:\s?[eE][-+–]?\d{{1,3}})?)(?!\d)(?:{_POWER})?)"
+_PLAIN = rf"\d+(?:[ {SPACES}]\d{{3}}(?!\d))*(?:[.,]\d+)*(?:\s?[eE][-+–]?\d{{1,3}})?"
+NUMBER = rf"(?:[+\-–⁻]\s*)?(?:{_MINUTES}|(?:{_PLAIN})(?!\d)(?:{_POWER})?)"
 _NO_LETTER = "(?![A-Za-zÀ-ỹα-ωЀ-ӿ])"
 _LATIN_UNITS = "Nmm|kNm|Nm|N|kN|mm|cm|dm|m|s|kgm|kg|rad|J|W|kW|MPa|kPa|Pa|độ|v|vg|vòng|rpm|deg|bar"
 _WORDS_OF_UNITS = "|".join((_LATIN_UNITS, *map(re.escape, sorted(typed_units(), key=len, reverse=True))))

@@ -205,7 +205,10 @@ def test_a_school_keeps_its_words_where_it_likes(own: Path, way: str) -> None:
 
 
 NO_SCHOOL = [
-    ("templates: wordz", "error[no-templates]: this is no folder with a school's words, a file such as vi.md or ru.md: {}/wordz"),
+    (
+        "templates: wordz",
+        "error[no-templates]: this is no folder with a school's words, a file such as vi.md or ru.md: {}/wordz",
+    ),
     ("templates: ../words", "error[path-outside]: "),
     ("templates: " + "a" * 280, "error[no-templates]: "),
     ("templates: [words]", "error[wrong-type]: "),
