@@ -22,8 +22,8 @@ LEFT_OUT: Mapping[Extent, frozenset[str]] = {
             *("velocity-stages", "acceleration-stages", "force-stages"),
             *("velocity-plates", "acceleration-plates", "force-plates", "coriolis-turn"),
             *("polar", "flywheel-work", "flywheel-speed", "balancing/hodograph"),
-            *("motion-reduced", "motion-equation", "motion-acceleration", "motion-diagrams", "motion-by-steps"),
-            *("motion-worked", "motion-wheel", "motion-start", "motion-stop", "motion-forces"),
+            *("motion-reduced", "motion-acceleration", "motion-diagrams", "motion-by-steps"),
+            *("motion-worked", "motion-wheel"),
             # a second method, and the book that it is taken from
             *("formulas-velocity", "formulas-acceleration", "further-references"),
             # tables that the work goes on without, and what is said of them

@@ -130,6 +130,11 @@ def drives(report: Report, k: int) -> str:
     return "driven" if math.isnan(report.ledger.number(friction_ids.efficiency, k).value) else "drives"
 
 
+def has_efficiency(report: Report, k: int) -> bool:
+    """Return True if the driver drives at a position."""
+    return drives(report, k) == "drives"
+
+
 def cycle(report: Report) -> str:
     """What can be said of the efficiency over the cycle: the driver drives, is driven, is neither, or it locks.
 
