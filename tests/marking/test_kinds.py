@@ -37,7 +37,10 @@ def test_the_chain_comes_to_the_key(name: str) -> None:
     for position in range(1, scheme.count + 1, 2):
         written = hands.at_work(scheme, position, **EXACTLY).written
         for id, value in written.items():
-            values = ledger[id].values
+            family, values = ledger[id], ledger[id].values
+            if family.is_of_vector and ledger[family.of].at(position) == 0:
+                # A vector of no length has no direction.
+                continue
             key = float(values[0 if len(values) == 1 else position - 1].real)
             apart = scheme.distance(id, key, value * unit_of(id))
             assert np.isnan(key) or apart <= CLOSE * size(scheme, id), (id, position, key, value * unit_of(id))
