@@ -41,6 +41,8 @@ class FileReading:
     """How the values of a drawing were read."""
     drawn: frozenset[Place] = frozenset()
     """The places of which a drawing has to show something."""
+    unseen: frozenset[Place] = frozenset()
+    """The places of which the file says something in text that nobody sees, which is not read."""
     beside: Mapping[Place, Mark] = field(default_factory=dict)
     """Where a drawing has a wrong vector, by its length, that nothing asks for."""
 
@@ -87,6 +89,7 @@ def submission(readings: Sequence[FileReading], language: Language | None) -> Su
         own_files=True,
         measured={place: how for place, how in measured.items() if place in values},
         drawn=frozenset().union(*(reading.drawn for reading in readings)),
+        unseen=frozenset().union(*(reading.unseen for reading in readings)),
     )
 
 

@@ -15,6 +15,7 @@ from functools import cached_property
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
+from reportgen.handin.word_looks import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
 from reportgen.handin.word_text import Block, TextReader, heading_levels
 from reportgen.workbook.package import Bounds, Package, RefusedError
@@ -55,12 +56,29 @@ class WordFile:
     @cached_property
     def blocks(self) -> tuple[Block, ...]:
         """The paragraphs and tables of the body."""
-        body = self.tree.child("w:body")
-        styles = self.related("styles")
-        levels: dict[str, int] = {}
-        if styles in self.package:
-            levels = heading_levels(parse(self.package, styles, self.package.content(styles)))
-        return tuple(TextReader(levels).blocks(body.children if body else ()))
+        return self._blocks()
+
+    @property
+    def all_blocks(self) -> tuple[Block, ...]:
+        """The same with the text that nobody sees."""
+        return self._blocks(everything=True)
+
+    @cached_property
+    def unseen(self) -> tuple[XmlNode, ...]:
+        """The runs that nobody sees and that have a figure in them."""
+        mark_unseen(self.tree, Styles() if self._styles is None else Styles.of(self._styles))
+        runs = (node for node in self.tree.walk() if node.unseen)
+        return tuple(run for run in runs if any(map(str.isdecimal, "".join(child.text for child in run.children))))
+
+    @cached_property
+    def _styles(self) -> XmlNode | None:
+        part = self.related("styles")
+        return parse(self.package, part, self.package.content(part)) if part in self.package else None
+
+    def _blocks(self, everything: bool = False) -> tuple[Block, ...]:
+        body, _ = self.tree.child("w:body"), self.unseen
+        levels = heading_levels(self._styles) if self._styles is not None else {}
+        return tuple(TextReader(levels, everything).blocks(body.children if body else ()))
 
     @property
     def pictures(self) -> int:

@@ -46,6 +46,8 @@ class XmlNode:
     end: int = 0
     children: list[XmlNode] = field(default_factory=list)
     pieces: list[str] = field(default_factory=list)
+    unseen: bool = False
+    """Whether it is a run of text that nobody sees."""
 
     @property
     def text(self) -> str:

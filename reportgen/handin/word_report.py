@@ -16,7 +16,7 @@ from reportgen.handin.word_text import WordMark
 from reportgen.marking.comment import comment
 from reportgen.marking.feedback import cell_comment
 from reportgen.marking.key import words_of
-from reportgen.marking.marks import Marking
+from reportgen.marking.marks import Answer, Marking, Place
 from reportgen.marking.policy import Policy
 from reportgen.report.key import Key
 
@@ -29,9 +29,19 @@ def read(path: Path, data: bytes, key: Key, plans: object = None) -> FileReading
     file = open_word(path, data)
     reading = read_report(file.blocks, key, str(path), file.tree)
     notes = (*file.notes, *reading.notes)
+    unseen: frozenset[Place] = frozenset()
+    if file.unseen:
+        whole = read_report(file.all_blocks, key, str(path))
+        unseen = frozenset(place for place, answer in whole.values.items() if not _has(reading, place, answer))
+        unseen |= (whole.unread.keys() & reading.values.keys()) | (whole.unread.keys() - reading.unread.keys())
+        notes = (*notes, Fault("word-unseen", Mark(str(path)), {"count": str(len(unseen))}))
     if not reading.values and not reading.unread:
         notes = (*notes, Fault("word-nothing", Mark(str(path)), {"count": str(file.pictures)}))
-    return replace(reading, notes=notes)
+    return replace(reading, notes=notes, unseen=unseen)
+
+
+def _has(reading: FileReading, place: Place, answer: Answer) -> bool:
+    return place in reading.values and agree(reading.values[place], answer)
 
 
 @word_faults()

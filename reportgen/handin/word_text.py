@@ -44,6 +44,8 @@ class TextLine:
     bold: bool = False
     letters: list[str] = field(default_factory=list)
     nodes: list[XmlNode] = field(default_factory=list)
+    everything: bool = False
+    """Whether text that nobody sees is put in as well."""
 
     @property
     def text(self) -> str:
@@ -138,7 +140,9 @@ _EQUATIONS = re.compile(r"equation|mathtype", re.IGNORECASE)
 class TextReader:
     """Reads the body of a document to blocks in their order."""
 
-    def __init__(self, levels: Mapping[str, int]) -> None:
+    def __init__(self, levels: Mapping[str, int], everything: bool = False) -> None:
+        """`everything` reads also what nobody sees."""
+        self.everything = everything
         self.levels = levels
         """Levels of headings by the ids of styles."""
         self.paragraphs = 0
@@ -166,7 +170,7 @@ class TextReader:
         level = self.levels.get(style.get("w:val"), 0) if style else 0
         if own is not None and own.get("w:val").isdecimal() and int(own.get("w:val")) < 9:
             level = int(own.get("w:val")) + 1
-        line = TextLine(self.paragraphs, level)
+        line = TextLine(self.paragraphs, level, everything=self.everything)
         runs = [node for node in _within(paragraph) if node.tag == "w:r" and any(c.tag == "w:t" for c in node.children)]
         line.bold = bool(runs) and all(_is_on(run, "w:b") for run in runs)
         put(paragraph.children, line)
@@ -226,9 +230,10 @@ def _is_on(run: XmlNode, name: str) -> bool:
     return switch is not None and switch.get("w:val", "1") not in _OFF
 
 
-def is_unseen(run: XmlNode) -> bool:
-    """Whether the text of a run is hidden or struck out."""
-    return any(_is_on(run, name) for name in ("w:vanish", "w:strike", "w:dstrike"))
+def is_unseen(run: XmlNode, everything: bool = False) -> bool:
+    """Whether the text of a run is struck out, or, unless `everything` is read, cannot be seen."""
+    names = ("w:strike", "w:dstrike") if everything else ("w:vanish", "w:strike", "w:dstrike")
+    return any(_is_on(run, name) for name in names) or (run.unseen and not everything)
 
 
 def put(nodes: Iterable[XmlNode], line: TextLine) -> None:
@@ -248,7 +253,7 @@ def put(nodes: Iterable[XmlNode], line: TextLine) -> None:
 
 
 def _put_run(run: XmlNode, line: TextLine) -> None:
-    if is_unseen(run):
+    if is_unseen(run, line.everything):
         return
     raised = _raised(run)
     text = "".join(_text_of(child, run) for child in run.children)
@@ -317,7 +322,7 @@ def _put_built(node: XmlNode, line: TextLine) -> None:
 
     match node.tag:
         case "m:r":
-            if not is_unseen(node):
+            if not is_unseen(node, line.everything):
                 for child in node.children:
                     if child.tag in ("m:t", "w:t"):
                         line.put(child.text, node)

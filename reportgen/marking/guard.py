@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -103,6 +103,12 @@ def guard(
                 names = (*result[place].classmates, flag.other)
                 result[place] = replace(result[place], classmates=tuple(dict.fromkeys(names)))
     return result, tuple(flags)
+
+
+def unseen_text(cells: Iterable[Marked], submission: Submission) -> tuple[Notice, ...]:
+    """Values that a report holds in text that nobody sees: they are not read, and so earn nothing."""
+    places = tuple(place for cell in cells if (place := (cell.id, cell.position)) in submission.unseen)
+    return (Notice("unseen", places),) if places else ()
 
 
 def _filled(cells: Cells) -> list[Place]:

@@ -17,7 +17,7 @@ import numpy as np
 
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit, is_direction
-from reportgen.marking.guard import Classmate, guard, not_from_own
+from reportgen.marking.guard import Classmate, guard, not_from_own, unseen_text
 from reportgen.marking.key import Ask, symbol_text, words_of
 from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict
 from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
@@ -48,9 +48,9 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
     """
     if scheme.parts:
         sheets = sheets_of(scheme, submission, classmates)
-        return joined(
-            scheme, submission, [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
-        )
+        parts = [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
+        whole = joined(scheme, submission, parts)
+        return replace(whole, flags=(*whole.flags, *unseen_text(whole.cells, submission)))
     working = lay_out(scheme, submission)
     cells, _ = _verdicts(working)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
@@ -59,6 +59,7 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
         cells, flags = guard(scheme, cells, classmates)
     order = {row.id: index for index, row in enumerate(scheme.key.rows)}
     in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
+    flags = (*flags, *unseen_text(in_order, submission))
     return Marking(scheme.key, submission, tuple(in_order), flags)
 
 

@@ -58,6 +58,8 @@ class Submission:
     own_files: bool = False
     measured: Mapping[Place, ReadOff] = field(default_factory=dict)
     drawn: frozenset[Place] = frozenset()
+    unseen: frozenset[Place] = frozenset()
+    """The places of which a report says something in text that nobody sees: it is not read."""
     fingerprint: str = ""
     """Of a sheet that was filled with what was read of such files: what it held when it was written."""
 

@@ -78,6 +78,8 @@ def _own_submission(whole: Submission, key: Key, part: PartOfKey) -> Submission:
         unread=own(whole.unread),
         measured=own(whole.measured),
         drawn=frozenset(own(dict.fromkeys(whole.drawn))),
+        # It is told of the whole report.
+        unseen=frozenset(),
     )
 
 

@@ -241,6 +241,33 @@ def test_a_report_of_pictures_only_has_no_mark(assignments: Path, key: Key, tmp_
         assert said.startswith("K01 Nguyễn Văn An: no mark: nothing was recognised")
 
 
+def test_right_values_in_white_earn_nothing_and_the_lecturer_hears_of_it(
+    assignments: Path, key: Key, tmp_path: Path
+) -> None:
+    """A report that shows nothing and holds the key in white had 100 %."""
+    white = report(key)
+    with zipfile.ZipFile(io.BytesIO(white)) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    document = parts["word/document.xml"].decode()
+    parts["word/document.xml"] = document.replace("<w:r>", '<w:r><w:rPr><w:color w:val="FFFFFF"/></w:rPr>').encode()
+    with zipfile.ZipFile(tmp_path / "K01.docx", "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content)
+    graded = assess.grade([tmp_path / "K01.docx"], assignments, RULES, "en")
+    assert not graded.markings
+    assert {problem.code for problem in graded.problems} == {"word-unseen", "word-nothing"}
+    (student,) = graded.unsettled
+    assert student.unsettled is not None
+    assert len(student.unsettled.unseen) > 10
+    rows = grade_rows((), "en", graded.unmarked, RULES)
+    assert "values in text that nobody sees" in rows[1]
+    # A part of it in white is flagged on the marking.
+    seen, hidden = report(key), word_report.read(tmp_path / "K01.docx", (tmp_path / "K01.docx").read_bytes(), key)
+    own = submission([replace(word_report.read(tmp_path / "r.docx", seen, key), unseen=hidden.unseen)], "en")
+    marking = mark(replace(marking_scheme(open_case(FILE, "vi"), RULES), key=key), own)
+    assert marking.warnings == ("unseen",)
+
+
 @proof
 def test_a_download_of_moodle_has_reports_and_gets_marked_copies(assignments: Path, key: Key, tmp_path: Path) -> None:
     download = tmp_path / "download.zip"

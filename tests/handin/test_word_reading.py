@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
-from reportgen.handin import FileReading
+from reportgen.handin import FileReading, word_report
 from reportgen.handin.word_file import open_word
 from reportgen.handin.word_reader import read_report
 from reportgen.marking.key import Ask, key_of
@@ -176,6 +176,57 @@ def test_what_is_struck_out_deleted_or_hidden_is_not_there() -> None:
     parts = wml.run("v_D = ") + wml.run("7 ", wml.STRUCK) + wml.run("8 ", wml.HIDDEN) + deleted
     reading = read(HERE, wml.paragraph(parts + wml.run("0,25 m/s")))
     assert reading.values[PLACE].value == 0.25
+
+
+WHITE = '<w:color w:val="FFFFFF"/>'
+SHADE = '<w:shd w:val="clear" w:color="auto" w:fill="{fill}"/>'
+
+
+@pytest.mark.parametrize(
+    ("look", "seen"),
+    [
+        (WHITE, False),
+        ('<w:color w:val="FAFAFA"/>', False),
+        ('<w:color w:val="FFFFFF" w:themeColor="background1"/>', False),
+        ('<w:sz w:val="2"/>', False),
+        ('<w:w w:val="1"/>', False),
+        (wml.HIDDEN, False),
+        ('<w:color w:val="1F4E79"/>' + SHADE.format(fill="1F4E79"), False),
+        ('<w:rStyle w:val="away"/>', False),
+        # Honest: heads in white on blue, marked text, small print, grey.
+        (WHITE + SHADE.format(fill="1F4E79"), True),
+        (WHITE + '<w:highlight w:val="blue"/>', True),
+        ('<w:sz w:val="14"/>', True),
+        ('<w:color w:val="BFBFBF"/>', True),
+        ('<w:color w:val="auto"/>', True),
+    ],
+)
+def test_text_that_nobody_sees_is_not_read_and_told(look: str, seen: bool) -> None:
+    style = f'<w:style w:type="character" w:styleId="away"><w:name w:val="away"/><w:rPr>{WHITE}</w:rPr></w:style>'
+    parts = {"word/styles.xml": wml.STYLES.replace("</w:styles>", f"{style}</w:styles>")}
+    body = HERE + wml.paragraph(wml.run("v_D = 0,25 m/s", look)) + line("a_D = 3 m/s²")
+    reading = word_report.read(Path("r.docx"), wml.package(body, parts), key())
+    assert (PLACE in reading.values) == seen
+    assert reading.unseen == (frozenset() if seen else {PLACE})
+    assert [note.code for note in reading.notes] == ([] if seen else ["word-unseen"])
+
+
+def test_white_text_on_a_coloured_cell_or_table_style_is_seen() -> None:
+    """So look the heads of Word's own tables."""
+    white = wml.paragraph(wml.run("v_D = 0,25 m/s", WHITE))
+    for properties, style, seen in (
+        (SHADE.format(fill="1F4E79"), "", True),
+        ("", '<w:tblStyle w:val="blue"/>', True),
+        ("", '<w:tblStyle w:val="plain"/>', False),
+    ):
+        shading = f'<w:tblStylePr w:type="firstRow"><w:tcPr>{SHADE.format(fill="1F4E79")}</w:tcPr></w:tblStylePr>'
+        styles = f'<w:style w:type="table" w:styleId="blue"><w:name w:val="blue"/>{shading}</w:style>'
+        styles += '<w:style w:type="table" w:styleId="plain"><w:name w:val="plain"/></w:style>'
+        parts = {"word/styles.xml": wml.STYLES.replace("</w:styles>", f"{styles}</w:styles>")}
+        cell = f"<w:tc><w:tcPr>{properties}</w:tcPr>{white}</w:tc>"
+        table = f"<w:tbl><w:tblPr>{style}</w:tblPr><w:tr>{cell}</w:tr></w:tbl>{line('')}"
+        reading = word_report.read(Path("r.docx"), wml.package(HERE + table, parts), key())
+        assert (PLACE in reading.values) == seen
 
 
 def test_a_letter_of_the_font_symbol_is_greek() -> None:
