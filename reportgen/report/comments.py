@@ -14,7 +14,7 @@ from reportgen.base.shown import view
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND
 from reportgen.report import InlineMath, Inlines, Text, Value, listed
-from reportgen.report.phrases import say
+from reportgen.report.phrases import at_positions, say
 from reportgen.report.report import Report
 
 RUN = 3
@@ -57,8 +57,10 @@ def worked_at(report: Report) -> str:
     return where(report, report.assignment.worked_positions)
 
 
-def reactions_at(report: Report) -> str:
-    """Where a report finds the reactions: all over the cycle, or where it works all out in full."""
+def reactions_at(report: Report) -> str | Inlines:
+    """Where a report finds the reactions: all over the cycle, at its instants, or where it works all out in full."""
+    if report.instants:
+        return at_positions(report)
     everywhere = str(report.words["reactions_at"]).format(count=report.cycle_count)
     return everywhere if report.parts("reactions") else worked_at(report)
 

@@ -302,12 +302,22 @@ def _plain(value: float) -> float:
 
 
 def strokes_at_start(report: Report) -> Inlines:
-    """On which stroke each piston leaves the first position, which tells in which of its turns it is."""
-    words, strokes = report.words["strokes_at_start"], report.words["strokes"]
-    strokes_begun = [
-        (state.piston.link, str(strokes[state.stroke[0]]).lower()) for state in report.analysis.gas.values()
+    """On which stroke each piston leaves the first position, which tells in which of its turns it is.
+
+    Of single instants, on which stroke it is at each of them.
+    """
+    machine, strokes = report.machine, report.words["strokes"]
+    words = report.words["strokes_at_instants" if machine.instants else "strokes_at_start"]
+    begun = [
+        {
+            "position": machine.position(k + 1),
+            "link": state.piston.link,
+            "stroke": str(strokes[state.stroke[k]]).lower(),
+        }
+        for k in range(machine.positions if machine.instants else 1)
+        for state in report.analysis.gas.values()
     ]
-    phrases = [words[index > 0].format(link=link, stroke=stroke) for index, (link, stroke) in enumerate(strokes_begun)]
+    phrases = [words[index > 0].format(**stroke) for index, stroke in enumerate(begun)]
     return (Text(f"{''.join(phrases)}."),) if phrases else ()
 
 

@@ -195,17 +195,21 @@ def _parts(side: Side) -> list[str]:
 
 
 def strokes(report: Report, key: str, caption: str, head: Sequence[str]) -> Table:
-    """The stroke of every piston between dead centres of any of them."""
+    """The stroke of every piston between dead centres of any of them; of single instants, at each of them."""
     positions, first = head
     gas, machine = report.analysis.gas, report.machine
     names = report.words["strokes"]
     courses = np.array([state.stroke for state in gas.values()])
-    starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(courses, axis=1), axis=0)))]
-    ends = [*starts[1:], machine.positions]
-    stretches = [
-        f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
-        for start, end in zip(starts, ends, strict=True)
-    ]
+    if machine.instants:
+        starts = list(range(machine.positions))
+        stretches = [str(machine.position(start + 1)) for start in starts]
+    else:
+        starts = [0, *(int(i) + 1 for i in np.flatnonzero(np.any(np.diff(courses, axis=1), axis=0)))]
+        ends = [*starts[1:], machine.positions]
+        stretches = [
+            f"{machine.position(start + 1)}–{machine.position(end % machine.positions + 1)}"
+            for start, end in zip(starts, ends, strict=True)
+        ]
     of_pistons = [[names[int(state.stroke[start])] for start in starts] for state in gas.values()]
     pistons = [f"{first} {state.piston.link}" for state in gas.values()]
     width = (TEXT_WIDTH - 30) / len(starts)

@@ -128,6 +128,12 @@ def stops(report: Report) -> bool:
     return motion is not None and motion.stopped is not None
 
 
+def drive_takes(report: Report) -> bool:
+    """Whether the machine drives what its shaft is coupled to, as an engine does, rather than being driven."""
+    motion = report.case.true_motion
+    return motion is not None and motion.alone.work < 0
+
+
 def starts_with(report: Report) -> str:
     """Whether start and stop are those of the machine "alone" or with its "wheel"."""
     motion = report.case.true_motion
@@ -296,6 +302,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "has_wheeled": has_wheeled,
     "starts": starts,
     "stops": stops,
+    "drive_takes": drive_takes,
     "starts_with": starts_with,
     "swings": swings,
     "start_cycles": cycles,

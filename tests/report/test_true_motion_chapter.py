@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from unittest import mock
 
 import pytest
+import yaml
 
 from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
@@ -131,3 +132,36 @@ def test_the_verdict_compares_what_is_printed(true: float, verdict: str) -> None
         assert running.verdict(report) == verdict
         by = running.exceeded_by(report)
     assert [value.number.shown for value in by if isinstance(value, Value)] == ([0.03] if verdict == "exceeded" else [])
+
+
+ENGINE = built.ROOT / "assignments" / "engine-single-load.yaml"
+
+
+def test_an_engine_stops_with_its_load_uncoupled(tmp_path: Path) -> None:
+    """It has no motor that could be switched off: the gas goes on working against the brake."""
+    drive = "drive: {M0: 0 N m, k: 4.7 N m s}"
+    text = ENGINE.read_text(encoding="utf-8").replace("language: vi", "language: en", 1)
+    assert drive in text
+    case = open_case(_with_drive(tmp_path, text.replace(drive, drive + "\n    stop: {brake: 5000 N m}")))
+    assert isinstance(case, MachineCase)
+    said = text_of(case.document())
+    assert "the motor is switched off" not in said
+    assert "the load is uncoupled, and the brake acts" in said
+    assert "with the load uncoupled and the brake acting" in said
+
+
+def test_an_engine_at_single_instants(tmp_path: Path) -> None:
+    """Crank at 30° and 400°, dead centre at 90°: 60° and 50° before the top, at the end of exhaust and compression."""
+    text = (built.ROOT / "assignments" / "engine-single-I.yaml").read_text(encoding="utf-8")
+    data = yaml.safe_load(text)
+    data["positions"] = {"at": ["30 deg", "400 deg"]}
+    data["report"] = {"language": "en"}
+    data["parameters"].pop("flywheel", None)
+    case = open_case(_with_drive(tmp_path, yaml.safe_dump(data, sort_keys=False)))
+    assert isinstance(case, MachineCase)
+    said = text_of(case.document())
+    assert "positions of the cycle" not in said
+    assert "that is in 2 positions" not in said
+    sentence = "At position I piston 3 is on its exhaust stroke, at position II piston 3 is on its compression stroke."
+    assert sentence in said
+    assert "I–II" not in said
