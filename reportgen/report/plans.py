@@ -11,7 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.base.settled import settled
+from reportgen.base.settled import settled, significant
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
 from reportgen.drawing.plan import (
@@ -41,6 +41,8 @@ from reportgen.report.report import Report
 
 SHEET = (385.0, 232.0)
 """What of an A3 page (landscape) plans may fill."""
+SCALE_FIGURES = 6
+"""Significant figures of the scale of a plan that is drawn smaller."""
 SHARES = (1.0, 0.5, 0.4, 0.25, 0.2, 0.1)
 """How much smaller the plans of all positions may be drawn than the worked ones: scales stay in their series."""
 LARGEST = 58.0
@@ -173,7 +175,7 @@ def _stages(
         widest, highest = max(scene.width for scene in scenes), max(scene.height for scene in scenes)
         if widest <= PANEL and across <= PANELS[0] and highest <= PANELS[1]:
             break
-    smaller = replace(number, value=float(f"{number.shown / share:.9g}"), decimals=None)
+    smaller = replace(number, value=significant(number.shown / share, SCALE_FIGURES), decimals=None)
     return FigureScenes(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 

@@ -97,8 +97,11 @@ def test_a_report_is_free_of_doubles_and_ids(name: str, language: str, tmp_path:
 @pytest.mark.parametrize("path", matrix(built.FILES, ()), ids=lambda path: path.stem)
 @pytest.mark.parametrize("language", ["vi", "en", "ru", "zh"])
 def test_every_report_is_free_of_doubles_and_ids(path: Path, language: str) -> None:
+    """But for what its file has so."""
+    typed = path.read_text(encoding="utf-8")
     for extent in ("full", "short"):
-        assert faults(text_of(opened(api.load(path, language).with_extent(extent)).document())) == []
+        text = text_of(opened(api.load(path, language).with_extent(extent)).document())
+        assert [one for one in faults(text) if one.replace(",", ".") not in typed] == []
 
 
 def test_a_key_names_rows_by_words() -> None:
