@@ -38,6 +38,10 @@ class SpringLaw(Law):
         """The vector (m) from the first end to the second [N]."""
         return np.asarray(self.ends[1].at(motion) - self.ends[0].at(motion), dtype=np.complex128)
 
+    def energy(self, motion: Motion) -> Floats:
+        """½c(l − l₀)² (J) [N]."""
+        return np.asarray(self.c * (np.abs(self.along(motion)) - self.free) ** 2 / 2)
+
     def towards(self, end: int) -> Direction:
         """The direction in which the spring pulls at one of its ends, 0 or 1: towards the other."""
         sense = -1.0 if end else 1.0
@@ -101,6 +105,10 @@ class TorsionLaw(Law):
     def deflection(self, motion: Motion) -> Floats:
         """φ − φ₀ (rad) [N]."""
         return self.wound + within_half_a_turn(motion.links[self.link].angle - self.free - self.wound)
+
+    def energy(self, motion: Motion) -> Floats:
+        """½c(φ − φ₀)² (J) [N]."""
+        return np.asarray(self.c * self.deflection(motion) ** 2 / 2)
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
         return -self.c * self.deflection(motion)

@@ -12,14 +12,17 @@ from keyword import iskeyword
 import numpy as np
 
 from reportgen.base.errors import NotOfferedError
+from reportgen.base.units import significant_decimals
 from reportgen.base.words import word
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.formula import Expression, Number, Symbol, ids, size, vocabulary, walk
 from reportgen.formula.plain import python
 from reportgen.formula.vocabulary import Chapter, on_plan
 from reportgen.machine import DRIVER
+from reportgen.machine.analysis import motion_at
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied
+from reportgen.machine.springs import SpringLaw, TorsionLaw
 from reportgen.report import (
     Block,
     Cell,
@@ -37,6 +40,9 @@ from reportgen.report import (
 from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
 from reportgen.report.phrases import sign
 from reportgen.report.report import Report
+
+FIGURES = 5
+"""Significant figures of the work of a spring."""
 
 UNIFORM = Number(12.0)
 """What m l² of a uniform rod is divided by."""
@@ -100,6 +106,21 @@ def without_mass(report: Report) -> list[str]:
 def spring_lines(report: Report) -> list[str]:
     """The lengths of springs, or the angles that they are turned by, with their loads."""
     return report.known(id for row in report.own["springs"] for id in (*row.lines, *row.loads))
+
+
+def spring_works(report: Report) -> Inlines:
+    """The works of the springs (J) over the way of a sliding driver, in the order of their numbers; of a crank none."""
+    machine = report.machine
+    if not machine.span:
+        return ()
+    ends = motion_at(machine, np.array([0.0, FULL_TURN]))
+    laws = {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw | TorsionLaw)}
+    unit = report.ledger.printed_unit("J")
+    falls = (float(-np.diff(law.energy(ends))[0]) for _, law in sorted(laws.items()))
+    return listed(
+        Value(Number(float(f"{work:.{FIGURES}g}") + 0.0, max(significant_decimals(work, FIGURES), 0), unit))
+        for work in falls
+    )
 
 
 def spring_loads(report: Report) -> list[str]:

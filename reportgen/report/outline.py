@@ -154,6 +154,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "energy_bounds": chapters.energy_bounds,
     "further_loads": chapters.further_loads,
     "spring_lines": chapters.spring_lines,
+    "spring_works": chapters.spring_works,
     "spring_loads": chapters.spring_loads,
     "wide_sliders": wide_sliders.wide_sliders,
     **friction.VALUES,

@@ -11,6 +11,7 @@ from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
 from reportgen.machine.reduction import reduced
 from reportgen.plans import write_ledger
+from reportgen.report import text_of
 
 FOUR_BAR = """\
 kind: linkage
@@ -104,3 +105,33 @@ def test_the_ends_of_a_spring_do_not_meet(place: str, free: int, meets: bool, tm
     spring = f"  springs:\n    - {{link: 3, at: C, to: [{place} mm], c: 1 N/mm, free: {free} mm}}\n"
     file.write_text(ENGINE + spring, encoding="utf-8")
     assert ("spring-ends-meet" in [problem.code for problem in catalogue.check(file)]) == meets
+
+
+SLIDE = """\
+kind: linkage
+report: {language: en, worked_positions: [3]}
+positions: {count: 6}
+parameters:
+  frame: {D: [400 mm, 0 mm]}
+  driver: {type: slider, pin: B, guide: {at: [0 mm, 0 mm], angle: 0 deg}, start: 0 mm, end: 120 mm, speed: 0.4 m/s}
+  groups:
+    - {type: RRR, links: [2, 3], joints: [B, C, D], lengths: [260 mm, 240 mm], side: left}
+  springs:
+    - {link: 3, at: C, to: [100 mm, 400 mm], c: 1 N/mm, free: 80 mm}
+"""
+
+
+def test_the_spring_of_a_slide_does_work(tmp_path: Path) -> None:
+    """C by two circles at both ends of the way: ½c(l − l₀)² falls by 2.18 J, and the report says so."""
+
+    def energy(x: float) -> float:
+        apart = 0.4 - x
+        along = (0.26**2 - 0.24**2 + apart**2) / (2 * apart)
+        place = complex(x + along, np.sqrt(0.26**2 - along**2))
+        return 1000.0 * (abs(place - (0.1 + 0.4j)) - 0.08) ** 2 / 2
+
+    work = energy(0.0) - energy(0.12)
+    assert work == pytest.approx(2.18, abs=0.005)
+    said = text_of(case_of(tmp_path, SLIDE).document())
+    assert "its work is zero" not in said
+    assert f"over the stroke this is {work:.4f} J" in said
