@@ -30,8 +30,8 @@ COMMON = (
     *(gears_ids.of_wheel(one, wheel) for one in ("alpha_a", "rho_p") for wheel in WHEELS),
 )
 """What nearly all quantities of a pair stand on."""
-LARGEST = 1.5
-"""The greatest shift that is chosen."""
+USUAL, LARGEST, STEP = 1.5, 3.0, 0.5
+"""Shifts are sought up to the usual greatest, and further, step by step, as long as the limits still hold there."""
 
 
 class NoPairError(Exception):
@@ -194,16 +194,22 @@ def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
     Raises `NoPairError` where none keep the limits.
     """
     low = np.maximum(np.ceil(np.round(pair["x_min"] / HUNDREDTH, 9)), -1 / HUNDREDTH)
-    axes = [np.arange(start, LARGEST / HUNDREDTH + 0.5) * HUNDREDTH for start in low]
-    if not all(axis.size for axis in axes):
+    best: Floats | None = None
+    for most in np.arange(USUAL, LARGEST + STEP / 2, STEP):
+        axes = [np.arange(start, most / HUNDREDTH + 0.5) * HUNDREDTH for start in low]
+        if not all(axis.size for axis in axes):
+            continue
+        grid = GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(*axes, indexing="ij")))
+        kept = grid.keeps(limits)
+        if kept.any():
+            worst = np.where(kept, -grid.sliding.min(axis=0), np.inf)
+            place = np.unravel_index(int(worst.argmin()), worst.shape)
+            best = np.array([axis[at] for axis, at in zip(axes, place, strict=True)]).round(2)
+        if best is not None and not (kept[-1].any() or kept[:, -1].any()):
+            break
+    if best is None:
         raise NoPairError("gear-no-shifts")
-    grid = GearPair(pair.rack, pair.m, pair.teeth, np.stack(np.meshgrid(*axes, indexing="ij")))
-    kept = grid.keeps(limits)
-    worst = np.where(kept, -grid.sliding.min(axis=0), np.inf)
-    if not kept.any():
-        raise NoPairError("gear-no-shifts")
-    place = np.unravel_index(int(worst.argmin()), worst.shape)
-    return np.array([axis[at] for axis, at in zip(axes, place, strict=True)]).round(2)
+    return best
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from reportgen import load
 from reportgen.formula.evaluation import arcinv, inv
 from reportgen.gears.formulas import Rack
 from reportgen.gears.involute import Wheel
@@ -130,3 +132,36 @@ def test_a_pair_has_its_numbers_from_the_formulas_of_its_report() -> None:
     assert {"alpha_w", "d_a", "rho_p", "lambda"} <= names
     fields = {"x", "z", "m"}
     assert not (names - fields) & ({*dir(GearPair)} | {*dir(Wheel)})
+
+
+def worst_sliding(z: tuple[int, int], x: tuple[float, float], α: float) -> float:
+    """The greater |λ| at the feet, by the involute function and the tip circles shortened by Δy = Σx − y."""
+
+    def inv(angle: float) -> float:
+        return math.tan(angle) - angle
+
+    goal, low, high = inv(α) + 2 * sum(x) / sum(z) * math.tan(α), 1e-3, 1.2
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if inv(middle) < goal else (low, middle)
+    a_w = sum(z) / 2 * math.cos(α) / math.cos(low)
+    shortened = sum(x) - (a_w - sum(z) / 2)
+    base = [teeth / 2 * math.cos(α) for teeth in z]
+    tips = [teeth / 2 + 1 + shift - shortened for teeth, shift in zip(z, x, strict=True)]
+    at_tip = [math.sqrt(tip**2 - b**2) for tip, b in zip(tips, base, strict=True)]
+    whole = a_w * math.sin(low)
+    λ1 = 1 - z[0] / z[1] * at_tip[1] / (whole - at_tip[1])
+    λ2 = 1 - z[1] / z[0] * at_tip[0] / (whole - at_tip[0])
+    return max(-λ1, -λ2)
+
+
+def test_equal_sliding_beyond_the_usual_shifts(tmp_path: Path) -> None:
+    """z 14/98, α 17.5°: the least sliding lies at x₂ = 1.60, where the limits still hold."""
+    file = tmp_path / "pair.yaml"
+    file.write_text("kind: gear-pair\nparameters: {m: 5 mm, z1: 14, z2: 98, alpha: 17.5 deg, by: equal-sliding}\n")
+    chosen = load(file).parameters.chosen
+    assert chosen.pair.x == pytest.approx([0.71, 1.60])
+    assert not list(chosen.broken())
+    worst = worst_sliding((14, 98), (0.71, 1.60), math.radians(17.5))
+    assert worst == pytest.approx(1.0388, abs=5e-5)
+    assert -chosen.pair.sliding.min() == pytest.approx(worst, rel=1e-9)
