@@ -50,13 +50,20 @@ class EnginePage(PlacesPage[SolvedEngine]):
             "angles": self.angles,
             "result": self.result,
             "first_is_free": written[orders_ids.force(1)].at(1) == 0,
-            "star_is_closed": written[orders_ids.resultant("f", 1)].at(1) == 0,
+            "star_is_closed": self.is_closed("f"),
+            "couples_are_closed": self.is_closed("p"),
+            "nothing_turns_against": self.is_closed("q"),
             "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
             "quantity": self.quantity,
             "lines": self.lines,
             "math": self.math,
             "figure": self.figure,
         }
+
+    def is_closed(self, star: str) -> bool:
+        """Whether the star of the first order is there and has no resultant."""
+        id = orders_ids.resultant(star, 1)
+        return id in self.case.printed and self.case.printed[id].at(1) == 0
 
     # --- tables
 
@@ -143,6 +150,10 @@ class EngineCase(SolvedEngine):
                 entry["couple"] = ledger[orders_ids.couple(order)].at(1)
             orders[str(order)] = entry
         counterweight = {"unbalance": ledger["orders.U"].at(1), "left": ledger["orders.left"].at(1)}
+        if "couples" in self.stars:
+            counterweight |= {"couple": ledger["orders.U.M"].at(1), "couple_left": ledger["orders.left.M"].at(1)}
+            if "orders.rotating.M" in ledger:
+                counterweight["rotating_couple"] = ledger["orders.rotating.M"].at(1)
         return ResultEntries([{"number": 1, "orders": orders, "counterweight": counterweight}])
 
     def animations(self) -> tuple[Animation, ...]:

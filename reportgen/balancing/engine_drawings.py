@@ -121,16 +121,18 @@ def _shaft(case: SolvedEngine, size: FigureSize) -> tuple[Canvas, Chain]:
     along = sorted({round(place, 12) for place in places.values()})
     web = WEB * min(after - before for before, after in pairwise(along)) * per
     end, high = span * per, case.given.r.si * per
-    items: list[Item] = [Line(-BEYOND - 5 + 0j, end + BEYOND + 5 + 0j, style.AXIS)]
+    # The shaft reaches beyond the webs of its first and last throws.
+    beyond = BEYOND + web
+    items: list[Item] = [Line(-beyond - 5 + 0j, end + beyond + 5 + 0j, style.AXIS)]
     requests: list[Request] = []
-    throws = [-BEYOND + 0j]
+    throws = [-beyond + 0j]
     for place in sorted(places, key=lambda one: places[one]):
         x, up = (places[place] - start) * per, (UP * crank_at(case, place)).imag * per
         corners = [complex(x - web, 0), complex(x - web, up), complex(x + web, up), complex(x + web, 0)]
         # Cylinders in one place have one throw.
         throws += corners if corners[0].real > throws[-1].real - 1e-9 else []
         requests.append(label(complex(x, up), place, gap=1.0, prefer=(math.copysign(math.pi / 2, up),)))
-    items.append(Polyline((*throws, end + BEYOND + 0j), SHAFT))
+    items.append(Polyline((*throws, end + beyond + 0j), SHAFT))
     marks, numbers = ruler([*places.values()], per, -high - 8, case.ledger.printed_unit("mm"))
     facts = tuple(fact("station", name, Number(float(f"{at * MM:.9g}"), unit="mm")) for name, at in places.items())
     return settle(Canvas((*items, *marks), (*requests, *numbers), facts)), size.note(Symbol("μ", "l"), usual)

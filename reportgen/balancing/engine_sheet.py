@@ -186,6 +186,26 @@ class EngineSheet:
         g = f if self.given.is_inline else q[names.resultant("g", 1)]
         left = q.define("orders.left", q["orders.K"] * g / 2, scale=q.si("orders.K") * every)
         q.set_out("counterweight", U, left)
+        if self.given.has_length:
+            self._enter_couple_of_counterweights(turning)
+
+    def _enter_couple_of_counterweights(self, turning: Expression) -> None:
+        """The couple m_A r ω² p₁ of the rotating masses; what counterweights with a couple against p₁ take and leave.
+
+        (m_A + ½ m_rec) r p₁ takes all that turns with the crank: all of the first order where the star q₁ is closed.
+        """
+        q = self.q
+        p = q[names.resultant("p", 1)]
+        r, m, ω = q["orders.r"], q["orders.m"], q["orders.omega"]
+        every = q.families[p.id].scale
+        if self.given.m2 is not None:
+            m_A = q["orders.mA"]
+            scale = q.si(m_A) * q.si(r) * q.si(ω) ** 2 * every
+            q.set_out("couples_balanced", q.define("orders.rotating.M", m_A * r * ω**2 * p, scale=scale))
+        U = q.define("orders.U.M", turning * r * p, scale=q.si(m) * q.si(r) * every)
+        against = p if self.given.is_inline else q[names.resultant("q", 1)]
+        left = q.define("orders.left.M", q["orders.K"] * against / 2, scale=q.si("orders.K") * every)
+        q.set_out("couples_balanced", U, left)
 
 
 def times_direction(weight: Expression, direction: Expression) -> Expression:

@@ -31,6 +31,7 @@ KINDS: Mapping[str, QuantityKind] = {
     "star of couples on paper": QuantityKind("m/mm", 1e3, digits=6),
     "order factor": QuantityKind("", digits=6),
     "unrounded factor": QuantityKind(""),
+    "product of mass, radius and distance": QuantityKind("kg·m²"),
 }
 
 _G, _F = Chapter.geometry, Chapter.forces
@@ -76,4 +77,7 @@ ROWS: tuple[VocabularyRow, ...] = (
     VocabularyRow(Name("orders.rotating"), "F", "force", Chapter.torque, below="rot"),
     VocabularyRow(Name("orders.U"), "U", "product of mass and radius", Chapter.torque, below="c"),
     VocabularyRow(Name("orders.left"), "F", "force", Chapter.torque, below="1", above="′"),
+    VocabularyRow(Name("orders.rotating.M"), "M", "torque", Chapter.torque, below="rot"),
+    VocabularyRow(Name("orders.U.M"), "D", "product of mass, radius and distance", Chapter.torque, below="c"),
+    VocabularyRow(Name("orders.left.M"), "M", "torque", Chapter.torque, below="1", above="′"),
 )

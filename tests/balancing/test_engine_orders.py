@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from reportgen import load
 from reportgen.balancing import orders_ids
+from reportgen.balancing.engine_drawings import scheme
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.engine_sheet import FACTORS, ORDERS, EngineSheet
+from reportgen.cases import opened
+from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet
 from tests.lanes import proof
 
@@ -133,3 +138,44 @@ def test_layouts_against_exact_piston_forces(many: int) -> None:
             assert abs(sheet.si(orders_ids.force(n)) - forces[n]) <= 1e-9 * most
             if orders_ids.couple(n) in sheet:
                 assert abs(sheet.si(orders_ids.couple(n)) - couples[n]) <= 1e-9 * most * len(layout) * PITCH
+
+
+V8: Layout = [(θ, z, ψ) for θ, z in ((0, 0), (90, 1), (270, 2), (180, 3)) for ψ in (45, -45)]
+"""A cross-plane crankshaft, both cylinders of a pair on one pin."""
+
+
+@pytest.mark.parametrize(("layout", "left"), [(V8, False), (KNOWN["in-line three"][0], True)], ids=["V8", "three"])
+def test_the_couple_of_the_rotating_masses(layout: Layout, left: bool) -> None:
+    """Couples of pistons, of the first order, and of rotating masses by cylinders over a turn, less counterweights.
+
+    On a cross-plane V8 the counterweights take all of it; in line they leave half of the first order, turning against.
+    """
+    sheet = sheet_of(layout)
+    r, ω, m_A, m = (sheet.si(f"orders.{name}") for name in ("r", "omega", "mA", "m"))
+    φ = np.radians(np.arange(360.0))[:, None]
+    θ, ψ = (np.radians([row[column] for row in layout]) for column in (0, 2))
+    z = np.array([row[1] for row in layout]) * PITCH
+    arm = z - (z.min() + z.max()) / 2
+    rotating = (arm * m_A * r * ω**2 * np.exp(1j * (φ + θ))).sum(axis=1)
+    pistons = (arm * m * r * ω**2 * np.cos(φ + θ - ψ) * np.exp(1j * ψ)).sum(axis=1)
+    assert np.abs(rotating) == pytest.approx(sheet.si("orders.rotating.M"))
+    # The counterweights turn with the crank, opposite to the rotating couple.
+    balance = sheet.si("orders.U.M") * ω**2 * rotating / np.abs(rotating)
+    rest = np.abs(rotating + pistons - balance)
+    greatest = float(np.abs(rotating + pistons).max())
+    assert rest.max() == pytest.approx(sheet.si("orders.left.M"), abs=1e-9 * greatest)
+    assert bool(rest.max() > 1e-9 * greatest) is left
+
+
+@pytest.mark.parametrize("pitch", ["40 mm", "88 mm", "90 mm", "200 mm"])
+def test_every_throw_of_the_shaft_is_drawn(tmp_path: Path, pitch: str) -> None:
+    """Each throw has four corners, the first too where its webs are wide."""
+    far = f"{2 * float(pitch.split()[0]):g} mm"
+    cylinders = f"[{{crank: 0 deg, at: 0 mm}}, {{crank: 120 deg, at: {pitch}}}, {{crank: 240 deg, at: {far}}}]"
+    file = tmp_path / "three.yaml"
+    data = "r: 38 mm, l: 130 mm, n: 4200 rpm, m3: 0.42 kg, m2: 0.55 kg, s: 0.33"
+    file.write_text(f"kind: engine-balance\nparameters: {{{data}, cylinders: {cylinders}}}\n")
+    drawing = scheme(opened(load(file)))
+    shaft = max((item for item in drawing.items if isinstance(item, Polyline)), key=lambda item: len(item.points))
+    assert len(shaft.points) == 2 + 4 * 3
+    assert [point.real for point in shaft.points] == sorted(point.real for point in shaft.points)

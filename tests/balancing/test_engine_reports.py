@@ -182,7 +182,7 @@ def test_what_the_sheet_asks_for() -> None:
     of_stars = {orders_ids.resultant(letter, n) for letter in "fp" for n in ORDERS}
     masses = {"orders.mA", "orders.mB", "orders.m"}
     single = {"orders.omega", "orders.lambda", "orders.K", orders_ids.factor(2), orders_ids.factor(4)}
-    counterweight = {"orders.rotating", "orders.U", "orders.left"}
+    counterweight = {f"orders.{name}{of}" for name in ("rotating", "U", "left") for of in ("", ".M")}
     assert {row.id for row in key.asked} == of_orders | of_stars | masses | single | counterweight
 
 
