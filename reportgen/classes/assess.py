@@ -163,13 +163,17 @@ def grade(
     classmates = [Classmate(key, sheets.get(key.id)) for key in room.keys] if policy.guard else []
     markings: dict[str, Marking] = {}
     failed: dict[str, Refused] = {}
+    unexpected: list[Problem] = []
     for name, (sheet, file) in collected.sheets.items():
-        judging = partial(_marked, room.scheme(name), sheet, classmates)
-        marking = isolated(judging, file.path, language)
-        if isinstance(marking, list):
+        # Where the comparison with others fails, which may be another's fault, the sheet is marked by itself.
+        for compared in (classmates, []) if classmates else ([],):
+            marking = isolated(partial(_marked, room.scheme(name), sheet, compared), file.path, language)
+            if not isinstance(marking, list):
+                markings[name] = marking
+                break
+            unexpected += (problem for problem in marking if problem not in unexpected)
             failed[name] = Refused(file, tuple(marking))
-        else:
-            markings[name] = marking
+    failed = {name: refused for name, refused in failed.items() if name not in markings}
     order = {name: index for index, name in enumerate(files)}
     marked = sorted(markings.values(), key=lambda marking: order[comparable(marking.key.id)])
     marked, misfits = applied(marked, room.keys, corrections, language)
@@ -193,7 +197,6 @@ def grade(
         for key in room.keys
         if key.id not in markings or key.id in too_little
     ]
-    unexpected = (problem for refused in failed.values() for problem in refused.problems)
     archives = (as_problem(fault, language) for fault in faults)
     notes = [note for work in works.works.values() for note in work.notes(language)]
     problems = (*listed.notes, *collected.problems, *unexpected, *archives, *notes, *misfits, *late)

@@ -78,7 +78,8 @@ def test_an_exception_nobody_expected_concerns_one_student(
 ) -> None:
     """The student whose marking fails is listed with the reason; the others have marks.
 
-    Nor does a sheet that only claims to be of another student's assignment displace that student's report.
+    What fails in the comparison with others, which may be another's fault, costs nobody the mark.  Nor does a sheet
+    that only claims to be of another student's assignment displace that student's report.
     """
     assignments, folder = handed
     stray = tmp_path / f"{CUT}.xlsx"
@@ -88,13 +89,15 @@ def test_an_exception_nobody_expected_concerns_one_student(
     def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Classmate]) -> Marking:
         if submission.assignment == SETTINGS:
             raise ZeroDivisionError("division by zero")
+        if classmates:
+            raise OverflowError("of somebody else's sheet")
         return marked(scheme, submission, classmates)
 
     monkeypatch.setattr(assess, "mark", mark)
     reports = [folder / f"{id}.docx" for id in (GOOD, SETTINGS)]
-    graded = assess.grade([*reports, stray], assignments, Policy(guard=False), "en")
+    graded = assess.grade([*reports, stray], assignments, Policy(), "en")
     assert [(marking.key.id, marking.share) for marking in graded.markings] == [(GOOD, 1)]
     (refused,) = (one for one in graded.unmarked if one.reasons)
     assert refused.key.id == SETTINGS
     assert refused.reasons[0].endswith("ZeroDivisionError: division by zero")
-    assert sorted(problem.code for problem in graded.problems) == ["own-failed", "sheet-named-otherwise"]
+    assert sorted(problem.code for problem in graded.problems) == ["own-failed", "own-failed", "sheet-named-otherwise"]
