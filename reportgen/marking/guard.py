@@ -242,10 +242,30 @@ def _copied(scheme: MarkingScheme, cells: Cells, classmates: Sequence[Classmate]
     flags.sort(key=lambda flag: -len(flag.places))
     by_id = {one.key.id: one for one in others}
     filled = tuple(_filled(cells))
-    return [
-        replace(flag, kind="classmate-sheet", spoiled=filled) if _is_whole(scheme, cells, by_id[flag.other]) else flag
-        for flag in flags
-    ]
+    for number, flag in enumerate(flags):
+        classmate = by_id[flag.other]
+        if _is_whole(scheme, cells, classmate):
+            flags[number] = replace(flag, kind="classmate-sheet", spoiled=filled)
+        elif copied_on := _of_key(scheme, cells, own, classmate):
+            flags[number] = replace(flag, kind="classmate-key", spoiled=copied_on)
+    return flags
+
+
+def _of_key(scheme: MarkingScheme, cells: Cells, own: Cells, classmate: Classmate) -> tuple[Place, ...]:
+    """The places that follow only from other values of the same classmate's key, if nearly all that is wrong is of it.
+
+    Wrong values that no named mistake explains do not come from the student's own data, nor does what stands on them.
+    Who misread a datum has few of them: the rest follows from that.
+    """
+    unexplained = [place for place, cell in own.items() if cell.verdict is Verdict.wrong and not cell.mistake]
+    meets = {place: met for place in unexplained if (met := _meets(scheme, cells[place], classmate)) is not None}
+    if sum(meets.values()) < max(FEWEST_ROWS, ALL * len(meets)):
+        return ()
+    causes = {place for place, met in meets.items() if met}
+    follows = [place for place, cell in cells.items() if cell.verdict is Verdict.follows and cell.written is not None]
+    return tuple(
+        place for place in follows if scheme.stands_on(place, causes) and _meets(scheme, cells[place], classmate)
+    )
 
 
 def _is_whole(scheme: MarkingScheme, cells: Cells, classmate: Classmate) -> bool:

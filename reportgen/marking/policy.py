@@ -19,9 +19,9 @@ from reportgen.base.units import Given, Language
 from reportgen.marking.bands import DIGITS, PAPER_ERROR
 from reportgen.marking.key import Ask
 
-TAKES = frozenset({"stock", "columns", "other-data", "classmate-sheet"})
+TAKES = frozenset({"stock", "columns", "other-data", "classmate-key", "classmate-sheet"})
 """Kinds of flags that cost marks unless the policy says otherwise: what is beyond doubt."""
-FLAGS_ONLY = frozenset({"constant", "classmate"})
+FLAGS_ONLY = frozenset({"constant", "classmate", "unseen"})
 """Kinds that are told and cost nothing unless the policy says so."""
 
 

@@ -101,6 +101,42 @@ def test_two_data_are_enough_where_the_sheet_is_a_classmates(mine: MarkingScheme
     assert mark(mine, once, [Classmate(theirs.key)]).flags == ()
 
 
+@pytest.mark.parametrize("parameters", matrix(OTHERS, OTHERS[:1]))
+def test_the_key_of_another_variant_with_the_own_geometry(mine: MarkingScheme, parameters: dict[str, str]) -> None:
+    """What does not follow from the own data earns nothing, nor what follows from that; what is right stays."""
+    theirs = replace(other(**parameters), key=replace(other(**parameters).key, id="SV01"))
+    foreign = students.sheet(theirs, lambda row, k, value: students.figures(value))
+    own = students.sheet(mine, lambda row, k, value: students.figures(value))
+    sheet = replace(
+        own,
+        values={
+            place: own.values[place] if not place[1] else foreign.values[place]
+            for place in own.values
+            if place[1] == 0 or place in foreign.values
+        },
+    )
+    before = mark(mine, sheet)
+    marking = mark(mine, sheet, [Classmate(theirs.key)])
+    (flag,) = marking.flags
+    assert (flag.kind, flag.other) == ("classmate-key", "SV01")
+    assert len(flag.taken) > 30
+    assert marking.points == before.points - len(flag.taken)
+    right = [cell for cell in before.cells if cell.verdict is Verdict.right]
+    assert marking.points_at({(cell.id, cell.position) for cell in right})[0] == len(right)
+
+
+@pytest.mark.parametrize(("datum", "typed", "factor"), [("n", "2000 rpm", 2000 / 2200), ("H", "100 mm", 100 / 95)])
+def test_who_takes_a_datum_from_the_line_of_a_classmate_has_misread_it(
+    mine: MarkingScheme, datum: str, typed: str, factor: float
+) -> None:
+    """All that follows is in the classmate's key, too: it follows from the one datum, and costs nothing."""
+    theirs = replace(other(**{datum: typed}), key=replace(other(**{datum: typed}).key, id="SV01"))
+    mistake = Mistake("", datum, {datum: lambda value, _: value * factor})
+    marking = mark(mine, students.written(mine, students.worked_out(mine, mistake)), [Classmate(theirs.key)])
+    assert not any(flag.taken for flag in marking.flags)
+    assert marking.points >= marking.out_of - 2
+
+
 @proof
 @pytest.mark.parametrize("step", matrix([0.1, 0.5], [0.5]))
 def test_lengths_read_to_the_same_step_are_no_copies(room: Room, step: float) -> None:
@@ -194,12 +230,18 @@ def test_what_is_a_classmates_is_told(room: Room, what: str, digits: int) -> Non
     theirs = students.sheet(source, lambda row, k, value: students.figures(value, 3)) if digits else room.sheets[5]
     copied = hands.with_cells(sheet, theirs, lambda id, k: COPIES[what](scheme, id, k))
     marking = mark(scheme, copied, room.classmates)
-    flags = [flag for flag in marking.flags if flag.kind in ("classmate", "classmate-sheet")]
+    flags = [flag for flag in marking.flags if flag.kind.startswith("classmate")]
     assert {flag.other for flag in flags} == {source.key.id}
     assert all(flag.chance < 1e-3 for flag in flags)
     assert {name for cell in marking.cells for name in cell.classmates} == {source.key.id}
-    # Of part of a sheet nothing is taken for it.
-    assert (what == "the sheet") == ("taken" in marking.warnings)
+    # Of part of a sheet nothing is taken but what only follows from values of another key.
+    taken = {place for flag in marking.flags for place in flag.taken}
+    if what != "the sheet":
+        assert {flag.kind for flag in marking.flags if flag.taken} <= {"classmate-key"}
+        assert all((cell.id, cell.position) not in taken or not cell.points for cell in marking.cells)
+        assert taken <= {place for place in copied.values if COPIES[what](scheme, *place)}
+    else:
+        assert taken
 
 
 def test_the_policy_can_overrule_it(room: Room) -> None:
