@@ -219,7 +219,7 @@ def _quantity(cell: TextCell, gathering: Gathering) -> _Quantity | None:
     rows = gathering.rows_of(match["symbol"]) if match else ()
     if match is None or not rows:
         return None
-    unit = (match["comma"] or match["round"] or "").strip()
+    unit = (match["comma"] or match["round"] or "").strip().strip("[]").strip()
     if not unit:
         return _Quantity(_asked(rows), "")
     return _Quantity(_asked(rows), unit if _is_unit(unit, rows[0], gathering) else None)

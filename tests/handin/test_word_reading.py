@@ -229,6 +229,17 @@ def test_white_text_on_a_coloured_cell_or_table_style_is_seen() -> None:
         assert (PLACE in reading.values) == seen
 
 
+@pytest.mark.parametrize("space", "\u00a0\u2005\u2007\u2009\u202f")
+def test_thousands_in_a_table_may_be_set_off_by_any_blank(space: str) -> None:
+    """The unit stands in the cell or in the head, also behind a comma in brackets; heads are bold."""
+    labels = key().labels[:3]
+    heads = [wml.cell(wml.run(text, wml.BOLD)) for text in ("Vị trí", *labels)]
+    for head, number in (("v_D, [mm/s]", f"1{space}230,5"), ("v_D", f"1{space}230,5 mm/s")):
+        row = [wml.cell(wml.run(head, wml.BOLD)), *(wml.cell(wml.run(number)) for _ in labels)]
+        reading = read(wml.table([heads, row], 4))
+        assert reading.values[PLACE].value == pytest.approx(1.2305)
+
+
 def test_a_letter_of_the_font_symbol_is_greek() -> None:
     omega = '<w:r><w:sym w:font="Symbol" w:char="F077"/></w:r>'
     reading = read(HERE, wml.paragraph(omega + wml.run("3", wml.LOW) + wml.run(" = 0,4 rad/s")))
