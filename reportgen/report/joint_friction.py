@@ -22,6 +22,7 @@ from reportgen.formula import Number, Symbol, friction_ids, ids, vocabulary
 from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.machine.joint_friction import FrictionForces, relative_sense
+from reportgen.machine.motion import cross
 from reportgen.plans.joint_friction import RubbingJoint, rubbing_joints
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.report import FIRST_COLUMN, Column, Inlines, Table, Text, equations
@@ -81,6 +82,20 @@ def resting(report: Report) -> str:
 def solved_exactly(report: Report, k: int) -> bool:
     """Whether the rounds do not settle at a position, and the equations are solved instead."""
     return bool(_found(report).exact[k - 1])
+
+
+def tilting(report: Report, k: int) -> list[str]:
+    """The wide sliders that rub and tilt at a position, with friction: both of their ends bear and rub."""
+    friction, solved, motion = report.machine.friction, _found(report), report.analysis.motion
+    assert friction is not None, "the chapter is there where joints rub"
+    tilted = []
+    for joint in friction.joints(report.machine.linkage):
+        link = joint.links[1]
+        if joint.kind == "P" and (faces := friction.faces.get(link)) is not None:
+            reaction = solved.forces.reactions[reaction_name(*joint.links)]
+            normal = cross(motion.slides[joint.links].direction, reaction.force)
+            tilted += [str(link)] if faces.tilts(normal, reaction.moment)[k - 1] else []
+    return tilted
 
 
 def data(report: Report) -> Inlines:

@@ -328,6 +328,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "drawn_group": phrases.drawn_group,
     "drives": friction.drives,
     "solved_exactly": friction.solved_exactly,
+    "tilting_with_friction": friction.tilting,
     "has_efficiency": friction.has_efficiency,
     "face_state": wide_sliders.face_state,
     "first_turn": Report.first_turn,

@@ -117,3 +117,34 @@ def test_a_mechanism_that_locks_anywhere_is_refused(tmp_path: Path) -> None:
     file.write_text(text.replace("count: 8", "count: 4"), encoding="utf-8")
     faults = catalogue.check(file)
     assert any(fault.code == "locks-in-cycle" for fault in faults)
+
+
+WIDE = """\
+kind: slider-crank
+report: {{language: en, worked_positions: [3]}}
+positions: {{count: 12}}
+parameters:
+  r: 80 mm
+  l: 300 mm
+  n: 200 rpm
+  m3: 7 kg
+  force: {{by: constant, F: 1200 N, stroke: inward}}
+  loads:
+    - {{by: constant, link: 3, M: {M} N m}}
+  faces:
+    3: {{from: -60 mm, to: 60 mm, below: 0 mm}}
+  friction: {{sliders: {{3: 0.12}}}}
+"""
+
+
+@pytest.mark.parametrize(("M", "tilts"), [(-20, True), (0, False)])
+def test_a_slider_that_tilts_rubs_at_both_ends(M: float, tilts: bool, tmp_path: Path) -> None:
+    """Under 20 N·m both ends bear: |N₁| + |N₂| = 2|M|/0.12 m where the face forces are opposite, more than |N|."""
+    file = tmp_path / "wide.yaml"
+    file.write_text(WIDE.format(M=M), encoding="utf-8")
+    case = open_case(file)
+    assert isinstance(case, MachineCase)
+    assert ("friction acts at both of them" in text_of(case.document())) == tilts
+    if tilts:
+        rubbing = case.ledger["friction.R.03"].values[2]
+        assert rubbing == pytest.approx(2 * 20.0 / 0.12, rel=1e-6)
