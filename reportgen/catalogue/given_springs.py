@@ -103,9 +103,14 @@ class SpringRow:
     lines: tuple[str, ...]
 
     @property
+    def twists(self) -> bool:
+        """Whether it is a torsion spring, which has an angle in place of a length."""
+        return len(self.lines) == 1
+
+    @property
     def phrase(self) -> str:
         """Which words tell of it."""
-        return "torsion" if len(self.lines) == 1 else "links" if self.other else "point" if self.to else "place"
+        return "torsion" if self.twists else "links" if self.other else "point" if self.to else "place"
 
 
 # --- checks ---------------------------------------------------------------------------------------

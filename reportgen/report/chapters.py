@@ -123,6 +123,16 @@ def spring_works(report: Report) -> Inlines:
     )
 
 
+def linear_springs(report: Report) -> list[str]:
+    """Return the loads of springs between two points."""
+    return report.known(id for row in report.own["springs"] if not row.twists for id in row.loads)
+
+
+def torsion_springs(report: Report) -> list[str]:
+    """Return the loads of torsion springs."""
+    return report.known(id for row in report.own["springs"] if row.twists for id in row.loads)
+
+
 def spring_loads(report: Report) -> list[str]:
     """The loads of springs."""
     return report.known(id for row in report.own["springs"] for id in row.loads)

@@ -13,6 +13,7 @@ import numpy as np
 from reportgen.base.shown import view
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND
+from reportgen.machine.analysis import Position
 from reportgen.report import InlineMath, Inlines, Text, Value, listed
 from reportgen.report.phrases import at_positions, say
 from reportgen.report.report import Report
@@ -273,9 +274,12 @@ def balance_senses(report: Report) -> list[Inlines]:
     ]
 
 
-def balance_gaps(report: Report) -> list[Peak]:
-    """How far both ways to the balancing torque lie apart at most, and where; nothing if they never do."""
-    return each_peak(report, ("M.difference",), report.all_positions)
+def balance_gaps(report: Report, *positions: Position) -> list[Peak]:
+    """Return the largest difference of the two methods for the balancing torque, and where; [] if they agree.
+
+    Without `positions` it is that of the whole table.
+    """
+    return each_peak(report, ("M.difference",), positions or report.all_positions)
 
 
 def balance_mean(report: Report) -> Inlines:
