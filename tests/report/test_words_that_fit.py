@@ -125,13 +125,3 @@ def test_an_engine_at_single_instants_counts_no_positions_of_a_cycle(tmp_path: P
     of_instants = written(tmp_path, text)
     assert "tức là 2 vị trí" not in of_instants
     assert "Ngoài các vị trí chia đều" not in of_instants
-
-
-def test_a_load_that_drives_is_taken_off_to_stop(tmp_path: Path) -> None:
-    """An engine drives a load: where it stops, no motor is switched off."""
-    text = (built.ROOT / "assignments" / "engine-single-load.yaml").read_text(encoding="utf-8")
-    text = re.sub(r"language: \w+", "language: vi", text)
-    text = text.replace("k: 4.7 N m s}", "k: 4.7 N m s}\n    stop: {brake: 5000 N m}")
-    stopped = written(tmp_path, text)
-    assert "phụ tải được ngắt" in stopped
-    assert "động cơ được ngắt" not in stopped
