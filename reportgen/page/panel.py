@@ -73,9 +73,13 @@ def samples(track: Track) -> tuple[np.ndarray, ...]:
     values = np.asarray(track.values)
     parts = (values.real, values.imag) if np.iscomplexobj(values) else (np.asarray(values, dtype=np.float64),)
     greatest = max(float(np.max(np.abs(part), initial=0.0, where=np.isfinite(part))) for part in parts)
+    return tuple(np.asarray(settled(part, _step(greatest)), dtype="<f4") for part in parts)
+
+
+def _step(greatest: float) -> float:
+    """The step of samples that are no greater than this."""
     # A power of two that rounding errors have changed is that power.
-    step = SAMPLE * 2.0 ** math.frexp(max(greatest, NOTHING) * (1 + ALIKE))[1]
-    return tuple(np.asarray(settled(part, step), dtype="<f4") for part in parts)
+    return SAMPLE * 2.0 ** math.frexp(max(greatest, NOTHING) * (1 + ALIKE))[1]
 
 
 class Tracks:
@@ -350,7 +354,9 @@ class PanelWriter:
 def _timed(run: TimedRun) -> Mapping[str, Any]:
     """A run as the script plays it: what it is called, and its samples."""
     samples = {"time": run.time, "angle": run.angle, "speed": run.speed, "drive": run.drive}
-    return {"key": run.key, **{name: [float(f"{one:.6g}") for one in values] for name, values in samples.items()}}
+    steps = {name: _step(float(np.max(np.abs(values), initial=0.0))) for name, values in samples.items()}
+    shown = {name: [float(f"{settled(float(one), steps[name]):.6g}") for one in samples[name]] for name in samples}
+    return {"key": run.key, **shown}
 
 
 def rounded_up(value: float, language: Language, figures: int = 2) -> str:
