@@ -81,13 +81,12 @@ def check(given: Parameters) -> Iterator[Finding]:
 
 
 def is_balanced(given: Parameters) -> bool:
-    """Whether the masses leave nothing to be corrected: neither a force nor, with two planes, a couple."""
+    """Whether the masses leave nothing to be corrected: neither a force nor a couple, which one plane cannot take."""
     unbalances = [(one.m.si * cmath.rect(one.r.si, one.angle.si), one.z.si - given.planes.A.si) for one in given.masses]
     force, couple = sum(U for U, _ in unbalances), sum(U * z for U, z in unbalances)
-    small = abs(force) <= BALANCED * sum(abs(U) for U, _ in unbalances)
-    if given.planes.B is None:
-        return small
-    return small and abs(couple) <= BALANCED * sum(abs(U * z) for U, z in unbalances)
+    if abs(force) > BALANCED * sum(abs(U) for U, _ in unbalances):
+        return False
+    return abs(couple) <= BALANCED * sum(abs(U * z) for U, z in unbalances)
 
 
 CHECKS = (

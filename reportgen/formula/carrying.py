@@ -117,6 +117,8 @@ def _causes(ledger: Ledger, rounded: Ledger, derivatives: Derivatives, roundings
         shares = {
             other: float((derivative * roundings[other] * np.ones(len(size)))[at] * np.sign(apart[at]))
             for other, derivative in by.items()
+            # What ends by itself gets no finer.
+            if rounded.decimals[other] is not None
         }
         cause = max(shares, key=lambda other: shares[other], default="")
         if cause and (rounded.decimals[cause] or 0) < MOST:

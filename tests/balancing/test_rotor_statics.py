@@ -9,11 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reportgen import load, solve
 from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_file import BEARINGS, Parameters
 from reportgen.balancing.rotor_sheet import AFTER, BEFORE, RotorSheet
-from reportgen.cases import open_case
+from reportgen.base.errors import AssignmentError
+from reportgen.cases import open_case, opened
 from reportgen.formula.model import model
+from reportgen.report import text_of
 
 FOLDER = Path(__file__).parents[2] / "assignments" / "rotor"
 LEAST = 1e-12
@@ -134,3 +137,32 @@ def test_random_rotors(count: int) -> None:
                 sizes = np.hypot(reactions[:, number, 0], reactions[:, number, 1])
                 off = np.abs(found[rotor_ids.bearing_force(when, place)] - sizes)
                 assert np.all(off <= dust)
+
+
+def test_a_pure_couple_is_balanced_statically_only(tmp_path: Path) -> None:
+    """Two equal masses on opposite sides, 100 mm apart: no force, a couple m r ω² a, borne by bearings 200 mm apart.
+
+    One plane has nothing to correct; the forces on the bearings stay what they are.
+    """
+    file = tmp_path / "couple.yaml"
+    masses = "[{m: 1 kg, r: 50 mm, angle: 0 deg, z: 0 mm}, {m: 1 kg, r: 50 mm, angle: 180 deg, z: 100 mm}]"
+    rest = "planes: {A: 50 mm}, bearings: [-50 mm, 150 mm], n: 900 rpm"
+    file.write_text(f"kind: rotor\nreport: {{language: en}}\nparameters: {{masses: {masses}, {rest}}}\n")
+    case = opened(load(file))
+    (position,) = solve(case.assignment)["positions"]
+    ω = 2 * math.pi * 900 / 60
+    force = 1 * 0.05 * ω**2 * 0.1 / 0.2
+    for forces in position["bearings"].values():
+        assert math.hypot(*forces["before"]) == pytest.approx(force)
+        assert math.hypot(*forces["after"]) == pytest.approx(force)
+    assert case.printed["rotor.U.A"].at(1) == 0
+    assert text_of(case.document())
+
+
+def test_a_rotor_without_any_unbalance_is_refused(tmp_path: Path) -> None:
+    """Neither a force nor a couple: there is nothing to do."""
+    file = tmp_path / "balanced.yaml"
+    masses = "[{m: 1 kg, r: 50 mm, angle: 0 deg}, {m: 1 kg, r: 50 mm, angle: 180 deg}]"
+    file.write_text(f"kind: rotor\nparameters: {{masses: {masses}, planes: {{A: 50 mm}}}}\n")
+    with pytest.raises(AssignmentError, match="rotor-balanced"):
+        load(file)
