@@ -19,14 +19,15 @@ from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit, is_direction
 from reportgen.marking.guard import Classmate, guard, not_from_own, unseen_text
 from reportgen.marking.key import Ask, symbol_text, words_of
-from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict
+from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
 from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
 from reportgen.marking.parts import joined, sheets_of
 from reportgen.marking.policy import Policy
+from reportgen.marking.scale_readings import best_working, charged_for_scales, left_out, optional_scales, without_cells
 from reportgen.marking.scheme import MarkingScheme, Values, marking_scheme
 from reportgen.marking.sheet import read_submission
-from reportgen.marking.working import Working, lay_out
+from reportgen.marking.working import Working
 from reportgen.report.case import Case
 from reportgen.report.key import KeyRow, Role
 
@@ -51,8 +52,7 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
         parts = [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
         whole = joined(scheme, submission, parts)
         return replace(whole, flags=(*whole.flags, *unseen_text(whole.cells, submission)))
-    working = lay_out(scheme, submission)
-    cells, _ = _verdicts(working)
+    working, cells, _ = _best_verdicts(scheme, submission)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
     if scheme.policy.guard:
@@ -72,23 +72,36 @@ def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, .
     if scheme.parts:
         machine = next(iter(sheets_of(scheme, submission, ())))
         return own_worlds(machine.scheme, machine.submission)
-    working = lay_out(scheme, submission)
-    _, mistakes = _verdicts(working)
+    working, _, mistakes = _best_verdicts(scheme, submission)
     changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
     if not mistakes:
         return ()
     return (working.world, *([working.world_with(changes)] if changes else []))
 
 
+def _best_verdicts(scheme: MarkingScheme, submission: Submission) -> tuple[Working, dict[Place, Marked], list[Mistake]]:
+    """The working that explains a submission best, its verdicts, and the mistakes that have a name.
+
+    A scale that may be left empty never costs marks: if the sheet earns more without it, it is left out.
+    """
+    working = best_working(scheme, submission, _fitting)
+    cells, mistakes = _verdicts(working)
+    wrong = any(cell.verdict is Verdict.wrong and cell.worth for cell in cells.values())
+    optional = optional_scales(working) if wrong else frozenset()
+    if optional:
+        without = left_out(working, best_working(scheme, without_cells(submission, optional), _fitting))
+        others, further = _verdicts(without)
+        if points_of(others.values()) > points_of(cells.values()):
+            kept = {place: replace(cells[place], first=False, mistake="", where="") for place in optional}
+            return without, others | kept, further
+    return working, cells, mistakes
+
+
 def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
     """The verdicts on what is laid out, and the mistakes that have a name."""
-    scheme, submission = working.scheme, working.submission
+    scheme = working.scheme
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
-    cells = {
-        (row.id, position): _judged(working, submission, row, position, possible)
-        for row in scheme.judged
-        for position in row.positions
-    }
+    cells = _judged_cells(working, possible)
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
     named: list[Mistake] = []
@@ -98,15 +111,38 @@ def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
         for place, mistake in mistakes.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, mistakes)
-    return cells, named
+    return cells | charged_for_scales(working, cells), named
 
 
-def _judged(working: Working, submission: Submission, row: KeyRow, position: int, possible: Sequence[Values]) -> Marked:
-    """The verdict on one cell; `possible` are values that follow from the student's own."""
-    scheme, place = working.scheme, (row.id, position)
+def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, Marked]:
+    """The verdicts on all cells, each by itself; `possible` are values that follow from the student's own.
+
+    How much finer a large drawing is read is known of right values: behind a wrong one no tolerance is narrower than
+    the report's.
+    """
+    scheme = working.scheme
+    rows = [(row, position) for row in scheme.judged for position in row.positions]
+    cells = {(row.id, at): _judged(working, row, at, possible, working.bands[row.id]) for row, at in rows}
+    wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
+    for row, at in rows:
+        narrow, usual = working.bands[row.id], scheme.bands[row.id]
+        if (row.id, at) in wrong and (narrow < usual).any() and scheme.stands_on((row.id, at), wrong):
+            cells[row.id, at] = _judged(working, row, at, possible, np.maximum(narrow, usual))
+    return cells
+
+
+def _fitting(working: Working) -> tuple[int, int]:
+    """How many of the given values are right or follow from the student's own, and how many are given."""
+    cells = _judged_cells(working, [working.own_values(blank_from_key=True)])
+    met = sum(cell.verdict in (Verdict.right, Verdict.follows) for cell in cells.values())
+    return met, met + sum(cell.verdict is Verdict.wrong for cell in cells.values())
+
+
+def _judged(working: Working, row: KeyRow, position: int, possible: Sequence[Values], bands: np.ndarray) -> Marked:
+    """The verdict on one cell by its tolerances (SI) [N] or [1]; `possible` are what follows from the student's own."""
+    scheme, submission, place = working.scheme, working.submission, (row.id, position)
     family, index = scheme.ledger[row.id], row.at(position)
     unit, worth = float(working.unit(row.id)[index]), scheme.policy.worth(row.id)
-    bands = working.bands[row.id]
     band = float(bands[index if len(bands) > 1 else 0])
     key = float(family.at(position).real)
     following = [_own(scheme.ledger, values, row.id, index) for values in possible]
@@ -117,6 +153,7 @@ def _judged(working: Working, submission: Submission, row: KeyRow, position: int
         band = max(band, drawn.error * family.how.scale)
         following.append(drawn.own * family.how.scale)
         unit = family.how.scale / (1.0 if is_direction(row.id) else drawn.times)
+
     value = float(working.values[row.id][index]) if row.id in working.values else float("nan")
     verdict, points, own = Verdict.wrong, 0.0, following[0]
     if place in submission.problems:

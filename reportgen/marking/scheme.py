@@ -127,15 +127,16 @@ class MarkingScheme:
     @cached_property
     def makers(self) -> dict[str, tuple[str, str]]:
         """Of each scale of a plan the size and the length that it was made from: v_A and pa of μ_v."""
-        makers: dict[str, tuple[str, str]] = {}
-        for row in self.judged:
-            scale = vocabulary.plan(row.id)
-            if row.single and scale in self.ledger and scale not in makers and makes_scale(self.ledger, row.id, scale):
-                value = self.ledger[scale].values[0] * self.ledger[row.id].values[0]
-                sizes = (one.id for one in self.judged if one.single and one.kind in ("velocity", "acceleration"))
-                size = next((id for id in sizes if np.isclose(self.ledger[id].values[0], value, rtol=1e-9)), "")
+        ledger, makers = self.ledger, dict[str, tuple[str, str]]()
+        single = [one for one in ledger.families.values() if len(one.values) == 1 and not (one.hidden or one.is_plane)]
+        sizes = [one for one in single if one.kind in ("velocity", "acceleration")]
+        for length in single:
+            scale = vocabulary.plan(length.id)
+            if scale in ledger and scale not in makers and makes_scale(ledger, length.id, scale):
+                value = ledger[scale].values[0] * length.values[0]
+                size = next((one.id for one in sizes if np.isclose(one.values[0], value, rtol=1e-9)), "")
                 if size:
-                    makers[scale] = size, row.id
+                    makers[scale] = size, length.id
         return makers
 
     @cached_property

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,13 +24,20 @@ LEAST_FIGURES = 3
 """Figures that a number has been written with, though noughts at its end do not show them."""
 
 
+class ScaleReading(NamedTuple):
+    """The value (SI) of a plan's scale for a student, and whether it is what the own values give by its formula."""
+
+    value: float
+    own: bool
+
+
 @dataclass(frozen=True)
 class Working:
     """The values of a sheet in SI, [N] or [1], NaN where none is given, by id of the row.
 
     Lengths on paper are turned to the report's scales: the same vector, drawn at another μ.  `scales`
     are those of the plans as they were drawn, by id, in SI; `drawn` are the multiples of the report's scales that the
-    tolerances follow, `bands` these.
+    tolerances follow, `bands` these.  `readings` say what scales come to of whose plans no length is on the sheet.
     """
 
     scheme: MarkingScheme
@@ -37,6 +45,7 @@ class Working:
     values: Values
     scales: Values
     drawn: Values
+    readings: Mapping[str, ScaleReading] = field(default_factory=dict)
 
     @cached_property
     def _units(self) -> dict[str, np.ndarray]:
@@ -70,12 +79,17 @@ class Working:
         A blank one on the way is replaced by the key's, or else follows like the rest.  `changes` are
         made to quantities that the sheet does not show.
         """
-        return self._followed(blank_from_key, changes or {})[0]
+        followed = self._from_key if blank_from_key and not changes else self._followed(blank_from_key, changes or {})
+        return followed[0]
 
     @cached_property
     def world(self) -> dict[str, np.ndarray]:
         """All values (SI) [N] as a student has them: entered, or following from these; the key's where one is blank."""
-        return self._followed(True, {})[1]
+        return self._from_key[1]
+
+    @cached_property
+    def _from_key(self) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+        return self._followed(True, {})
 
     def world_with(self, changes: Mapping[str, Change]) -> dict[str, np.ndarray]:
         """All values (SI) [N] as they are where changes were made to quantities that the sheet does not show."""
@@ -112,8 +126,8 @@ class Working:
         ]
         if row.role is Role.scale and row.id in self.scheme.makers:
             size, length = self.scheme.makers[row.id]
-            if size in self.values and self.values.get(length, np.zeros(1))[0]:
-                accepted.append(float(self.values[size][0] / self.values[length][0]))
+            if size in self.values and self.world[length][0]:
+                accepted.append(float(self.values[size][0] / self.world[length][0].real))
         accepted += self._by_length_scale(row, index)
         accepted += [self._by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
         return [
@@ -162,10 +176,14 @@ class Working:
     def entered_ids(self) -> tuple[str, ...]:
         """Ids of the ledger that hold a value of the student's or are judged, sizes of signed rotations too."""
         judged = [row.id for row in self.scheme.judged]
-        return tuple(dict.fromkeys([*judged, *map(self.scheme.ledger.size_of, judged), *self.values]))
+        sizes = map(self.scheme.ledger.size_of, judged)
+        return tuple(dict.fromkeys([*judged, *sizes, *self.values, *self.readings]))
 
     def entered_values(self, id: str, computed: np.ndarray, blank: np.ndarray) -> np.ndarray:
         """A student's values (SI) [N], `blank` where there are none; the computed sign where none is judged."""
+        if id in self.readings:
+            reading = self.readings[id]
+            return computed if reading.own else np.full(self.scheme.ledger[id].values.shape, reading.value)
         given = self.values.get(id)
         if given is None:
             signed = self.values.get(self.scheme.ledger.signed.get(id, ""))
@@ -184,8 +202,10 @@ def last_half_unit(value: float) -> float:
     return float(half_unit(np.array([value]), max(LEAST_FIGURES, len(written)))[0])
 
 
-def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
-    """The working of a submission, with every plan read as it was drawn.
+def lay_out(
+    scheme: MarkingScheme, submission: Submission, readings: Mapping[str, ScaleReading] | None = None
+) -> Working:
+    """The working of a submission, with every plan read as it was drawn, or at the scales that `readings` say.
 
     The scale of a plan is what its first length stands for (μ = v_A/pa), the one written down, or the
     report's: the one that another confirms, or that makes most of the plan right.  A scale written down that
@@ -199,17 +219,22 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
     asked = [row.id for row in scheme.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
     drawn: dict[str, np.ndarray] = {}
+    read_as = readings or {}
     for scale in asked:
         usual = scheme.ledger[scale].values
         plan = [id for id in values if vocabulary.plan(id) == scale]
         first = next((id for id in plan if makes_scale(scheme.ledger, id, scale)), None)
         stated = values.get(scale, np.full(len(usual), np.nan))
         factor, drawn[scale] = np.ones(len(usual)), np.ones(len(usual))
+        reading = read_as.get(scale)
         for place in range(len(usual)):
             # A scale for all positions is judged by all lengths, a position's own by those of its plan.
             own = slice(None) if len(usual) == 1 else slice(place, place + 1)
             tried = [float(one) for one in (stated[place] / usual[place], 1.0)]
-            if (scale_used := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
+            if reading is not None:
+                # No length shows how large the plan is: the scale written down, over what it comes to, does.
+                tried = [float(stated[place] / reading.value), 1.0]
+            elif (scale_used := in_use(scheme, values, scale, own, float(stated[place]))) is not None:
                 tried.insert(0, float(scale_used / usual[place]))
             if first is not None:
                 tried.insert(0, float(scheme.ledger[first].values[0] / values[first][0]))
@@ -226,7 +251,7 @@ def lay_out(scheme: MarkingScheme, submission: Submission) -> Working:
             values[scale] = stated / factor
     if submission.measured:
         values |= _measured(scheme, submission, values, drawn)
-    return Working(scheme, submission, values, scales, drawn)
+    return Working(scheme, submission, values, scales, drawn, read_as)
 
 
 def _measured(

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import replace
+from functools import partial
+from operator import mul
 from typing import Any
 
+import numpy as np
 import pytest
 
 from reportgen.classes.assess import asked_of
@@ -119,3 +122,91 @@ def test_tolerances_follow_a_stated_scale_both_ways(factor: float, off: float, i
     marking = graded(scheme, replace(sheet, values=values))
     (cell,) = (one for one in marking.cells if (one.id, one.position) == ("v.C", 4))
     assert (cell.verdict is Verdict.right) == is_right
+
+
+# --- a scale that a mistake has changed -------------------------------------------------------------
+
+MISREAD: dict[str, dict[str, hands.Change]] = {
+    "n misread": {"n": lambda _: 2000.0},
+    "n and G2 misread": {"n": lambda _: 2000.0, "G2": lambda _: 25.0},
+    "ω = 2πn without /60": {"omega.1": lambda value: 60 * value},
+    "ω = n": {"omega.1": lambda value: value * 30 / np.pi},
+    "H misread": {"H": lambda _: 0.085},
+    "R = H": {"R": lambda value: 2 * value},
+    "D misread": {"D": lambda _: 0.088},
+    "v_A wrong": {"v.A": lambda value: 1.3 * value},
+    "a_A wrong": {"a.A": lambda value: 1.3 * value},
+}
+"""Mistakes of a student of the twin engine before the plans: μ_v = ω₁μ_l and v_A/pa grow with them."""
+
+FEWEST, MOST = 1, 3
+"""Marks that a mistake may cost: its own, and what the drawing's errors keep from being met."""
+
+
+def lost(marking: Marking) -> float:
+    return sum(cell.worth - cell.points for cell in marking.cells if cell.given is not None)
+
+
+@pytest.mark.parametrize("by_lengths", [True, False])
+@pytest.mark.parametrize("paper", matrix([0.05, 0.03, 0.08], [0.05]))
+@pytest.mark.parametrize("what", MISREAD)
+def test_a_mistake_before_the_plans_costs_the_same_with_the_scales_as_without(
+    what: str, paper: float, by_lengths: bool
+) -> None:
+    """v_BA = μ_v·ab by the own μ_v, however that was found and however large the crank is drawn."""
+    scheme = students.scheme(hands.TWIN, (4,))
+    asked = replace(scheme, key=Ask().on_paper(scheme.key))
+    how = {"paper": paper, "by_lengths": by_lengths, "plan_scales": {}, "blunt": 0.3e-3}
+    sheet = hands.handed_in(asked, {4: hands.at_work(scheme, 4, changes=MISREAD[what], seed=4, **how)})
+    with_scales, without = (lost(graded(scheme, sheet, stated)) for stated in (True, False))
+    assert FEWEST <= with_scales <= MOST
+    assert with_scales <= without
+    if paper == 0.05:
+        assert without <= MOST
+
+
+def test_a_slip_in_a_scale_costs_one_mark() -> None:
+    """μ_v 1.3 times too large spoils six velocities: it is one mistake, and is told as one in the scale."""
+    scheme = students.scheme(hands.TWIN, (4,))
+    asked = replace(scheme, key=Ask().on_paper(scheme.key))
+    hand = hands.at_work(scheme, 4, changes={"mu.v": lambda value: 1.3 * value}, seed=4, plan_scales={}, blunt=0.3e-3)
+    marking = graded(scheme, hands.handed_in(asked, {4: hand}))
+    assert lost(marking) == 1
+    assert [cell.id for cell in marking.first_errors] == ["mu.v"]
+
+
+def made_up(scheme: MarkingScheme, rng: np.random.Generator) -> dict[str, Any]:
+    """How a student works who misreads one datum or two, or takes a wrong ω₁, with the crank drawn at any size."""
+    data = [id for id in hands.data_used(scheme) if id != "g"]
+    chosen = rng.choice(data, size=1 + int(rng.random() < 0.3), replace=False)
+    factors = rng.choice([0.8, 0.9, 1.1, 1.25], size=len(chosen))
+    changes = {str(id): partial(mul, float(factor)) for id, factor in zip(chosen, factors, strict=True)}
+    if "omega.1" in scheme.rows and rng.random() < 0.4:
+        changes = {"omega.1": partial(mul, float(rng.choice([60.0, 30 / np.pi])))}
+    how: dict[str, Any] = {"changes": changes, "by_lengths": bool(rng.integers(2)), "figures": int(rng.choice([3, 4]))}
+    if rng.random() < 0.5:
+        how["paper"] = float(rng.choice([0.03, 0.04, 0.06, 0.08]))
+    if scheme.ledger["mu.l"].definition is not None and rng.random() < 0.75:
+        how["plan_scales"] = {}
+    return how | {"blunt": 0.3e-3, "seed": int(rng.integers(1 << 30))}
+
+
+@pytest.mark.parametrize(
+    ("name", "count"),
+    [*matrix([(name, 200) for name in MACHINES], []), ("slider-crank-01", 6), ("four-bar-01", 3), ("engine-v-01", 3)],
+)
+def test_filling_in_a_scale_never_costs(name: str, count: int) -> None:
+    scheme, rng = students.scheme(name, (4,)), np.random.default_rng(59)
+    asked = replace(scheme, key=Ask().on_paper(scheme.key))
+    tried = 0
+    while tried < count:
+        try:
+            hand = hands.at_work(scheme, 4, **made_up(scheme, rng))
+        except (ValueError, ZeroDivisionError):
+            # With such lengths the machine does not go together.
+            continue
+        tried += 1
+        sheet = hands.handed_in(asked, {4: hand})
+        with_scales, without = (graded(scheme, sheet, stated) for stated in (True, False))
+        assert with_scales.points >= without.points
+        assert with_scales.out_of == without.out_of
