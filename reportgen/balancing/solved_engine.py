@@ -13,9 +13,13 @@ from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_file import Parameters
 from reportgen.balancing.engine_sheet import COUPLES, ORDERS, EngineSheet
 from reportgen.formula import PI, Expression, Ref, cis, total
+from reportgen.formula.piston_orders import first_term
 from reportgen.formula.sheet import Sheet
 from reportgen.report.case import Misconceptions
 from reportgen.report.design import DesignCase
+
+FIRST_TERM = "orders-first-term"
+"""The name of a factor that was taken as the first term of its series: A₂ = λ."""
 
 Changed = Iterator[tuple[str, str, Expression]]
 """Ids of quantities, the name of a mistake, what the quantity becomes by it."""
@@ -74,7 +78,9 @@ class SolvedEngine(DesignCase):
         changed: dict[str, list[tuple[str, Expression]]] = {}
         for id, name, formula in (*self._of_stars(), *self._of_one_cylinder(), *self._of_counterweight()):
             changed.setdefault(id, []).append((name, formula))
-        return Misconceptions(changed=changed)
+        λ = Ref("orders.lambda")
+        first_terms = {orders_ids.factor(order): [(FIRST_TERM, first_term(order, λ))] for order in ORDERS[1:]}
+        return Misconceptions(changed=changed, approximations=first_terms)
 
     def _of_stars(self) -> Changed:
         for star in "".join(self.stars.values()):

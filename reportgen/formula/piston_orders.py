@@ -40,3 +40,14 @@ def short_series(order: int, λ: Ref) -> Expression:
             return -(λ**3 / 4 + 3 * λ**5 / 16)
         case _:
             return 9 * λ**5 / 128
+
+
+def first_term(order: int, λ: Ref) -> Expression:
+    """The first term of the series alone, as textbooks have it: a = rω²(cos φ + λ cos 2φ − λ³/4 cos 4φ)."""
+    match order:
+        case 2:
+            return λ
+        case 4:
+            return -(λ**3) / 4
+        case _:
+            return 9 * λ**5 / 128

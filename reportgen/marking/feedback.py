@@ -139,6 +139,7 @@ def feedback_document(marking: Marking, title: str, policy: Policy | None = None
         *(paragraph(words["warnings"][warning]) for warning in marking.warnings),
         *_section(feedback["firsts"], _firsts(marking, words, rules.show_answers)),
         *_section(feedback["followed"], _listed_cells(marking, words, _followed(marking), feedback["followed_lead"])),
+        *_section(feedback["approximated"], _approximated(marking, words)),
         *_section(feedback["elsewhere"], _listed_cells(marking, words, marking.elsewhere, feedback["elsewhere_lead"])),
         *_section(feedback["amended"], _amended(marking, words)),
         *_section(feedback["unread"], _unread(marking, words)),
@@ -195,8 +196,16 @@ def _expected(row: KeyRow, cell: Marked) -> Number:
 
 
 def _followed(marking: Marking) -> list[Marked]:
-    """The values that differ from the key but earned their points."""
-    return [cell for cell in marking.cells if cell.verdict is Verdict.follows]
+    """The values that differ from the key but earned their points, as they follow from the student's own."""
+    return [cell for cell in marking.cells if cell.verdict is Verdict.follows and not cell.mistake]
+
+
+def _approximated(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
+    """The values by an accepted approximation, each with its name."""
+    chosen = [cell for cell in marking.cells if cell.verdict is Verdict.follows and cell.mistake]
+    if chosen:
+        lines = (mistake_inlines(cell, marking.key, words) for cell in chosen)
+        yield tree.List(tuple((Paragraph(line),) for line in lines))
 
 
 def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[Marked], lead: str) -> Iterator[Block]:
@@ -319,8 +328,9 @@ def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_
         return str(words["feedback"]["elsewhere_note"]) if cell.elsewhere else ""
     if cell.verdict in (Verdict.unreadable, Verdict.unread):
         return str(notes[cell.verdict]).format(message=marking.submission.problem(place).message)
-    lines = [str(notes["first" if cell.first else cell.verdict])]
-    if cell.first and cell.mistake:
+    accepted = cell.verdict is Verdict.follows and bool(cell.mistake)
+    lines = [] if accepted else [str(notes["first" if cell.first else cell.verdict])]
+    if cell.mistake and (cell.first or accepted):
         lines.append(plain(mistake_inlines(cell, key, words), key.language))
     if show_answers:
         row = key.row(cell.id)

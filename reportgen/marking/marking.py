@@ -102,6 +102,7 @@ def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
     scheme = working.scheme
     possible = [working.own_values(blank_from_key=True), working.own_values(blank_from_key=False)]
     cells = _judged_cells(working, possible)
+    cells |= _by_approximation(working, cells)
     wrong = {place for place, cell in cells.items() if cell.verdict is Verdict.wrong}
     cells |= {place: replace(cells[place], first=True) for place in wrong if not scheme.stands_on(place, wrong)}
     named: list[Mistake] = []
@@ -111,7 +112,32 @@ def _verdicts(working: Working) -> tuple[dict[Place, Marked], list[Mistake]]:
         for place, mistake in mistakes.items():
             cells[place] = replace(cells[place], mistake=mistake.name, where=mistake.where)
         cells |= _charged_once(working, cells, mistakes)
-    return cells | charged_for_scales(working, cells), named
+    cells |= charged_for_scales(working, cells)
+    approximations = {name for known in scheme.misconceptions.approximations.values() for name, _ in known}
+    accepted = {place for place, cell in cells.items() if cell.mistake in approximations}
+    return cells | {place: _accepted(working, cells[place]) for place in accepted}, named
+
+
+def _by_approximation(working: Working, cells: Cells) -> dict[Place, Marked]:
+    """Return the wrong values that a textbook's approximation gives from the student's own values, with its name."""
+    scheme, approximated = working.scheme, dict[Place, Marked]()
+    for (id, position), cell in cells.items():
+        known = scheme.misconceptions.approximations.get(id, ()) if cell.verdict is Verdict.wrong else ()
+        for name, definition in known:
+            row = scheme.rows[id]
+            own = working.by_another_way(row, definition, row.at(position))
+            if cell.given is not None and _follows(scheme, id, cell.given, own, cell.band):
+                approximated[id, position] = _accepted(working, replace(cell, own=own, mistake=name, where=id))
+                break
+    return approximated
+
+
+def _accepted(working: Working, cell: Marked) -> Marked:
+    """Return a value by an approximation with its points, if the policy accepts it."""
+    policy = working.scheme.policy
+    if not policy.approximations:
+        return cell
+    return replace(cell, verdict=Verdict.follows, points=policy.worth(cell.id) * policy.right, first=False)
 
 
 def _judged_cells(working: Working, possible: Sequence[Values]) -> dict[Place, Marked]:

@@ -108,7 +108,8 @@ def _of_springs(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
-    for name, other in scheme.misconceptions.changed.get(id, ()):
+    misconceptions = scheme.misconceptions
+    for name, other in (*misconceptions.changed.get(id, ()), *misconceptions.approximations.get(id, ())):
         yield name, _with(other, {})
     if family.definition is not None:
         yield from _in_a_definition(scheme, family, family.definition, scales)

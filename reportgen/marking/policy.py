@@ -82,6 +82,8 @@ class Policy:
     twice: Twice = "last"
     least_read: float = LEAST_READ
     """Where a smaller share of what stands in a student's own files was read, there is no mark."""
+    approximations: bool = True
+    """Whether a value by a textbook's approximation earns its points; the feedback names it in any case."""
     file: Path | None = None
 
     def deducted(self, share: float, days_late: int) -> float:
@@ -141,6 +143,7 @@ class _PolicyFile(Part):
     late: _Late | None = None
     twice: Annotated[Twice, Field(json_schema_extra={})] = "last"
     least_read: Annotated[float, Percent()] = LEAST_READ
+    approximations: Annotated[bool, Flag()] = True
 
 
 def read_policy(path: Path, language: Language | None = None) -> Policy:
@@ -173,6 +176,7 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
       most: 5
     twice: last              # which of two sheets of one student is marked, or: first
     least_read: 80 %         # of what stands in a report or a drawing without a sheet; below it there is no mark
+    approximations: true     # a value by a textbook's approximation earns its points
     """
     content = read_model(path, _PolicyFile, language)
     tolerance, points = content.tolerance, content.points
@@ -195,5 +199,6 @@ def read_policy(path: Path, language: Language | None = None) -> Policy:
         late=Lateness(late.due, late.per_day, late.most) if (late := content.late) else None,
         twice=content.twice,
         least_read=content.least_read,
+        approximations=content.approximations,
         file=path,
     )

@@ -129,12 +129,12 @@ class Working:
             if size in self.values and self.world[length][0]:
                 accepted.append(float(self.values[size][0] / self.world[length][0].real))
         accepted += self._by_length_scale(row, index)
-        accepted += [self._by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
+        accepted += [self.by_another_way(row, way, index) for way in self.scheme.misconceptions.ways.get(row.id, ())]
         return [
             one for one in accepted if np.isfinite(one) and not self._is_right(row, ledger[row.id].values[index], one)
         ]
 
-    def _by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
+    def by_another_way(self, row: KeyRow, definition: Expression, index: int) -> float:
         """What another definition of a quantity gives from the student's own values."""
         values = np.atleast_1d(evaluate(definition, {id: self.world[id] for id in refs(definition)}))
         return float(np.broadcast_to(values, self.scheme.ledger[row.id].values.shape)[index].real)

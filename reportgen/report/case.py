@@ -52,7 +52,8 @@ class Misconceptions:
     are for a quantity that is read from a diagram the values [N] that it has when it is read wrongly, with the
     mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
     for a quantity other definitions that are often used, with the mistake's name; `ways` other definitions that are as
-    right as its own, of quantities that do not stand on it.
+    right as its own, of quantities that do not stand on it.  `approximations` are for a quantity definitions that books
+    use in place of the exact one, with their names.
     """
 
     applied: frozenset[str] = frozenset()
@@ -61,6 +62,7 @@ class Misconceptions:
     whole: Mapping[str, str] = field(default_factory=dict)
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
     ways: Mapping[str, Sequence[Expression]] = field(default_factory=dict)
+    approximations: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
 
 
 def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand]) -> Iterator[tuple[str, Expression]]:

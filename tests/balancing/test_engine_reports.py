@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import cmath
 import math
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from reportgen import api
@@ -21,10 +23,12 @@ from reportgen.classes import assess
 from reportgen.classes.variants import make_variants
 from reportgen.drawing import Label
 from reportgen.formula import Chain, Number, Symbol
+from reportgen.marking.feedback import cell_comment
 from reportgen.marking.key import Ask, key_of
 from reportgen.marking.marking import mark
+from reportgen.marking.mistakes import Mistake
 from reportgen.marking.policy import Policy
-from reportgen.marking.scheme import marking_scheme
+from reportgen.marking.scheme import MarkingScheme, marking_scheme
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.balancing.test_rotor_reports import ROUNDED, arrows, recomputes
@@ -174,6 +178,38 @@ def test_the_usual_mistakes_have_names(name: str, mistake: str, where: tuple[str
     first = mark(scheme, sheet).first_errors
     assert {cell.mistake for cell in first} == {mistake}
     assert {cell.id for cell in first} == set(where)
+
+
+@pytest.mark.parametrize("accepted", [True, False])
+@pytest.mark.parametrize("written_down", [True, False], ids=["A₂ on the sheet", "A₂ used only"])
+def test_the_first_term_of_the_series_is_known_by_name(accepted: bool, written_down: bool) -> None:
+    """A₂ = λ and A₄ = −λ³/4 as in textbooks, and all that stands on them: right or wrong as the policy says."""
+    case = open_case(FOLDER / "v-twin.yaml", "en")
+    scheme = marking_scheme(case, Policy(approximations=accepted))
+    λ = scheme.ledger["orders.lambda"].values[0]
+    factors = {orders_ids.factor(2): np.array([λ]), orders_ids.factor(4): np.array([-(λ**3) / 4])}
+    changes = {id: (lambda _, __, by=by: by) for id, by in factors.items()}
+    world = students.worked_out(scheme, Mistake("", orders_ids.factor(2), changes))
+    assert off(scheme, orders_ids.factor(2), world) > 1
+    sheet = students.written(scheme, world)
+    if not written_down:
+        sheet = replace(sheet, values={at: one for at, one in sheet.values.items() if at[0] not in factors})
+    marking = mark(scheme, sheet)
+    named_so = [cell for cell in marking.cells if cell.mistake == "orders-first-term"]
+    assert {cell.where for cell in named_so} <= factors.keys()
+    assert named_so
+    filled = [cell for cell in marking.cells if cell.given is not None]
+    lost = sum(cell.worth - cell.points for cell in filled)
+    assert lost == (0 if accepted else len(named_so))
+    assert {cell.id for cell in marking.first_errors} == (set() if accepted else {cell.id for cell in named_so})
+    if written_down:
+        assert {cell.id for cell in named_so} == factors.keys()
+    feedback = "\n".join(cell_comment(cell, marking, case.words, show_answers=False) for cell in named_so)
+    assert "a textbook's approximation" in feedback
+
+
+def off(scheme: MarkingScheme, id: str, world: students.World) -> float:
+    return students.off(scheme, scheme.rows[id], world, 0)
 
 
 def test_what_the_sheet_asks_for() -> None:
