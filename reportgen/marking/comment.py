@@ -7,7 +7,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from reportgen.marking.feedback import amended, lateness, mistake_inlines, points_text
+from reportgen.marking.feedback import amended, blank_positions, blank_rows, lateness, mistake_inlines, points_text
 from reportgen.marking.grades import open_text
 from reportgen.marking.key import symbol_text, words_of
 from reportgen.marking.marks import Marked, Marking, Unmarked, points_of
@@ -17,6 +17,9 @@ from reportgen.report.key import Key
 
 FIRSTS = 5
 """First mistakes that are told; the page of feedback has them all."""
+
+BLANKS = 10
+"""Quantities left empty that are named; the page of feedback has them all."""
 
 
 def comment(marking: Marking, policy: Policy) -> Iterator[str]:
@@ -36,13 +39,15 @@ def _lines(marking: Marking, policy: Policy) -> Iterator[str]:
     yield from lateness(marking, policy, words)
     yield from (words["warnings"][warning] for warning in marking.warnings)
     firsts = [cell for cell in marking.first_errors if cell.given is not None]
-    yield said["firsts" if firsts else "no_firsts"]
+    given = any(cell.given is not None for cell in marking.cells)
+    yield said["firsts" if firsts else "no_firsts" if given else "nothing_given"]
     yield from (
         f"– {_named(cell, key)}: {plain(mistake_inlines(cell, key, words), language)}" for cell in firsts[:FIRSTS]
     )
     if len(firsts) > FIRSTS:
         yield said["others"].format(count=len(firsts) - FIRSTS)
     yield from _open(marking, said)
+    yield from _left_blank(marking, said)
     yield said["by_part"].format(parts="; ".join(_by_part(marking, words)))
     if marking.amendments:
         yield f"{words['feedback']['amended']}:"
@@ -76,6 +81,19 @@ def _named(cell: Marked, key: Key) -> str:
     row = key.row(cell.id)
     where = f"{symbol_text(row, key)} ({key.label(cell.position, cell.id)})" if cell.position else symbol_text(row, key)
     return ", ".join(filter(None, (where, row.what)))
+
+
+def _left_blank(marking: Marking, said: Mapping[str, Any]) -> Iterator[str]:
+    """What is asked for and was left empty, a quantity a line."""
+    rows = blank_rows(marking)
+    if rows:
+        yield said["left_blank"]
+    for id, blank in list(rows.items())[:BLANKS]:
+        row, labels = marking.key.row(id), blank_positions(marking, blank)
+        symbol = symbol_text(row, marking.key)
+        yield f"– {', '.join(filter(None, (f'{symbol} ({labels})' if labels else symbol, row.what)))}"
+    if len(rows) > BLANKS:
+        yield said["others"].format(count=len(rows) - BLANKS)
 
 
 def _by_part(marking: Marking, words: Mapping[str, Any]) -> Iterator[str]:

@@ -141,6 +141,7 @@ def feedback_document(marking: Marking, title: str, policy: Policy | None = None
         *_section(feedback["followed"], _listed_cells(marking, words, _followed(marking), feedback["followed_lead"])),
         *_section(feedback["approximated"], _approximated(marking, words)),
         *_section(feedback["elsewhere"], _listed_cells(marking, words, marking.elsewhere, feedback["elsewhere_lead"])),
+        *_section(feedback["left_blank"], _left_blank(marking, words)),
         *_section(feedback["amended"], _amended(marking, words)),
         *_section(feedback["unread"], _unread(marking, words)),
         *_section(feedback["noted"], _listed(marking.submission.notes)),
@@ -160,7 +161,9 @@ def _firsts(marking: Marking, words: Mapping[str, Any], show_answers: bool) -> I
     """The first error of each chain, in the order of the sheet."""
     firsts = [cell for cell in marking.first_errors if cell.given is not None]
     if not firsts:
-        if not any(cell.verdict is Verdict.wrong for cell in marking.cells):
+        if not any(cell.given is not None for cell in marking.cells):
+            yield paragraph(words["feedback"]["nothing_given"])
+        elif not any(cell.verdict is Verdict.wrong for cell in marking.cells):
             yield paragraph(words["feedback"]["no_firsts"])
         return
     yield paragraph(words["feedback"]["firsts_lead"])
@@ -220,6 +223,34 @@ def _listed_cells(marking: Marking, words: Mapping[str, Any], chosen: Sequence[M
         line += [Text("; ")] if line else []
         line += sentence(words["feedback"]["with_labels"], symbol=symbol, labels=labels) if labels else (symbol,)
     yield Paragraph((Text(f"{lead} "), *line, Text(".")))
+
+
+def blank_rows(marking: Marking) -> dict[str, list[Marked]]:
+    """Return the cells that earn marks and were left empty, by the id of their row, in the order of the sheet."""
+    rows: dict[str, list[Marked]] = {}
+    for cell in marking.cells:
+        if cell.verdict is Verdict.blank and cell.worth:
+            rows.setdefault(cell.id, []).append(cell)
+    return rows
+
+
+def blank_positions(marking: Marking, blank: Sequence[Marked]) -> str:
+    """Return the labels of the positions at which a row is empty, "" if it is empty altogether."""
+    asked = sum(cell.id == blank[0].id for cell in marking.cells)
+    return ", ".join(marking.key.label(cell.position, cell.id) for cell in blank) if len(blank) < asked else ""
+
+
+def _left_blank(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:
+    """Every quantity that is asked for and was left empty, with its positions where only some of them were."""
+    lines = []
+    for id, blank in blank_rows(marking).items():
+        row, labels = marking.key.row(id), blank_positions(marking, blank)
+        symbol = InlineMath(row.symbol)
+        named = sentence(words["feedback"]["with_labels"], symbol=symbol, labels=labels) if labels else (symbol,)
+        lines.append((*named, *((Text(f", {row.what}"),) if row.what else ())))
+    if lines:
+        yield paragraph(words["feedback"]["left_blank_lead"])
+        yield tree.List(tuple((Paragraph(line),) for line in lines))
 
 
 def _amended(marking: Marking, words: Mapping[str, Any]) -> Iterator[Block]:

@@ -108,9 +108,8 @@ def _of_springs(scheme: MarkingScheme) -> Iterator[Mistake]:
 def _changes_of(scheme: MarkingScheme, family: Family, scales: Values) -> Iterator[tuple[str, Change]]:
     """What one quantity becomes with each mistake, by name."""
     id = family.id
-    misconceptions = scheme.misconceptions
-    for name, other in (*misconceptions.changed.get(id, ()), *misconceptions.approximations.get(id, ())):
-        yield name, _with(other, {})
+    for known in (scheme.misconceptions.changed, scheme.misconceptions.approximations):
+        yield from ((name, _with(other, {})) for name, other in known.get(id, ()))
     if family.definition is not None:
         yield from _in_a_definition(scheme, family, family.definition, scales)
     for name, reading in scheme.misconceptions.readings.get(id, ()):

@@ -32,6 +32,7 @@ from reportgen.formula import (
 from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
 from reportgen.plans.loads import Edge, Polygon
+from reportgen.plans.motion import What
 from reportgen.plans.sides import Side
 from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.groups import Contact, GroupView
@@ -73,6 +74,17 @@ def typed(report: Report, id: str) -> Inline:
 def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
     """A quantity as "symbol = number" in running text."""
     return InlineMath(symbol(report, id)), Text(" = "), value(report, id, position)
+
+
+def directions(report: Report, what: What, position: int) -> Inlines:
+    """Return "symbol = angle" for the directions of all points on a plan ("v", "a"); a point at rest has none."""
+    places = [
+        id
+        for id, family in report.ledger.families.items()
+        if (names := ids.direction.read(id)) and names["what"] == what and np.isfinite(family.at(position))
+    ]
+    listed = [quantity(report, id, position) for id in places]
+    return tuple(one for index, part in enumerate(listed) for one in (*((Text("; "),) if index else ()), *part))
 
 
 def known(report: Report, id: str) -> bool:

@@ -315,6 +315,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "acceleration_equation": equations.acceleration_equation,
     "driver_equation": equations.driver_equation,
     "equations": equations.equations,
+    "directions": equations.directions,
     "functions": equations.functions,
     "force_equation": equations.force_equation,
     "link_equation": equations.link_equation,

@@ -57,6 +57,23 @@ def test_our_own_report_is_read(name: str, language: str) -> None:
         assert answer.value == pytest.approx(printed, rel=5e-3, abs=1e-9), (id, position, answer)
 
 
+@pytest.mark.parametrize(
+    ("name", "language"),
+    matrix(
+        [(name, language) for name in ("slider-crank-01", "four-bar-01") for language in ("vi", "en", "ru", "zh")],
+        [("slider-crank-01", "en")],
+    ),
+)
+def test_our_own_report_says_all_that_its_sheet_asks(name: str, language: str) -> None:
+    """The directions of velocities and accelerations are asked for, so the report has them in its text."""
+    case = open_case(made_reports.ROOT / f"{name}.yaml", language)  # type: ignore[arg-type]
+    key = Ask().of(key_of(case))
+    content = word.write(case.document(), lambda scenes: [(b"", b"") for _ in scenes])
+    reading = read_report(open_word(Path("report.docx"), content).blocks, key, "report.docx")
+    asked = {(row.id, position) for row in key.asked for position in row.positions}
+    assert asked <= reading.values.keys()
+
+
 # --- single rules -----------------------------------------------------------------------------------
 
 

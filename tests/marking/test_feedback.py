@@ -17,6 +17,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import load_words
 from reportgen.drawing import Label
 from reportgen.marking.class_page import class_document
+from reportgen.marking.comment import comment
 from reportgen.marking.feedback import FIRST, STYLES, feedback_book, feedback_document, mistake_inlines, points_text
 from reportgen.marking.grades import grade_rows
 from reportgen.marking.marks import Answer, Marked, Marking, Notice, Submission, Unmarked, Verdict
@@ -148,6 +149,30 @@ def test_a_perfect_sheet_hears_of_no_error() -> None:
     assert "No wrong value was found." in text
     assert "Result: 3 of 3 points." in text
     assert "What followed" not in text
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_an_empty_sheet_is_not_called_right_and_its_blanks_are_named(language: Language) -> None:
+    found = marking(language)
+    blank = [replace(one, verdict=Verdict.blank, given=None, points=0.0, first=False) for one in found.cells]
+    words = load_words(search_path(language))
+    empty = replace(found, cells=tuple(blank), flags=())
+    page = text_of(feedback_document(empty, "Crank"))
+    short = "\n".join(comment(empty, Policy()))
+    for text, said in ((page, words["feedback"]), (short, words["comment"])):
+        assert said["no_firsts"] not in text
+        assert said["nothing_given"] in text
+    for symbol in ("ω_1", "v_B", "α_vB"):
+        assert f"– {symbol}" in short
+    assert page.count(words["feedback"]["left_blank"]) == 1
+
+
+def test_a_row_that_is_empty_in_part_is_named_with_its_positions() -> None:
+    """The direction of v_B is blank at position 1 of three; an optional cell that earns nothing is not missed."""
+    found = marking()
+    assert "– α_vB (1)" in "\n".join(comment(found, Policy()))
+    optional = replace(found, cells=tuple(replace(one, worth=0.0) for one in found.cells))
+    assert "α_vB" not in "\n".join(comment(optional, Policy()))
 
 
 @pytest.mark.parametrize("language", LANGUAGES)

@@ -176,7 +176,7 @@ def test_a_slip_in_a_scale_costs_one_mark() -> None:
 
 
 def made_up(scheme: MarkingScheme, rng: np.random.Generator) -> dict[str, Any]:
-    """How a student works who misreads one datum or two, or takes a wrong ω₁, with the crank drawn at any size."""
+    """How a student works who misreads one datum or two, or takes a wrong ω₁, with the crank drawn smaller or not."""
     data = [id for id in hands.data_used(scheme) if id != "g"]
     chosen = rng.choice(data, size=1 + int(rng.random() < 0.3), replace=False)
     factors = rng.choice([0.8, 0.9, 1.1, 1.25], size=len(chosen))
@@ -184,8 +184,10 @@ def made_up(scheme: MarkingScheme, rng: np.random.Generator) -> dict[str, Any]:
     if "omega.1" in scheme.rows and rng.random() < 0.4:
         changes = {"omega.1": partial(mul, float(rng.choice([60.0, 30 / np.pi])))}
     how: dict[str, Any] = {"changes": changes, "by_lengths": bool(rng.integers(2)), "figures": int(rng.choice([3, 4]))}
-    if rng.random() < 0.5:
-        how["paper"] = float(rng.choice([0.03, 0.04, 0.06, 0.08]))
+    paper = [id for id, one in scheme.ledger.families.items() if id.startswith("drawn.") and one.definition is None]
+    if paper and rng.random() < 0.5:
+        # A larger drawing is read more finely, and its first values are judged so.
+        how["paper"] = float(scheme.ledger[paper[0]].values[0]) / float(rng.choice([1.25, 1.6]))
     if scheme.ledger["mu.l"].definition is not None and rng.random() < 0.75:
         how["plan_scales"] = {}
     return how | {"blunt": 0.3e-3, "seed": int(rng.integers(1 << 30))}
