@@ -72,7 +72,7 @@ IN_ENGLISH = dict(zip(INDICES[0].values(), (INDICES[1][name] for name in INDICES
 def in_english(formula: str) -> str:
     """A formula with its indices in English: J_tt2 as J_r2."""
     return re.sub(
-        r"(?<=[_^])\w+", lambda index: re.sub("[^\\W\\d_A-Z]+", lambda w: IN_ENGLISH.get(w[0], w[0]), index[0]), formula
+        r"(?<=[_^])[\w,]+", lambda index: re.sub("[^\\W\\d_A-Z]+", lambda w: IN_ENGLISH.get(w[0], w[0]), index[0]), formula
     )
 
 
