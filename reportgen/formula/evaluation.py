@@ -61,6 +61,12 @@ def arg(vector: Value) -> Value:
     return np.where(angle <= BEHIND - np.pi, np.pi, angle)
 
 
+def single(moment: Value, force: Value) -> Value:
+    """Return the distance M/F of the one force that has this moment: 0 where both are nothing, nan for a couple."""
+    moment, force = np.asarray(moment), np.asarray(force)
+    return np.where((force == 0) & (moment != 0), np.nan, quotient(moment, force))
+
+
 def if_zero(a: Value, b: Value) -> Value:
     """b where a is nothing, 0 elsewhere: the couple that remains when its force vanishes."""
     return np.where(np.asarray(a) == 0, b, 0.0)
@@ -93,8 +99,8 @@ def amid(value: Value, least: Value, most: Value) -> Value:
 
 
 def beyond(value: Value, place: Value, least: Value, most: Value) -> Value:
-    """The value where the place lies below `least` or above `most`, nan elsewhere."""
-    return np.where((place < least) | (place > most), value, np.nan)
+    """The value where the place, which a couple lacks, does not lie between `least` and `most`; nan elsewhere."""
+    return np.where((place >= least) & (place <= most), np.nan, value)
 
 
 def where_positive(value: Value, place: Value) -> Value:
@@ -204,6 +210,7 @@ FUNCTIONS: Mapping[str, Callable[..., Value]] = {
     "highest": lambda value: np.max(value, axis=-1, keepdims=True),
     "lowest": lambda value: np.min(value, axis=-1, keepdims=True),
     "quotient": quotient,
+    "single": single,
     "if_zero": if_zero,
     "within": within,
     "beyond": beyond,

@@ -202,6 +202,8 @@ def laid(node: Expression, language: Language, slashed: bool = False, linear: bo
                 return MathRow((tight(left, QUOTIENT), sign, tight(right, QUOTIENT)))
             case Call("beyond" | "where_positive", (value, *_)):
                 return of(value)
+            case Call("single", (moment, force)):
+                return of(moment / force)
             case Call(name, arguments):
                 return applied(name, arguments, None)
             case Matrix(rows):
@@ -261,7 +263,7 @@ def level(node: Expression, linear: bool = False) -> int:
             return PRODUCT
         case Call("beyond" | "where_positive", (value, *_)):
             return level(value, linear)
-        case Fraction() | Power() | Call("cross" | "dot"):
+        case Fraction() | Power() | Call("cross" | "dot" | "single"):
             return QUOTIENT
         case Call() | Root():
             return ATOM if linear else QUOTIENT

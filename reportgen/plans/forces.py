@@ -30,11 +30,10 @@ from reportgen.formula import (
     turned,
     unit,
 )
-from reportgen.formula.sheet import Sheet
+from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
 from reportgen.plans.loads import (
-    FAINT,
     Applied,
     Edge,
     ForceChain,
@@ -301,17 +300,18 @@ def _moment(g: Group, digits: str, pin: str, loads: tuple[LoadOn, ...]) -> Expre
 
 
 def _offset(g: Group, digits: str) -> None:
-    """The distance x = M/R from the pin to the line of a slide's reaction."""
-    q, statics, size, id = g.q, g.statics, g.q[ids.reaction(digits)], ids.reaction_couple(digits)
+    """The distance x = M/R from the pin to the line of a slide's reaction; nan where R = 0 leaves M to a couple."""
+    q, statics, size, moment = g.q, g.statics, g.q[ids.reaction(digits)], g.q.find(ids.reaction_couple(digits))
     values = q.value(size)
-    formula: Expression
-    if id not in q:
-        formula = quotient(0.0, size)
-    elif np.all(values[np.isfinite(values)] > CLEAR * statics.force):
-        formula = q[id] / size
-    else:
-        formula = quotient(q[id], above(size, FAINT * statics.force))
-    q.define(ids.application(digits), formula, scale=statics.span)
+    written: Expression | None = None
+    formula: Expression = quotient(0.0, size)
+    if moment is not None and np.all(values[np.isfinite(values)] > CLEAR * statics.force):
+        formula = moment / size
+    elif moment is not None:
+        couple = moment * sign(above(abs(moment), ZERO * statics.torque))
+        formula = call("single", couple, above(size, ZERO * statics.force))
+        written = call("single", moment, size)
+    q.define(ids.application(digits), formula, scale=statics.span, written=written)
 
 
 def _faces(g: Group, digits: str, link: int) -> None:
@@ -327,8 +327,7 @@ def _faces(g: Group, digits: str, link: int) -> None:
     N = q.define(ids.normal_reaction(digits), R * side, scale=statics.force)
     place = -(q[ids.application(digits)] * side)
     x = q.define(ids.normal_place(digits), place, scale=statics.span, written=None if M is None else -M / N)
-    beyond = (q.value(x) < q.si(first)) | (q.value(x) > q.si(last))
-    if not np.any(beyond):
+    if np.all((q.value(x) >= q.si(first)) & (q.value(x) <= q.si(last))):
         return
     moment: Expression = Number(0.0) if M is None else M
     ends = (N * last + moment) / (last - first), -((N * first + moment) / (last - first))

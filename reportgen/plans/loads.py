@@ -212,7 +212,7 @@ def _divisor(statics: Statics, load: LoadOn) -> Expression:
     return load.size
 
 
-def above(size: Ref, floor: float) -> Expression:
+def above(size: Expression, floor: float) -> Expression:
     """A size (SI), 0 where it does not exceed `floor` (SI)."""
     return size * sign(call("max", 0.0, size - floor))
 

@@ -53,6 +53,8 @@ class Side:
     """The link whose turning gives a sliding point its Coriolis acceleration, 0 if nothing turns."""
     carrier: int | None = None
     """The link that has the guide when the base is that link's point under `point`, None when the base is a pin."""
+    alike: bool = False
+    """Whether the other side of the group slides along a guide too, so that a guide must be named by its link."""
 
     @property
     def turns(self) -> bool:
@@ -62,6 +64,12 @@ class Side:
     def way(self) -> str:
         """How the point moves relative to its base: it "turns", or slides along a "guide" or a "slot"."""
         return "turns" if self.turns else "guide" if self.guided else "slot"
+
+    @property
+    def slide(self) -> int:
+        """The link that slides along the guide, or that has the slot; 0 where the point turns."""
+        named = ids.guide.read(self.along) or ids.slot.read(self.along) or {"link": "0"}
+        return int(named["link"])
 
     @property
     def state(self) -> str:
@@ -152,12 +160,13 @@ def _turn(plan: Scheme, point: str, base: str | Guide, link: int, measured: bool
     return Side(point, base, plan.still(base), base, link, measured)
 
 
-def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others: str) -> Side:
+def _on_guide(plan: Scheme, point: str, guide: str | Guide, slider: int, *others: str, alike: bool = False) -> Side:
     """A point that slides over its guide's link; `others` are names already taken in the group."""
     assert isinstance(guide, Guide)
     base = under(point, guide.link, {*plan.owner, *others})
     on = guide.link
-    return Side(point, base, on == GROUND, base, along=ids.guide(slider), turning=plan.spins[on], carrier=on)
+    turning = plan.spins[on]
+    return Side(point, base, on == GROUND, base, along=ids.guide(slider), turning=turning, carrier=on, alike=alike)
 
 
 def _over_pin(plan: Scheme, dyad: Dyad, point: str) -> Side:
@@ -186,8 +195,8 @@ def _rpr(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
 
 def _prp(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:
     i, j = dyad.links
-    first = _on_guide(plan, dyad.middle, dyad.start, i)
-    return first, _on_guide(plan, dyad.middle, dyad.end, j, first.base)
+    first = _on_guide(plan, dyad.middle, dyad.start, i, alike=True)
+    return first, _on_guide(plan, dyad.middle, dyad.end, j, first.base, alike=True)
 
 
 def _rpp(plan: Scheme, dyad: Dyad) -> tuple[Side, Side]:

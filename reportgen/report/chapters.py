@@ -38,6 +38,7 @@ from reportgen.report import (
     listed,
 )
 from reportgen.report.comments import Peak, each_peak, reaction_ids, slider_rates, turning_rates
+from reportgen.report.guide_couples import guide_couples
 from reportgen.report.phrases import sign
 from reportgen.report.report import Report
 
@@ -131,6 +132,16 @@ def linear_springs(report: Report) -> list[str]:
 def torsion_springs(report: Report) -> list[str]:
     """Return the loads of torsion springs."""
     return report.known(id for row in report.own["springs"] if row.twists for id in row.loads)
+
+
+def has_moments_of_inertia(report: Report) -> bool:
+    """Return True if the mass of any moving link is spread out."""
+    return any(id in ids.inertia for id in report.mass_lines)
+
+
+def has_moment_components(report: Report) -> bool:
+    """Return True if moments give a reaction, or a component of one, before a force plan."""
+    return any(group.by_moments for group in report.groups)
 
 
 def spring_loads(report: Report) -> list[str]:
@@ -248,7 +259,8 @@ def _extremes(report: Report) -> Iterator[Peak]:
     for what, rotation in (("v", "omega"), ("a", "eps")):
         points = slider_rates(report, what) or report.known(ids.POINT_RATE[what](group.M) for group in report.groups)
         yield from each_peak(report, [*points, *turning_rates(report, rotation)], report.positions)
-    yield from each_peak(report, reaction_ids(report), report.all_positions)
+    couples = [slide.moment for slide in guide_couples(report)]
+    yield from each_peak(report, [*reaction_ids(report), *couples], report.all_positions)
 
 
 def _row(top: Peak) -> tuple[Inlines, Inlines, Inlines]:

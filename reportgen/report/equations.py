@@ -386,7 +386,13 @@ def _direction(report: Report, side: Side) -> str:
     """The direction of what is sought on a side."""
     if side.turns:
         return f"⊥ {subscripted(side.rod)}"
-    return str(report.words["vector"]["along_slot" if side.carrier is None else "along_guide"])
+    return _slide(report, "along", side)
+
+
+def _slide(report: Report, how: str, side: Side) -> str:
+    """What lies "along" or "across" the slide of a side; of two guides each has the number of its slider."""
+    way = str(report.words["vector"][f"{how}_{side.way}"])
+    return f"{way} {side.slide}" if side.alike else way
 
 
 def _relative(report: Report, side: Side) -> tuple[Term, ...]:
@@ -401,7 +407,7 @@ def _relative(report: Report, side: Side) -> tuple[Term, ...]:
     if not side.turning:
         return (sought,)
     twice = 2 * ledger.symbol(side.omega) * ledger.symbol(side.velocity)
-    across = words["across_slot" if side.carrier is None else "across_guide"]
+    across = _slide(report, "across", side)
     turned = words["turned"].format(link=subscripted(str(side.turning)))
     sense = Chain((ledger.symbol(side.velocity),), turned)
     return _term(report, "a", side.pair, "k", direction=across, sense=sense, size=twice), sought
@@ -486,7 +492,7 @@ def _force(report: Report, group: GroupView, edge: Edge) -> Term:
         along = f"{'∥' if normal else '⊥'} {subscripted(way.rod)}"
         return Term(shown, (along, None if normal else words["computed"]))
     if edge.unknown:
-        return Term(shown, (words["across_guide"] if way.guided else None, None))
+        return Term(shown, (_slide(report, "across", way) if way.guided else None, None))
     return Term(shown, (words["given"], words["given"]))
 
 

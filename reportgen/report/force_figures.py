@@ -20,10 +20,11 @@ from reportgen.drawing.plan import plan
 from reportgen.drawing.style import CONSTRUCTION, PAPER, THIN, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
-from reportgen.machine.forces import Load, as_single_force, percussion_points
+from reportgen.machine.forces import Load, as_single_force
 from reportgen.plans.loads import Polygon
+from reportgen.report import guide_couples, percussion
 from reportgen.report.figures import HALF, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
-from reportgen.report.groups import BodyView, GroupView
+from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
 from reportgen.report.wide_sliders import at_ends, ends_of
@@ -91,6 +92,28 @@ class _Bodies:
                 shown = _of_arc(symbol, float(load.couple[index])) if torque else symbol
                 result.append(Couple(shown, complex(load.point[index]) * self.scale, float(load.couple[index])))
         return result
+
+    def of_guides(self, group: GroupView) -> list[Couple]:
+        """Couples of guides without a force, on the links of a group; the one between both links on a link alone."""
+        report, k = self.report, self.k
+        return [
+            couple
+            for slide in group.contacts
+            for link in self.links
+            if link == slide.link or slide.digits == group.inner
+            if slide.digits != group.inner or len(self.links) == 1
+            for couple in guide_couples.drawn(report, slide, link, k, self.at(slide.pin))
+        ]
+
+    def couples_found_before(self, polygon: Polygon) -> list[Couple]:
+        """Couples of guides without a force that other groups leave on the links of a force plan."""
+        report, k = self.report, self.k
+        return [
+            couple
+            for slide, link in guide_couples.handed_on(report, polygon)
+            if link in self.links
+            for couple in guide_couples.drawn(report, slide, link, k, self.at(slide.pin))
+        ]
 
     def arms(self, known: Sequence[str], pin: str) -> list[ArmOf]:
         """The arms about a pin that are not zero."""
@@ -170,7 +193,10 @@ def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
     alone = _moments(report, group, k)
     scenes = []
     if report.parts("links-together") or {link for link, _ in alone} != {group.i, group.j}:
-        scenes.append(both.scene(forces, turning=both.couples(), title=title))
+        turning = [*both.couples(), *both.of_guides(group), *both.couples_found_before(group.polygon)]
+        others = {group.i, group.j} - {link for link, _ in alone}
+        marks = sum((percussion.drawn(report, link, k, both.scale) for link in sorted(others)), Canvas())
+        scenes.append(both.scene(forces, marks, turning=turning, title=title))
     for link, pin in alone:
         bodies = _Bodies(report, k, (link,))
         forces = [
@@ -180,8 +206,9 @@ def separated(report: Report, k: int, group: GroupView) -> list[Scene]:
             bodies.inner(group, link),
         ]
         arms, title = bodies.arms(group.arms(pin, link), pin), f"{report.words['figure']['link']} {link}"
-        extra = _percussion(report, link, k) + _foot(report, group, link, k)
-        scenes.append(bodies.scene(forces, arms=arms, turning=bodies.couples(), extra=extra, title=title))
+        extra = percussion.drawn(report, link, k, bodies.scale) + _foot(report, group, link, k)
+        turning = [*bodies.couples(), *bodies.of_guides(group), *bodies.couples_found_before(group.polygon)]
+        scenes.append(bodies.scene(forces, arms=arms, turning=turning, extra=extra, title=title))
     return scenes
 
 
@@ -218,8 +245,10 @@ def separated_driver(report: Report, k: int) -> Scene:
     if centre:
         torque = 0.0 if report.is_zero("M.eq", k) else float(report.ledger["M.eq"].at(k).real)
         balance = Couple(_of_arc(report.balance_symbol(), torque), pin, torque)
-        return body.scene(forces, arms=body.arms(report.crank_arms, centre), turning=(balance,))
-    return body.scene(forces)
+        turning = (balance, *body.couples_found_before(polygon))
+        marks = percussion.drawn(report, DRIVER, k, body.scale)
+        return body.scene(forces, marks, arms=body.arms(report.crank_arms, centre), turning=turning)
+    return body.scene(forces, turning=body.couples_found_before(polygon))
 
 
 # --- loads
@@ -242,40 +271,10 @@ def _is_torque(report: Report, load: Load) -> bool:
 def _acts_at(report: Report, load: Load, k: int) -> complex:
     """Where a load is drawn: an inertia force at the constructed point Q, else where it acts alone."""
     for body in report.couples:
-        if load.name == body.force and (points := _percussion_points(report, body, k)):
-            return points[1]
+        if load.name == body.force:
+            return percussion.percussion(report, body, k).at
     single = complex(as_single_force(load)[k - 1])
     return single if np.isfinite(single) else complex(load.point[k - 1])
-
-
-def _percussion_points(report: Report, body: BodyView, k: int) -> tuple[complex, complex] | None:
-    """The centre of percussion K and the point Q (m); None where their lines do not meet near the link."""
-    start, centre = (report.analysis.motion.points[name] for name in (body.start, body.centre))
-    l_sk = float(report.ledger[body.ids[-1]].values[0])
-    s, a = complex(centre.p[k - 1]), complex(start.p[k - 1])
-    known, meeting = (
-        complex(points[k - 1]) for points in percussion_points(start.p, centre.p, start.a, centre.a, l_sk)
-    )
-    near = abs(s - a) + 2 * l_sk
-    return (known, meeting) if np.isfinite(meeting) and abs(meeting - s) < near else None
-
-
-def _percussion(report: Report, link: int, k: int) -> Canvas:
-    """K on a link, and the two lines of construction that meet in Q."""
-    body = next((body for body in report.couples if body.link == link), None)
-    points = body and _percussion_points(report, body, k)
-    if not body or not points or report.is_zero(body.couple, k):
-        return Canvas()
-    scale, number = drawing_scale(report), str(link)
-    known, meeting = (point * scale for point in points)
-    marks: tuple[Item, ...] = (
-        Line(report.place(body.centre, k) * scale, meeting, CONSTRUCTION),
-        Line(known, meeting, CONSTRUCTION),
-        Circle(known, 0.6, VISIBLE, PAPER),
-        Circle(meeting, 0.6, VISIBLE, PAPER),
-    )
-    labels = label(known, Symbol("K", number), gap=1.2), label(meeting, Symbol("Q", number), gap=1.2)
-    return Canvas(marks, labels)
 
 
 def _foot(report: Report, group: GroupView, link: int, k: int) -> Canvas:

@@ -438,7 +438,7 @@ class GroupView:
         return self.polygon.reads[-1].end
 
 
-@view("force")
+@view("force", "couple")
 @dataclass(frozen=True, slots=True)
 class BodyView:
     """A link with an inertia couple: its number, mass centre, the pin it is measured from, the ids to show."""

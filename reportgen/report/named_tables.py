@@ -2,25 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from reportgen.machine.analysis import Position
-from reportgen.report import Paragraph, Table, balancing, joint_friction, result_tables, running, tables, wide_sliders
-from reportgen.report import chapters as overview
+from reportgen.report import (
+    Paragraph,
+    Table,
+    balancing,
+    chapters,
+    joint_friction,
+    result_tables,
+    running,
+    tables,
+    wide_sliders,
+)
 from reportgen.report.report import Report
 
 
 @dataclass(frozen=True, slots=True)
 class QuantityTable:
-    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report."""
+    """A table of the quantities whose ids a function gives, `at` the positions of that name in the report.
+
+    The words of a `group` of quantities, by the beginnings of their ids, follow the caption where it has a column.
+    """
 
     ids: Callable[[Report], Sequence[str]]
     at: str = "positions"
+    groups: Mapping[str, Collection[str]] = field(default_factory=dict)
 
-    def __call__(self, report: Report, key: str, caption: str, head: Sequence[str]) -> tuple[Table | Paragraph, ...]:
-        return tables.tables(report, key, caption, self.ids(report), getattr(report, self.at))
+    def __call__(
+        self, report: Report, key: str, caption: str, head: Sequence[str], ids: Sequence[str] | None = None
+    ) -> tuple[Table | Paragraph, ...]:
+        quantities, positions = self.ids(report) if ids is None else ids, getattr(report, self.at)
+        shown = [id for id in quantities if not all(report.is_zero(id, k) for k in positions)]
+        words = report.words["tables"][key.removeprefix("tab.")]
+        further = [words[name] for name, of in self.groups.items() if any(id.startswith(tuple(of)) for id in shown)]
+        return tables.tables(report, key, "".join((caption, *further)), quantities, positions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,9 +55,9 @@ class RowTable:
 
 TABLES: Mapping[str, Callable[..., Any]] = {
     # results at the front, symbols
-    "extremes": overview.extremes,
-    "main.figures": RowTable(overview.main_figures, (74.0, 22.0, 36.0, 28.0)),
-    "symbols": RowTable(overview.symbols, (40.0, 92.0, 28.0)),
+    "extremes": chapters.extremes,
+    "main.figures": RowTable(chapters.main_figures, (74.0, 22.0, 36.0, 28.0)),
+    "symbols": RowTable(chapters.symbols, (40.0, 92.0, 28.0)),
     # given data
     "given": tables.given_data,
     "indicator": tables.indicator,
@@ -61,13 +80,16 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "eps": RowTable(result_tables.angular_accelerations, (34.0, 40.0, 60.0)),
     "summary": RowTable(result_tables.summary, (46.0, 46.0, 46.0)),
     "v.segments": QuantityTable(result_tables.velocity_segments),
-    "v": QuantityTable(result_tables.velocities),
+    "v": QuantityTable(result_tables.velocities, groups={"turning": ("turn.omega.",)}),
     "a.segments": QuantityTable(result_tables.acceleration_segments),
-    "a": QuantityTable(result_tables.accelerations),
+    "a": QuantityTable(result_tables.accelerations, groups={"turning": ("turn.eps.",)}),
     # forces
+    "springs": QuantityTable(
+        chapters.spring_lines, "load_positions", groups={"lengths": ("spring.l.",), "turns": ("spring.turn.",)}
+    ),
     "strokes": result_tables.strokes,
     "gas": QuantityTable(result_tables.gas, "load_positions"),
-    "inertia": QuantityTable(result_tables.inertia, "all_positions"),
+    "inertia": QuantityTable(result_tables.inertia, "all_positions", groups={"couples": ("M.Pqt",)}),
     "R": QuantityTable(result_tables.reactions, "all_positions"),
     "faces": RowTable(wide_sliders.rows, (20.0, 28.0, 28.0, 46.0, 28.0, 28.0)),
     "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),

@@ -376,7 +376,7 @@ def line_start(report: Report, what: str, side: Side) -> Inlines:
 
 def along(report: Report, side: Side) -> Inlines:
     """The direction of what is sought on a side."""
-    return say(report, report.words["plan"]["directions"][side.way], rod=subscripted(side.rod))
+    return say(report, report.words["plan"]["directions"][side.way], rod=subscripted(side.rod), link=side.slide)
 
 
 def sought(report: Report, what: str, group: GroupView, side: Side) -> Symbol:

@@ -27,6 +27,7 @@ from reportgen.report import (
 )
 from reportgen.report.comments import AT_REST
 from reportgen.report.groups import GroupView
+from reportgen.report.guide_couples import guide_couples
 from reportgen.report.report import Report
 from reportgen.report.tables import bare, list_table, side_by_side, tables
 
@@ -240,7 +241,7 @@ def reactions(report: Report) -> list[str]:
     for group in reversed(report.groups):
         columns += [ids.reaction(joint, "t") for joint in (group.outer, group.guide)]
         columns += [ids.reaction(joint) for joint in (group.outer, group.inner, group.guide)]
-    return report.known([*columns, "R.01"])
+    return report.known([*columns, "R.01", *(slide.moment for slide in guide_couples(report))])
 
 
 def reaction_angles(report: Report) -> list[str]:
