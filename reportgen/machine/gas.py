@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal, get_args
 
@@ -37,6 +37,8 @@ HALVINGS = 60
 """A stroke halved so often is below the spacing of floats there."""
 DRAWN_IN_A_STROKE = 91
 """Points of a stroke's line that is drawn from a table over the angle, two degrees apart."""
+NODE = 1e-9
+"""A place this near to a node, relative to its size, is there."""
 SETTLED = 1e-9
 """A last step (rad) whose square is far below rounding."""
 
@@ -72,7 +74,8 @@ class Tabled:
 class Bracket:
     """Where positions lie in a table: at `at` between two nodes next to each other, with their pressures (Pa); all [N].
 
-    `kind` is the kind of quantity that the nodes have: the "ratio" s/H, or the "angle" of the cycle.
+    `kind` is the kind of quantity of the nodes: the "ratio" s/H, the "angle" of the cycle, or a "length", the way.
+    Of the table of a load the pressures are its sizes (N or N·m).
     """
 
     kind: str
@@ -95,6 +98,19 @@ class Bracket:
             pressure_before=pressures[each, index],
             pressure_after=pressures[each, index + 1],
         )
+
+    @property
+    def between(self) -> np.ndarray:
+        """Whether something is to be interpolated [N]: not at a node, nor between two equal values."""
+        ends = np.array([self.before, self.after])
+        room = NODE * np.max(np.abs(ends), axis=0)
+        at_node = (np.abs(self.at - ends) <= room).any(axis=0)
+        return np.asarray((self.pressure_before != self.pressure_after) & ~at_node)
+
+    def in_first(self, turn: float) -> Bracket:
+        """The same places less the whole turns that lie before them."""
+        before = turn * np.floor(self.before / turn)
+        return replace(self, at=self.at - before, before=self.before - before, after=self.after - before)
 
 
 Branch = tuple[tuple[float, ...], tuple[float, ...]]

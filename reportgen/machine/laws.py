@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.coils import Coil
-from reportgen.machine.gas import AngleIndicator, Indicator, StrokeIndicator, Tabled, crossings
+from reportgen.machine.gas import AngleIndicator, Bracket, Indicator, StrokeIndicator, Tabled, crossings
 from reportgen.machine.motion import Motion
 
 Floats = NDArray[np.float64]
@@ -138,6 +138,10 @@ class Law(ABC):
         """The table that it is given by, if it is given by one."""
         return None
 
+    def bracket(self, angle: Floats, motion: Motion) -> Bracket | None:
+        """Between which values of its table it is read at cycle angles [N]; None for what no table gives."""
+        return None
+
     @property
     def symbol(self) -> Symbol | None:
         """What stands in its table, where that is not the load itself."""
@@ -177,6 +181,12 @@ class TableLaw(Law):
         """What stands in the table [N]."""
         course = self.course
         return self.table.pressure(course.phase + angle, course.fraction(motion), course.dead_centres)
+
+    def bracket(self, angle: Floats, motion: Motion) -> Bracket:
+        course = self.course
+        read = self.table.bracket(course.phase + angle, course.fraction(motion), course.dead_centres)
+        # A table of one turn is laid out twice; of its second turn, too, the first is printed.
+        return read if read.kind == "ratio" or self.turns > 1 else read.in_first(FULL_TURN)
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         course = self.course
@@ -240,8 +250,14 @@ class AngleLaw(ListedLaw):
     """Over cycle angles (rad) from 0 to the end of the cycle; the last value closes it, or jumps to the first."""
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
-        within = np.maximum(np.mod(angle + BEFORE_A_TURN, self.nodes[-1]) - BEFORE_A_TURN, 0.0)
-        return np.asarray(np.interp(within, self.nodes, self.values))
+        return np.asarray(np.interp(self._within(angle), self.nodes, self.values))
+
+    def _within(self, angle: Floats) -> Floats:
+        """The cycle angles [N] from 0 to the end of the cycle, which a place just before it begins again."""
+        return np.maximum(np.mod(angle + BEFORE_A_TURN, self.nodes[-1]) - BEFORE_A_TURN, 0.0)
+
+    def bracket(self, angle: Floats, motion: Motion) -> Bracket:
+        return Bracket.among("angle", self._within(angle), self.nodes, np.tile(self.values, (angle.size, 1)))
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return self.nodes
@@ -259,6 +275,10 @@ class WayLaw(ListedLaw):
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
         return np.asarray(np.interp(angle * self.span / FULL_TURN, self.nodes, self.values))
+
+    def bracket(self, angle: Floats, motion: Motion) -> Bracket:
+        way = angle * self.span / FULL_TURN
+        return Bracket.among("length", way, self.nodes, np.tile(self.values, (angle.size, 1)))
 
     def breaks(self, motion_at: MotionAt) -> Iterable[float]:
         return (way / self.span * FULL_TURN for way in self.nodes)

@@ -8,16 +8,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
-from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids
+from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids, vocabulary
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import ZERO, Sheet, is_short
 from reportgen.formula.vocabulary import KINDS, Chapter
 from reportgen.machine import Crank, Linkage, flywheel
-from reportgen.machine.analysis import Analysis, GasState, no_formulas, possible
+from reportgen.machine.analysis import Analysis, no_formulas, possible
 from reportgen.machine.balance import BalancedTurn, balanced_turn
-from reportgen.machine.loads import Applied, Piston, Torque
+from reportgen.machine.gas import Bracket
+from reportgen.machine.laws import Stroke
+from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.true_motion import TrueMotion, true_motion
 from reportgen.plans.balancing import enter_balancing
 from reportgen.plans.cycle import enter_flywheel
@@ -117,38 +119,43 @@ def _masses(q: Sheet, analysis: Analysis) -> None:
             q.define(weight, q[mass] * q["g"])
 
 
-def _between_nodes(q: Sheet, state: GasState) -> Expression:
-    """The pressure between the two points x′, p′ and x″, p″ of the diagram next to each position.
+def _between_nodes(
+    q: Sheet, among: Bracket, of: str | int, course: Stroke | None, shown: Symbol, kind: str
+) -> Expression:
+    """What is read between the two points x′, p′ and x″, p″ of a table next to each position.
 
         p = p′ + (p″ − p′)/(x″ − x′)·(x − x′)
 
-    x is s/H, or the angle φ of the cycle.
+    x is s/H of the `course`, the angle φ of the cycle, or the way s of a sliding driver; `of` names the load in ids.
     """
-    piston, link = state.piston, state.piston.link
-    among = piston.indicator.bracket(state.angle, state.fraction, piston.dead_centres)
-    letter = {"ratio": "x", "angle": "φ"}[among.kind]
+    letter, sort = {"ratio": ("x", "ratio"), "angle": ("φ", "angle"), "length": ("s", "length")}[among.kind]
 
-    def give(mark: str, place: np.ndarray, pressure: np.ndarray) -> tuple[Ref, Ref]:
-        x = q.give(ids.node(f"x{mark}", link), place, Symbol(letter, sup=mark), among.kind, hidden=True)
-        p = q.give(ids.node(f"p{mark}", link), pressure, Symbol("p", sup=mark), "pressure", hidden=True)
+    def give(mark: str, place: np.ndarray, size: np.ndarray) -> tuple[Ref, Ref]:
+        x = q.give(ids.node(f"x{mark}", of), place, Symbol(letter, sup=mark), sort, hidden=True)
+        p = q.give(ids.node(f"p{mark}", of), size, Symbol(shown.base, sup=mark), kind, hidden=True)
         return x, p
 
-    if among.kind == "angle":
-        degrees = np.radians(rounded(np.degrees(among.at), KINDS["angle"].decimals or 0))
-        x: Expression = q.give(ids.node("x", link), degrees, Symbol(letter), "angle", hidden=True)
+    x: Expression
+    if course is not None and among.kind == "ratio":
+        x = q[ids.displacement(course.link)] / _stroke(q, course)
     else:
-        x = q[ids.displacement(link)] / _stroke(q, piston)
+        places = (
+            np.radians(rounded(np.degrees(among.at), KINDS["angle"].decimals or 0)) if sort == "angle" else among.at
+        )
+        x = q.give(ids.node("x", of), places, Symbol(letter), sort, hidden=True)
     x1, p1 = give("′", among.before, among.pressure_before)
     x2, p2 = give("″", among.after, among.pressure_after)
     return p1 + (p2 - p1) / (x2 - x1) * (x - x1)
 
 
-def _stroke(q: Sheet, piston: Piston) -> Ref:
-    """The stroke of a piston: H as given, or with five figures as its dead centres are found."""
-    if "H" in q and abs(q.si("H") - piston.stroke) <= ZERO * piston.stroke:
+def _stroke(q: Sheet, course: Stroke) -> Ref:
+    """The stroke of a slider: H as given, or with five figures as its dead centres are found."""
+    if "H" in q and abs(q.si("H") - course.stroke) <= ZERO * course.stroke:
         return q["H"]
-    stroke = rounded(piston.stroke, significant_decimals(piston.stroke, KINDS["length"].digits))
-    return q.give(ids.stroke(piston.link), stroke, Symbol("H", str(piston.link)), "length", hidden=True)
+    if (entered := q.find(ids.stroke(course.link))) is not None:
+        return entered
+    stroke = rounded(course.stroke, significant_decimals(course.stroke, KINDS["length"].digits))
+    return q.give(ids.stroke(course.link), stroke, Symbol("H", str(course.link)), "length", hidden=True)
 
 
 def _way(q: Sheet, linkage: Linkage, link: int, values: np.ndarray, stroke: float) -> None:
@@ -186,8 +193,11 @@ def _applied(q: Sheet, analysis: Analysis) -> None:
             displacements = course.fraction(analysis.motion) * course.stroke
             _way(q, machine.linkage, force.link, displacements, course.stroke)
         if force.name in analysis.gas:
-            state = analysis.gas[force.name]
-            q.give(ids.pressure(force.link), state.pressure, exact=False, written=_between_nodes(q, state))
+            state, link = analysis.gas[force.name], force.link
+            piston = state.piston
+            among = piston.indicator.bracket(state.angle, state.fraction, piston.dead_centres)
+            written = _between_nodes(q, among, link, piston, Symbol("p"), "pressure")
+            q.give(ids.pressure(link), state.pressure, exact=False, written=written)
         _size(q, force, analysis)
     for torque in machine.torques:
         _size(q, torque, analysis)
@@ -201,7 +211,12 @@ def _size(q: Sheet, load: Applied | Torque, analysis: Analysis, symbol: Symbol |
             q.define(load.name, formula, symbol)
     else:
         size = load.law.value(analysis.cycle_angle, analysis.motion)
-        q.give(load.name, size, symbol, exact=is_short(size))
+        written, course = None, load.law.read_along
+        among = None if load.law.constant else load.law.bracket(analysis.cycle_angle, analysis.motion)
+        if among is not None and np.any(among.between):
+            shown = vocabulary.symbol(load.name) if isinstance(symbol, str) else symbol
+            written = _between_nodes(q, among, load.name, course, shown, vocabulary.row(load.name).kind)
+        q.give(load.name, size, symbol, exact=written is None and is_short(size), written=written)
 
 
 def _cycle(q: Sheet, analysis: Analysis) -> None:

@@ -360,11 +360,12 @@ def places(k: Kinematics, link: int, turn: Side | None) -> None:
     """Enter the places of a link's points: on a rod by the ratio of lengths, else along the frame's axis."""
     q, placed = k.q, k.links[link]
     for point in _points(k, link):
-        k.length(placed.origin, point.name, abs(point.local))
+        x, y = point.local.real, point.local.imag
+        k.distance(placed.origin, point.name, x, y)
         angle = k.constant(ids.point_turn(point.name), cmath.exp(1j * cmath.phase(point.local)) if point.local else 1)
         if turn is not None and not turn.measured:
             if _off_line(point):
-                k.length(turn.point, point.name, abs(point.local - q.si(ids.length(turn.rod))))
+                k.distance(turn.point, point.name, x, y, q[ids.length(turn.rod)])
             axis: Expression = unit(q[ids.rod(link)])
         else:
             axis = k.axis(link)

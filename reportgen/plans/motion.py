@@ -32,7 +32,7 @@ from reportgen.formula import (
     turned,
     unit,
 )
-from reportgen.formula.sheet import Sheet, is_short
+from reportgen.formula.sheet import TYPED, Sheet, is_short
 from reportgen.formula.vocabulary import drawn_length, on_plan, point, segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
 from reportgen.plans.scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
@@ -177,6 +177,20 @@ class Kinematics:
         id = ids.length(start, end)
         return self.q[id] if id in self.q else self.q.give(id, value, exact=is_short(value))
 
+    def distance(self, start: str, end: str, along: float, across: float, rod: Ref | None = None) -> Ref:
+        """A distance (m) of which coordinates along and across a link are given: √(x² + y²), or from the rod's end.
+
+        From that end, whose `rod` has the length l, it is √((l − x)² + y²).
+        """
+        signed = along if rod is not None else abs(along)
+        x, y = (Number(float(f"{value:.{TYPED}g}")) for value in (signed, abs(across)))
+        first: Expression = x if rod is None else rod - x
+        reach = along if rod is None else self.q.si(rod) - along
+        id, value = ids.length(start, end), math.hypot(reach, across)
+        if id in self.q or not (reach and across):
+            return self.length(start, end, value)
+        return self.q.give(id, value, exact=is_short(value), written=sqrt(first**2 + y**2))
+
     def drawn(self, start: str, end: str) -> Expression:
         """Enter a length as it is drawn; gives the length (m) that the drawing then shows."""
         q, on_paper = self.q, self.q[ids.length(start, end)] / self.q["mu.l"]
@@ -279,7 +293,7 @@ def crank(
     q.construct(ids.place(pin), k.place(centre) + length * cis(φ1))
     further = [place for place in scheme.linkage.points if place.link == DRIVER]
     for place in further:
-        k.length(centre, place.name, abs(place.local))
+        k.distance(centre, place.name, place.local.real, place.local.imag)
         reach = k.drawn(centre, place.name)
         q.construct(ids.place(place.name), k.place(centre) + reach * cis(φ1 + cmath.phase(place.local)))
 

@@ -35,6 +35,7 @@ from reportgen.report import (
     figures,
     force_figures,
     guide_couples,
+    interpolations,
     percussion,
     phrases,
     plans,
@@ -150,6 +151,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     # what is set out together, by ids
     "constant_group": chapters.constant_group,
     "constant_links": chapters.constant_links,
+    "coordinate_lengths": chapters.coordinate_lengths,
     "crank_lines": chapters.crank_lines,
     "driver_joints": chapters.driver_joints,
     "driver_reactions": chapters.driver_reactions,
@@ -346,6 +348,7 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "force_list": equations.force_list,
     "group_kind": equations.group_kind,
     "load_sense": phrases.load_sense,
+    "loads_read": interpolations.loads_read,
     "mirror_images": plans.mirror_images,
     "say": phrases.say,
     "senses": equations.senses,

@@ -1,0 +1,46 @@
+"""Loads that are read from a table: at a position the line of the interpolation, or the value that the table has."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from reportgen.base.shown import shown
+from reportgen.formula import ids
+from reportgen.machine.loads import Applied, Torque
+from reportgen.report.report import Report
+
+
+@shown("id", "stroke", "line")
+@dataclass(frozen=True, slots=True)
+class ReadLoad:
+    """A load at a position: its id, the id of the stroke that its line names ("" without), and whether it has a line.
+
+    It has none where both neighbouring points of the table have one value, or the position is at a point.
+    """
+
+    id: str
+    stroke: str
+    line: bool
+
+
+def loads_read(report: Report, k: int) -> list[ReadLoad]:
+    """Return the loads that are read from tables with further values, at position `k`."""
+    machine, ledger = report.machine, report.ledger
+    loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
+    return [
+        ReadLoad(load.name, _stroke(report, load), _interpolated(report, load, k))
+        for load in loads
+        if load.name in ledger and ledger[load.name].definition is None and ledger[load.name].written is not None
+    ]
+
+
+def _stroke(report: Report, load: Applied | Torque) -> str:
+    """The id of the stroke by whose shares a load is tabled, of what is not given; "" for any other load."""
+    course = load.law.read_along
+    id = "" if course is None else ids.stroke(course.link)
+    return id if id in report.ledger else ""
+
+
+def _interpolated(report: Report, load: Applied | Torque, k: int) -> bool:
+    among = load.law.bracket(report.analysis.cycle_angle, report.analysis.motion)
+    return among is not None and bool(among.between[k - 1])
