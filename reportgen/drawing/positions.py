@@ -6,23 +6,19 @@ Also the mechanism at one position with the instant centres of its links.
 from __future__ import annotations
 
 import cmath
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.settled import settled
-from reportgen.base.units import nice_up
-from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
+from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import Description, Fact, PaperLength, fact, listed, pointing, turning
 from reportgen.drawing.description import angle as angle_told
-from reportgen.drawing.geometry import Complexes, clusters, coincident, polar, unit
-from reportgen.drawing.label_size import box
-from reportgen.drawing.labels import LEFT_OUT, Request, joined, label
+from reportgen.drawing.geometry import Complexes, coincident, polar, unit
+from reportgen.drawing.labels import Request, joined, label
 from reportgen.drawing.scheme import Looks, Skeleton, driver_arrow, driver_marks, mechanism, skeleton
-from reportgen.drawing.spots import CLEAR
 from reportgen.formula import Number, Symbol, vocabulary
 from reportgen.machine import GROUND, Crank, Linkage
 from reportgen.machine.motion import Motion
@@ -332,155 +328,3 @@ def _numbers(every: Sequence[Skeleton], numbers: Sequence[int], shows: PositionP
         size = style.LABEL if len(group) < 3 else style.SMALL
         requests.append(label(at, *joined(names), prefer=out, gap=DOT + 0.5, size=size))
     return Canvas(tuple(items), tuple(requests))
-
-
-# --- the indicator diagram beside its cylinder ----------------------------------------------------
-# Stroke in line with and in the scale of the piston's way.
-# It is drawn in the coordinates of the position plan, so that a line across from the piston meets the curve at the
-# piston's own position.
-
-STROKES = (
-    Pen(0.35, style.BLUE, style.CHAIN),
-    Pen(0.25, style.BLACK),
-    Pen(0.5, style.RED),
-    Pen(0.35, style.BLACK, style.DASHED),
-)
-"""Pens of the branches in their order, told apart by dashes and width as well as by colour."""
-WIDTH = 80.0
-"""Of the diagram at most, mm."""
-AWAY = 0.94
-"""How far beside the cylinder it stands, in its widths."""
-AXIS_PEN = Pen(0.2)
-TICK = 1.0
-READ = 4
-"""Digits of a pressure that is read from the diagram."""
-
-
-@dataclass(frozen=True, slots=True)
-class Branch:
-    """One stroke's line: fractions of the stroke from the top dead centre and pressures (any one unit)."""
-
-    label: Content
-    fraction: tuple[float, ...]
-    pressure: tuple[float, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Reading:
-    """A numbered position on the diagram: where it is read, and the place it is projected from (mm)."""
-
-    label: Content
-    fraction: float
-    pressure: float
-    from_point: complex | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """Where the diagram stands, in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
-
-    `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the
-    printed scale.
-    """
-
-    top: complex
-    bottom: complex
-    side: complex
-    scale: float
-    axis: Content = ""
-    note: Content = ""
-
-    def at(self, fraction: float, pressure: float) -> complex:
-        """The place on paper of a fraction of the stroke and a pressure."""
-        axis = self.bottom - self.top
-        return self.top + fraction * axis + unit(self.side) * pressure / self.scale
-
-
-def beside(
-    top: complex, bottom: complex, side: complex, highest: float, enlarged: float = 1.0
-) -> tuple[complex, complex, float]:
-    """The ends (mm) of the diagram's axis beside the cylinder, and the round μ_p (Pa per mm) that makes it fit.
-
-    μ_p is that of the drawing once it is `enlarged` so many times.
-    """
-    away = unit(side) * AWAY * WIDTH / enlarged
-    return top + away, bottom + away, nice_up(highest / WIDTH)
-
-
-def indicator(frame: Frame, branches: Sequence[Branch], readings: Sequence[Reading] = ()) -> Canvas:
-    """The diagram with its branches named, its readings numbered and projected from the slider."""
-    pressures = [p for branch in branches for p in branch.pressure]
-    lowest, highest = min([0.0, *pressures]), max([0.0, *pressures])
-    items = [*_diagram_axes(frame, lowest, highest), *_projections(frame, readings)]
-    requests = []
-    for n, branch in enumerate(branches):
-        points = tuple(frame.at(x, p) for x, p in zip(branch.fraction, branch.pressure, strict=True))
-        items.append(Polyline(points, STROKES[n % len(STROKES)]))
-        requests.append(label(_along(points), branch.label, size=style.SMALL))
-    read = [(frame.at(reading.fraction, reading.pressure), reading.label) for reading in readings]
-    items += [Circle(at, 0.5, Pen(0.2), style.PAPER) for at, _ in read]
-    for group in clusters(read, TOGETHER, lambda one: one[0]):
-        numbers = joined(number for _, number in group)
-        outward = (cmath.phase(unit(frame.side)),)
-        requests.append(label(group[0][0], *numbers, prefer=outward, gap=0.9, size=style.SMALL, short=LEFT_OUT))
-    if frame.axis:
-        tip = frame.at(0.0, highest) + 12 * unit(frame.side)
-        requests.append(label(tip, frame.axis, prefer=(cmath.phase(frame.top - frame.bottom),), gap=1.0))
-    if frame.note:
-        middle = frame.at(1.0, (highest + lowest) / 2)
-        requests.append(label(middle, frame.note, prefer=(-math.pi / 2,), gap=8))
-    return Canvas(tuple(items), tuple(requests), tuple(_branch_facts(frame, branches)))
-
-
-def _branch_facts(frame: Frame, branches: Sequence[Branch]) -> Iterator[Fact]:
-    """What the diagram tells: its axis and scale, and where the pressure of each branch begins and ends."""
-    if frame.axis:
-        yield fact("pressure", frame.axis)
-    for branch in branches:
-        ends = (Number(float(f"{branch.pressure[end]:.{READ}g}")) for end in (0, -1))
-        yield fact("branch", branch.label, *ends)
-    if frame.note:
-        yield fact("scale", frame.note)
-
-
-def _diagram_axes(frame: Frame, lowest: float, highest: float) -> list[Item]:
-    """The stroke axis at p = 0, the pressure axis at the top dead centre with ticks, limits dashed."""
-    u = unit(frame.side)
-    across = unit(frame.top - frame.bottom)
-    over = 10 * u
-    step = nice_up((highest - lowest) / 6)
-    items: list[Item] = [
-        Line(frame.top, frame.bottom, AXIS_PEN),
-        Arrow(frame.at(0, min(lowest, 0)), frame.at(0, highest) + over, AXIS_PEN, 2.2),
-        Line(frame.at(1, min(lowest, 0)), frame.at(1, highest) + 0.5 * over, style.AXIS),
-    ]
-    for k in range(1, int(highest / step + 1e-9) + 1):
-        at = frame.at(0, k * step)
-        items.append(Line(at, at + across * TICK, AXIS_PEN))
-        number = f"{k * step:g}"
-        extent = box(number, style.SMALL)
-        # The box's half size across the axis: a wide number beside an upright axis stands farther off.
-        half = (abs(across.real) * extent.width + abs(across.imag) * (extent.height + extent.depth)) / 2
-        items.append(Label(at + across * (TICK + CLEAR + half), number, "center", style.SMALL))
-    return items
-
-
-def _projections(frame: Frame, readings: Sequence[Reading]) -> list[Item]:
-    """Thin lines from the slider's places to the farthest reading at each."""
-    farthest: dict[complex, complex] = {}
-    for reading in readings:
-        if reading.from_point is None:
-            continue
-        to = frame.at(reading.fraction, reading.pressure)
-        key = next((p for p in farthest if abs(p - reading.from_point) < 0.05), reading.from_point)
-        if key not in farthest or abs(to - key) > abs(farthest[key] - key):
-            farthest[key] = to
-    return [Line(start, end, style.CONSTRUCTION) for start, end in farthest.items()]
-
-
-def _along(points: Sequence[complex]) -> list[complex]:
-    """Places along a polyline at even shares of its length, the middle ones first."""
-    p = np.asarray(points)
-    lengths = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(p)))))
-    shares = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88]) * lengths[-1]
-    return [complex(q) for q in np.interp(shares, lengths, p.real) + 1j * np.interp(shares, lengths, p.imag)]

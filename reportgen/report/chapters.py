@@ -134,22 +134,6 @@ def torsion_springs(report: Report) -> list[str]:
     return report.known(id for row in report.own["springs"] if row.twists for id in row.loads)
 
 
-def coordinate_lengths(report: Report) -> list[str]:
-    """The lengths that follow from coordinates of points of a link."""
-    lengths = (id for id, family in report.case.ledger.families.items() if id in ids.length and family.written)
-    return [id for id in lengths if report.ledger[id].definition is None]
-
-
-def has_moments_of_inertia(report: Report) -> bool:
-    """Return True if the mass of any moving link is spread out."""
-    return any(id in ids.inertia for id in report.mass_lines)
-
-
-def has_moment_components(report: Report) -> bool:
-    """Return True if moments give a reaction, or a component of one, before a force plan."""
-    return any(group.by_moments for group in report.groups)
-
-
 def spring_loads(report: Report) -> list[str]:
     """The loads of springs."""
     return report.known(id for row in report.own["springs"] for id in row.loads)

@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.base.units import MM
 from reportgen.drawing import Scene
-from reportgen.drawing import positions as indicator_figure
+from reportgen.drawing import indicator as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import Sliding, link_and_plan
@@ -371,7 +371,11 @@ def _indicator(report: Report, factor: float) -> Scene:
         for gas in gases.values()
         for k in report.all_positions
     ]
-    return positions_scene(report, factor, indicator_figure.indicator(frame, branches, readings))
+
+    def drawn(groups: Sequence[indicator_figure.Group]) -> Scene:
+        return positions_scene(report, factor, indicator_figure.indicator(frame, branches, readings, groups))
+
+    return indicator_figure.all_numbered(drawn, frame, readings)
 
 
 def _free_side(machine: Machine) -> complex:

@@ -1,4 +1,4 @@
-"""Loads that are read from a table: at a position the line of the interpolation, or the value that the table has."""
+"""What is worked out of given data: loads that are read from a table, and lengths from coordinates of points."""
 
 from __future__ import annotations
 
@@ -44,3 +44,9 @@ def _stroke(report: Report, load: Applied | Torque) -> str:
 def _interpolated(report: Report, load: Applied | Torque, k: int) -> bool:
     among = load.law.bracket(report.analysis.cycle_angle, report.analysis.motion)
     return among is not None and bool(among.between[k - 1])
+
+
+def coordinate_lengths(report: Report) -> list[str]:
+    """The lengths that follow from coordinates of points of a link."""
+    lengths = (id for id, family in report.case.ledger.families.items() if id in ids.length and family.written)
+    return [id for id in lengths if report.ledger[id].definition is None]

@@ -151,7 +151,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     # what is set out together, by ids
     "constant_group": chapters.constant_group,
     "constant_links": chapters.constant_links,
-    "coordinate_lengths": chapters.coordinate_lengths,
+    "coordinate_lengths": interpolations.coordinate_lengths,
     "crank_lines": chapters.crank_lines,
     "driver_joints": chapters.driver_joints,
     "driver_reactions": chapters.driver_reactions,
@@ -178,8 +178,8 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "work_lines": chapters.work_lines,
     # conditions
     "has_chosen_scale": chapters.has_chosen_scale,
-    "has_moment_components": chapters.has_moment_components,
-    "has_moments_of_inertia": chapters.has_moments_of_inertia,
+    "has_moment_components": phrases.has_moment_components,
+    "has_moments_of_inertia": phrases.has_moments_of_inertia,
     "plan_in_text": figures.plan_in_text,
     "shares_pins": chapters.shares_pins,
     **running.VALUES,

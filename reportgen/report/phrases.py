@@ -261,6 +261,16 @@ def no_mean(report: Report) -> Inlines:
     return say(report, report.words["no_mean"][key], report.words["driven"][report.driver.kind])
 
 
+def has_moments_of_inertia(report: Report) -> bool:
+    """Return True if the mass of any moving link is spread out."""
+    return any(id in ids.inertia for id in report.mass_lines)
+
+
+def has_moment_components(report: Report) -> bool:
+    """Return True if moments give a reaction, or a component of one, before a force plan."""
+    return any(group.by_moments for group in report.groups)
+
+
 def constant_force(report: Report) -> Inlines:
     """In which stroke a constant working force acts, and whether with the motion; nothing for any other force."""
     if "P.given" not in report.ledger or "stroke" not in report.own:

@@ -12,7 +12,7 @@ from itertools import combinations
 import numpy as np
 
 from reportgen.base.settled import settled, significant
-from reportgen.base.units import MM
+from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Scene
 from reportgen.drawing.plan import (
     Construction,
@@ -49,6 +49,14 @@ LARGEST = 58.0
 """What the longest extent of these plans may be without their labels (mm): about three stand side by side."""
 ROOM = (78.0, 75.0)
 """What each of them may take with its labels (mm)."""
+LARGEST_OF_FORCES, LEAST_OF_FORCES = 50.0, 25.0
+"""The longest extent of each force plan without its labels (mm): round scales are at most twofold apart."""
+ROOM_OF_FORCES = 78.0
+"""The width that each of them may take with its labels (mm)."""
+NOTHING_DRAWN = 0.5
+"""A plan smaller than this (mm) is that of a position without forces."""
+FINER = 1e-6
+"""How little above a scale the search for the next coarser one begins."""
 PANELS = 160.0, 60.0
 """What of a page the panels of a construction's steps may take, all in one row (mm)."""
 PANEL = 78.0
@@ -181,13 +189,12 @@ def _stages(
 
 @dataclass(frozen=True, slots=True)
 class PlanSeries:
-    """Plans of one `scale`, that of the position `at`, in rows; insets are for worked plans."""
+    """Plans of one `scale` in rows; insets are for worked plans."""
 
     report: Report
     drawing: Callable[[Report, int], Plan]
     positions: Sequence[int]
     scale: str
-    at: int | None = None
 
     @property
     def figure(self) -> FigureScenes:
@@ -200,7 +207,7 @@ class PlanSeries:
 
     def note(self, share: float) -> Chain:
         """Their scale, drawn a share as large as the worked ones."""
-        return scale_note(self.report, self.scale, share, self.at)
+        return scale_note(self.report, self.scale, share)
 
     def fitted(self) -> tuple[float, list[Scene]]:
         """The largest of the shares at which each plan has room in the text block, and the scenes; none if none has."""
@@ -328,19 +335,44 @@ def force_stages(report: Report, k: int, group: GroupView) -> FigureScenes:
 
 def force_plates(report: Report, group: GroupView) -> FigureScenes:
     assert group.polygon is not None
-    return force_series(report, group.polygon).figure
+    return FigureScenes(tuple(ForcePlans(report, group.polygon).scenes()))
 
 
-def force_series(report: Report, polygon: Polygon) -> PlanSeries:
-    """The force plans of all positions at one scale: the largest of those that they have by themselves."""
-    scale = ids.force_scale(polygon.name)
-    scales = {k: float(report.ledger[scale].at(k)) for k in report.plates}
-    common = max(scales, key=lambda k: scales[k])
+@dataclass(frozen=True, slots=True)
+class ForcePlans:
+    """The force plans of all positions, each to a round scale of its own, which is printed below it.
 
-    def drawing(report: Report, k: int) -> Plan:
-        return force_plan(report, polygon, k).scaled(scales[k] / scales[common])
+    Forces of a cycle differ by orders: to one scale some plans would be blots.
+    """
 
-    return PlanSeries(report, drawing, report.plates, scale, common)
+    report: Report
+    polygon: Polygon
+
+    def scenes(self, times: float = 1.0) -> Iterator[Scene]:
+        """The plans, up to so many times as large as in the text."""
+        word = self.report.words["table"]["position"]
+        for k in self.report.plates:
+            at = str(self.report.machine.position(k))
+            yield replace(self._scene(k, f"{word} {at}", times), at=at)
+
+    def _scene(self, k: int, title: str, times: float) -> Scene:
+        """One of them, to the next coarser scale where its labels would not have room beside others."""
+        report = self.report
+        drawing = replace(force_plan(report, self.polygon, k).lettered, scale=None, lines=())
+        extent = drawing.extent * report.enlarged
+        if extent < NOTHING_DRAWN:
+            return plan(drawing, title=title, enlarged=False, margin=CLOSE_MARGIN)
+        scale = ids.force_scale(self.polygon.name)
+        own, room = report.ledger.number(scale, k), times * ROOM_OF_FORCES / report.enlarged
+        μ = nice_up(own.shown * extent / (times * LARGEST_OF_FORCES))
+        while True:
+            note = Chain((report.ledger.symbol(scale), replace(own, value=μ, decimals=None)))
+            shown = replace(drawing.scaled(own.shown / μ), scale=note)
+            scene = plan(shown, title=title, enlarged=False, margin=CLOSE_MARGIN)
+            coarser = nice_up(μ * (1 + FINER))
+            if scene.width <= room or extent * own.shown / coarser < LEAST_OF_FORCES:
+                return scene
+            μ = coarser
 
 
 def force_plan(report: Report, polygon: Polygon, k: int) -> Plan:

@@ -32,10 +32,10 @@ from reportgen.report.force_figures import lever, separated, separated_driver
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import (
     SHARES,
+    ForcePlans,
     MotionFigures,
     PlanSeries,
     force_plan,
-    force_series,
     motion_plan,
     one_turn,
     positions_mirrored,
@@ -56,6 +56,8 @@ from reportgen.report.unspaced import set_out
 Set = Literal["kinematics", "forces", "balancing"]
 WIDEST, MOST_ROWS = 180.0, 24
 """A table is so wide (mm) and has so many positions at most; then another stands beside it."""
+LARGER_FORCES = (2.0, 3.0)
+"""How many times larger than in the report the force plans of all positions may be drawn."""
 SEGMENT = 2
 """Decimals of lengths on paper, mm."""
 ONE_LINE = 1e-6
@@ -281,9 +283,19 @@ def _force_plates(sources: Sources) -> Iterator[Drawn]:
     """The force plans of each group at all positions, as the report has them."""
     for group in reversed(sources.report.groups if sources.report.parts("force-plates") else ()):
         if group.polygon is not None:
-            series = force_series(sources.report, group.polygon)
-            drawn = Drawn("force-plates", "forces", (), (sources.called(group),))
-            yield _drawn_series(sources, series, series.fitted()[0], drawn)
+            yield _drawn_forces(sources, ForcePlans(sources.small, group.polygon), sources.called(group))
+
+
+def _drawn_forces(sources: Sources, plans: ForcePlans, called: str, times: float = 1.0) -> Drawn:
+    """Force plans, each with its scale, so many times as large as in the report or as there is room for."""
+    after = next((one for one in LARGER_FORCES if one > times), None)
+    return Drawn(
+        "force-plates",
+        "forces",
+        tuple(plans.scenes(times)),
+        (called,),
+        larger=None if after is None else lambda: _drawn_forces(sources, plans, called, after),
+    )
 
 
 # --- curves and tables

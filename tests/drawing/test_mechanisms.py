@@ -13,7 +13,8 @@ import pytest
 from reportgen.drawing import Circle, Hatch, Label, Line, Polyline
 from reportgen.drawing.canvas import finish
 from reportgen.drawing.geometry import Complexes
-from reportgen.drawing.positions import Branch, Frame, PositionPlan, Reading, beside, indicator, position_plan
+from reportgen.drawing.indicator import Branch, Frame, Reading, beside, indicator
+from reportgen.drawing.positions import PositionPlan, position_plan
 from reportgen.drawing.scheme import Looks, groups, scheme, skeleton
 from reportgen.formula import Symbol
 from reportgen.machine import Linkage

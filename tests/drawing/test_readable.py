@@ -216,7 +216,7 @@ def test_lines_are_told_apart_without_colour() -> None:
 
 def test_curves_of_one_chart_are_told_apart_without_colour() -> None:
     from reportgen.drawing.charts import PENS
-    from reportgen.drawing.positions import STROKES
+    from reportgen.drawing.indicator import STROKES
 
     for pens in (PENS, STROKES):
         assert len({look(pen) for pen in pens}) == len(pens)

@@ -82,8 +82,11 @@ def segments(written: Written, key: str) -> dict[str, list[float]]:
     count = written.case.analysis.machine.count if motion else written.case.analysis.machine.positions
     positions = on_plates(written, key, count) if position == "plates" else [worked(written, position, count)]
     scale = f"mu.{motion[1]}" if motion else f"mu.R{polygon.name}"
-    printed = scale_of(written, key, ledger.symbol(scale))
-    share = {k: ledger.number(scale, k).value / printed for k in positions}
+    if forces and position == "plates":
+        printed = own_scales(written, key, positions, ledger.symbol(scale))
+    else:
+        printed = dict.fromkeys(positions, scale_of(written, key, ledger.symbol(scale)))
+    share = {k: ledger.number(scale, k).value / printed[k] for k in positions}
     return {
         name: [abs(complex(ledger[id].at(k))) * MM * share[k] for id in of for k in positions]
         for name, of in ids.items()
@@ -104,6 +107,18 @@ def on_plates(written: Written, key: str, count: int) -> list[int]:
         sentence = re.compile(f"{re.escape(before)}(.+?){re.escape(between)}")
         told = {name for names in sentence.findall(text_of(written.document)) for name in names.split(", ")}
         assert told >= {str(position(k)) for k in range(1, count + 1) if k not in found}
+    return found
+
+
+def own_scales(written: Written, key: str, positions: list[int], symbol: Symbol) -> dict[int, float]:
+    """The scale μ that each force plan of all positions prints below itself; 1 where there is nothing to draw."""
+    found = dict.fromkeys(positions, 1.0)
+    label = {str(written.case.analysis.machine.position(k)): k for k in positions}
+    for figure, scene in built.scenes(written.document):
+        if figure == key:
+            for shown in (item.content for item in scene.items if isinstance(item, Label)):
+                if isinstance(shown, Chain) and shown.parts[0] == symbol and isinstance(shown.parts[-1], Number):
+                    found[label[scene.at]] = shown.parts[-1].shown
     return found
 
 
