@@ -37,7 +37,7 @@ from reportgen.report import (
     plain,
 )
 from reportgen.report.numbering import unreferenced
-from reportgen.report.translation import SectionContents
+from reportgen.report.translation import FREE_LISTS, SectionContents
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written
@@ -72,7 +72,9 @@ IN_ENGLISH = dict(zip(INDICES[0].values(), (INDICES[1][name] for name in INDICES
 def in_english(formula: str) -> str:
     """A formula with its indices in English: J_tt2 as J_r2."""
     return re.sub(
-        r"(?<=[_^])[\w,]+", lambda index: re.sub("[^\\W\\d_A-Z]+", lambda w: IN_ENGLISH.get(w[0], w[0]), index[0]), formula
+        r"(?<=[_^])[\w,]+",
+        lambda index: re.sub("[^\\W\\d_A-Z]+", lambda w: IN_ENGLISH.get(w[0], w[0]), index[0]),
+        formula,
     )
 
 
@@ -175,15 +177,13 @@ def leaves(words: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tu
 
 def shape_of_words(words: Mapping[str, Any]) -> set[tuple[Any, ...]]:
     """Each word by its keys, a list by its length; in how many ways something may be read is its own affair."""
-    counted = (keys[0] not in READ for keys, _ in leaves(words))
+    counted = (keys[0] not in FREE_LISTS for keys, _ in leaves(words))
     return {
         (*keys, len(value) if isinstance(value, list) and same else "")
         for same, (keys, value) in zip(counted, leaves(words), strict=True)
     }
 
 
-READ = ("columns", "dates", "judgements")
-"""What heads columns, names months and judges, in files that are read."""
 ONE_SIDED = {("cover", "months")}
 """English dates name the month; Vietnamese ones count it."""
 
