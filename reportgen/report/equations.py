@@ -78,13 +78,12 @@ def quantity(report: Report, id: str, position: int | None = None) -> Inlines:
 
 def directions(report: Report, what: What, position: int) -> Inlines:
     """Return "symbol = angle" for the directions of all points on a plan ("v", "a"); a point at rest has none."""
-    places = [
+    moving = [
         id
         for id, family in report.ledger.families.items()
         if (names := ids.direction.read(id)) and names["what"] == what and np.isfinite(family.at(position))
     ]
-    listed = [quantity(report, id, position) for id in places]
-    return tuple(one for index, part in enumerate(listed) for one in (*((Text("; "),) if index else ()), *part))
+    return tuple(part for id in moving for part in (Text("; "), *quantity(report, id, position)))[1:]
 
 
 def known(report: Report, id: str) -> bool:
