@@ -215,11 +215,15 @@ def test_every_word_is_used() -> None:
     assert words["joints"].keys() == {"R", "P"}
     computed = {"document", "groups", "joints", "zero", "meanings", "main_figures", "symbols", "quantities", "positive"}
     computed |= {"acting_loads", "given_of_crank", "speech"}
+    # A direction along or across a slide, which is a slot or a guide.
+    slides = {("vector", f"{how}_{slide}") for how in ("along", "across") for slide in ("slot", "guide")}
+    assert slides <= {keys for keys, _ in leaves(words)}
     # Reasons of the system go by the names of its errors.
     unused = [
         keys
         for keys, _ in leaves(words)
         if keys[0] not in computed
+        and keys not in slides
         and not (keys[:2] == ("edit", "reasons") and hasattr(errno, keys[2]))
         and not re.search(rf"[\"'.]{keys[-1]}\b", code)
     ]
