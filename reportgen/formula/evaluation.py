@@ -26,6 +26,9 @@ from reportgen.formula.constructions import Value
 
 NOTHING = 1e-9
 """A value below this share of the greatest is nothing."""
+UNPHYSICAL = 1e10
+"""No machine has such values (SI): a machine with a student's own numbers may not go together at some positions, where
+its rates divide by rounding errors.  They are no measure of the others."""
 BEHIND = 1e-12
 """Directions that differ by less (rad) are one."""
 
@@ -40,7 +43,7 @@ def nothing(value: Value) -> Value:
     sizes = np.abs(value)
     if sizes.ndim == 0:
         return sizes == 0
-    return sizes <= NOTHING * np.max(sizes, axis=-1, keepdims=True, initial=0.0, where=np.isfinite(sizes))
+    return sizes <= NOTHING * np.max(sizes, axis=-1, keepdims=True, initial=0.0, where=sizes < UNPHYSICAL)
 
 
 def quotient(a: Value, b: Value) -> Value:
