@@ -39,6 +39,7 @@ class Off:
 def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
     """Every printed quantity that is no given data; a residue and the arm of a load that is nothing are left out."""
     longest, by_angles = _longest(unrounded), _by_angles(unrounded)
+    loads = _loads_on_paper(unrounded, printed)
     for id, family in unrounded.families.items():
         if family.hidden or family.is_plane or family.definition is None or family.residue:
             continue
@@ -46,12 +47,14 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
         if family.how.unit == "°":
             apart = np.minimum(apart, np.abs(2 * np.pi - apart))
         if family.kind == "segment":
-            what, allowed, told = "on paper", _read(longest, id), _is_loaded(unrounded, family)
+            read = _read(longest, id) + loads[scale_on_paper(id)]
+            what, allowed, told = "on paper", read, _is_loaded(unrounded, family)
         elif family.kind == "direction" or id in ids.rod_angle:
             side = _side(unrounded, id)
             drawn = np.abs(unrounded[side].values) if side else np.zeros(1)
             # A direction is no better than the ends of its vector, which may each lie off as a length may.
-            off = _read(longest, side) / np.maximum(drawn, TOLD * 1e-3)
+            read = _read(longest, side) + loads[scale_on_paper(side)]
+            off = read / np.maximum(drawn, TOLD * 1e-3)
             what, allowed, told = "direction", np.maximum(np.radians(DIRECTION), off), drawn >= TOLD * 1e-3
         else:
             # The mean of positions is that of torques as they are printed.
@@ -74,6 +77,20 @@ def differences(unrounded: Ledger, printed: Ledger) -> Iterator[Off]:
 def _read(longest: dict[str, float], id: str) -> float:
     """What a length on paper (m) may be off."""
     return ON_PAPER * 1e-3 + OF_LONGEST * longest[scale_on_paper(id)]
+
+
+def _loads_on_paper(unrounded: Ledger, printed: Ledger) -> dict[str, np.ndarray]:
+    """What the loads lie off as they are printed (m on paper), by the scale of each force plan.
+
+    Plans are laid off from printed loads and from reactions that follow from them.  How far loads may be off is counted
+    by themselves; where a plan has a scale of its own because its forces are small, it shows on paper.
+    """
+    scales = {scale_on_paper(id) for id in unrounded.families if id in ids.force_segment}
+    loads = {vocabulary.vector_of(id) for id in unrounded.families if id in ids.force_segment}
+    off = np.zeros(1)
+    for load in (load for load in loads if load.startswith("P") and load in unrounded):
+        off = off + np.abs(np.abs(printed[load].values) - np.abs(unrounded[load].values))
+    return defaultdict(lambda: np.zeros(1), {scale: off / unrounded[scale].values for scale in scales})
 
 
 def _measured(ledger: Ledger, family: Family) -> np.ndarray:
