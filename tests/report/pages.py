@@ -131,7 +131,7 @@ def without_repeated_head(page: Page, before: Sequence[Glyph]) -> Sequence[Glyph
     """The glyphs of a page's body without the head of a table that continues from the page before.
 
     Such a head begins with the table's number and the word that it continues; it lasts until the second rule below,
-    and the page before, whose glyphs are `before`, has it too, with other words above it.
+    and one of the pages before, whose glyphs are `before`, has it too, with other words above it.
     """
     found = page.body
     label = continued(found)

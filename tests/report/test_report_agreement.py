@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator
+from itertools import chain
 
 import pytest
 
@@ -27,14 +28,16 @@ themselves), header and footer (as many as there are pages), heads of tables rep
 names of the rows below a vector equation (repeated where it takes two lines; the only italics of 9.5 pt).
 """
 ROW_NAMES = 9.5
+NEAR = 3
+"""A table goes on after so many pages at most: figures that float may take whole pages between its parts."""
 
 
 def compared(report: Report) -> list[Glyph]:
     skipped = {id(glyph) for found in (report.bodies[0], *contents(report).values()) for glyph in found}
     return [
         glyph
-        for page, before in zip(report.pages, [[], *report.bodies], strict=False)
-        for glyph in pages.without_repeated_head(page, before)
+        for number, page in enumerate(report.pages)
+        for glyph in pages.without_repeated_head(page, list(chain(*report.bodies[max(0, number - NEAR) : number])))
         if id(glyph) not in skipped and not (glyph.italic and abs(glyph.size - ROW_NAMES) < 0.1)
     ]
 
