@@ -30,8 +30,9 @@ SHARE, FEW = 0.04, 3
 before a figure of half a page and more, which stands below its heading and in no more than two parts (three times in
 the longest report), and where a section has no more text to let run on; the page before a sheet of larger
 paper, with which a section ends, is not counted."""
-LATE = 3
-"""Pages from the first mention: plans of several groups are named together and follow the tables of their sentence."""
+LATE = 4
+"""Pages from the first mention: plans of several groups are named together and follow the tables of their sentence; of
+three groups, each plan at least 25 mm large, they fill four pages."""
 
 
 def references(block: Block) -> Iterator[str]:
