@@ -132,25 +132,34 @@ def indicator(
     return Canvas(tuple(items), tuple(requests), tuple(_branch_facts(frame, branches)))
 
 
+MOST_TOGETHER = 6
+"""Numbers that one label has at most: more would say no longer which reading is which."""
+
+
 def all_numbered(draw: Callable[[Sequence[Group]], Scene], frame: Frame, readings: Sequence[Reading]) -> Scene:
     """A scene that shows the number of every reading: one without room stands with its neighbours'.
 
-    `draw` makes it of groups of readings that share a label.  What has no room joins the nearest group that has,
-    again and again, until every number stands or all are one group.
+    `draw` makes it of groups of readings that share a label.  What has no room joins the nearest group that has and
+    that is not full, again and again, until every number stands or none can move.
     """
     groups = clusters(readings, TOGETHER, frame.of)
     while True:
         scene = draw(groups)
         shown = {item.content for item in scene.items if isinstance(item, Label)}
         placed = [list(group) for group in groups if group[0].label in shown]
-        if len(placed) in (0, len(groups)):
-            return scene
+        left = []
         for missing in (group for group in groups if group[0].label not in shown):
+            fitting = [group for group in placed if len(group) + len(missing) <= MOST_TOGETHER]
+            if not fitting:
+                left.append(missing)
+                continue
             nearest = min(
-                placed, key=lambda group: settled(min(abs(frame.of(a) - frame.of(b)) for a in group for b in missing))
+                fitting, key=lambda group: settled(min(abs(frame.of(a) - frame.of(b)) for a in group for b in missing))
             )
             nearest += missing
-        groups = placed
+        if len(placed) + len(left) == len(groups):
+            return scene
+        groups = [*placed, *left]
 
 
 def _branch_facts(frame: Frame, branches: Sequence[Branch]) -> Iterator[Fact]:
