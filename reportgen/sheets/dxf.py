@@ -131,7 +131,9 @@ def _draw(document: Drawing, part: PlacedScene, texts: MText) -> None:
         if isinstance(item, Arrow) and item.name:
             groups.setdefault(f"{part.name} {item.name}", []).extend(entities)
     for name, entities in groups.items():
-        document.groups.new(name).extend(entities)
+        # A plate in several parts has its head above each of them; on one sheet they are one group.
+        group = document.groups.get(name)
+        (document.groups.new(name) if group is None else group).extend(entities)
 
 
 def _layout(document: Drawing, sheet: DrawingSheet) -> None:
