@@ -223,6 +223,7 @@ displacement = Name("s.{link}")
 displacement_on_paper = Name("way.{link}")
 stroke = Name("H.{link}")
 node = Name("node.{of}.{link}")  # of an indicator diagram, next to a position
+load_node = Name("node.{of}.{force}")  # of the table of a load
 pressure = Name("p.{link}")
 applied_force = Name("P{link}[{letter}]")  # a letter where a link has several
 applied_torque = Name("M{link}[{letter}]")

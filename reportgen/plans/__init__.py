@@ -130,9 +130,11 @@ def _between_nodes(
     """
     letter, sort = {"ratio": ("x", "ratio"), "angle": ("φ", "angle"), "length": ("s", "length")}[among.kind]
 
+    node = ids.node if isinstance(of, int) else ids.load_node
+
     def give(mark: str, place: np.ndarray, size: np.ndarray) -> tuple[Ref, Ref]:
-        x = q.give(ids.node(f"x{mark}", of), place, Symbol(letter, sup=mark), sort, hidden=True)
-        p = q.give(ids.node(f"p{mark}", of), size, Symbol(shown.base, sup=mark), kind, hidden=True)
+        x = q.give(node(f"x{mark}", of), place, Symbol(letter, sup=mark), sort, hidden=True)
+        p = q.give(node(f"p{mark}", of), size, Symbol(shown.base, sup=mark), kind, hidden=True)
         return x, p
 
     x: Expression
@@ -142,7 +144,7 @@ def _between_nodes(
         places = (
             np.radians(rounded(np.degrees(among.at), KINDS["angle"].decimals or 0)) if sort == "angle" else among.at
         )
-        x = q.give(ids.node("x", of), places, Symbol(letter), sort, hidden=True)
+        x = q.give(node("x", of), places, Symbol(letter), sort, hidden=True)
     x1, p1 = give("′", among.before, among.pressure_before)
     x2, p2 = give("″", among.after, among.pressure_after)
     return p1 + (p2 - p1) / (x2 - x1) * (x - x1)

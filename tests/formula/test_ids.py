@@ -21,7 +21,7 @@ ONES_OF_THEIR_KIND = frozenset(
     {"alpha", "crank.angle", "delta", "drawing", "lambda", "power", "scale", "span", "steps", "swing", "theta"}
     | {"unevenness", "sum.ends", "sum.others", "t.back", "t.turn", "t.work", "omega.of", "J.r", "J.d", "beta", "free"}
     | {"A.det", "A.excess", "A.lower", "A.upper", "P.angle", "rho"}
-    | {"T.I", "T.range", "J.I", "J.share", "mu.J", "mu.A", "even", "K.5", "P.cut"}
+    | {"T.I", "T.range", "J.I", "J.rest", "J.share", "mu.J", "mu.A", "even", "K.5", "P.cut"}
 )
 """Ids that stand as text in the code."""
 
