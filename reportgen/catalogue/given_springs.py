@@ -136,9 +136,12 @@ def meetings(machine: Machine) -> Iterator[Finding]:
 
     One without a free length pulls with c times the vector between its ends, which is nothing there.
     """
+    laws = {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw)}
+    if not laws:
+        return
     grid = np.linspace(0.0, machine.turns * FULL_TURN, machine.turns * LOOKED_AT, endpoint=bool(machine.span))
     motion = motion_of(machine, grid)
-    for law in {load.law.number: load.law for load in machine.loads if isinstance(load.law, SpringLaw)}.values():
+    for law in laws.values():
         along = law.along(motion)
         length = np.abs(along)
         # Between two places of the grid the ends come nearer by no more than they move there.

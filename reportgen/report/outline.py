@@ -133,7 +133,7 @@ VALUES: Mapping[str, Callable[[Report], Any]] = {
     "acting": phrases.acting,
     "form": phrases.form,
     "lever": phrases.lever,
-    "label_pairs": phrases.label_pairs,
+    "lettered": phrases.lettered,
     "load_key": phrases.load_key,
     "medium": phrases.medium,
     "no_mean": phrases.no_mean,

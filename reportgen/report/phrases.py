@@ -331,15 +331,10 @@ def strokes_at_start(report: Report) -> Inlines:
     return (Text(f"{''.join(phrases)}."),) if phrases else ()
 
 
-def label_pairs(report: Report) -> str:
-    """Which labels the first numbers of positions stand for, up to behind the first letter; "" where they are alike."""
+def lettered(report: Report) -> bool:
+    """Whether positions between the equidistant ones are called a, b, …"""
     machine = report.machine
-    turn = machine.numbered(range(1, machine.count + 1))
-    if report.instants or all(k.label == f"{int(k)}" for k in turn):
-        return ""
-    first = next((k for k in turn if k.label.isalpha()), turn[0])
-    pairs = [report.words["label_pair"].format(number=int(k), label=k.label) for k in turn[: first + 1]]
-    return ", ".join((*pairs, "…"))
+    return not report.instants and any(k.label.isalpha() for k in machine.numbered(range(1, machine.count + 1)))
 
 
 def load_sense(report: Report, name: str) -> Inlines:

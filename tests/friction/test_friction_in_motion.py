@@ -16,30 +16,7 @@ from reportgen.machine.true_motion import TrueMotion, true_motion
 from reportgen.report import text_of
 
 R, L, F = 0.1, 0.4, 500.0
-TEXT = """\
-kind: slider-crank
-report: {{language: en, worked_positions: [3]}}
-positions: {{count: 8}}
-parameters:
-  r: 100 mm
-  l: 400 mm
-  n: 100 rpm
-  J1: 1 kg m2
-  force: {{by: constant, F: 500 N, stroke: both}}
-  loads:
-    - {{by: constant, link: 1, M: -30 N m}}
-  friction: {{sliders: {{3: {f}}}}}
-  flywheel: {{delta: 1/20}}
-  motion:
-    drive:
-      M0: 150 N m
-      k: 9 N m s
-      motors:
-        - {{name: small, power: {small} W, n: 100 rpm, start: 500 N m, breakdown: 500 N m}}
-        - {{name: large, power: 2 kW, n: 100 rpm, start: 500 N m, breakdown: 500 N m}}
-    start: {{}}
-    stop: {{brake: 60 N m}}
-"""
+TEXT = Path(__file__).with_name("motion.yaml").read_text(encoding="utf-8")
 
 
 def lost(f: float) -> float:
@@ -53,7 +30,7 @@ def lost(f: float) -> float:
 
 def opened(tmp_path: Path, f: float, small: float = 240.0) -> tuple[Path, Machine, TrueMotion]:
     file = tmp_path / "machine.yaml"
-    file.write_text(TEXT.format(f=f, small=small), encoding="utf-8")
+    file.write_text(TEXT.replace("3: 0.12", f"3: {f}").replace("240 W", f"{small} W"), encoding="utf-8")
     assignment = catalogue.load(file)
     machine = catalogue.module(assignment.kind).machine(assignment)
     assert machine.unevenness is not None
@@ -113,7 +90,7 @@ def test_text_task_and_key_say_so(tmp_path: Path) -> None:
 def test_a_mechanism_that_locks_anywhere_is_refused(tmp_path: Path) -> None:
     """tan β = 0.559 where the rod is steepest, f tan β = 1.12; position 1, which is worked out, is a dead centre."""
     file = tmp_path / "locks.yaml"
-    text = TEXT.format(f=1.999, small=240).replace("l: 400 mm", "l: 205 mm").replace("[3]", "[1]")
+    text = TEXT.replace("3: 0.12", "3: 1.999").replace("l: 400 mm", "l: 205 mm").replace("[3]", "[1]")
     file.write_text(text.replace("count: 8", "count: 4"), encoding="utf-8")
     faults = catalogue.check(file)
     assert any(fault.code == "locks-in-cycle" for fault in faults)

@@ -249,6 +249,7 @@ def test_each_edition_is_told_and_a_late_one_dropped(file: Path, served: Server)
     assert (session.revision.moving, session.revision.reports) == (4, 2)
     assert news(served.address) == {
         "moving": 4,
+        "reads": 4,
         "report": 2,
         "fault": "",
         "busy": False,
