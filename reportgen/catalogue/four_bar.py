@@ -312,8 +312,8 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
     q.speed()
     q.drawn("A", "B", crank)
     if given.E is not None:
-        q.datum("E.along", given.E.along, Symbol("x", "E"), "length")
-        q.datum("E.across", given.E.across, Symbol("y", "E"), "length")
+        q.datum("E.along", given.E.along, Symbol("ξ", "E"), "length")
+        q.datum("E.across", given.E.across, Symbol("η", "E"), "length")
         triangle(q, "E")
     if given.BF is not None:
         q.datum("l.BF", given.BF)

@@ -79,11 +79,11 @@ def machine(assignment: Assignment) -> Machine:
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
         φ = q.angle("phi.3", start + cycle_angles(positions), "φ")
-        x_B = line("f.x.B", r * cos(φ))
+        s_B = line("f.x.B", r * cos(φ), Symbol("s", "B"))
         v_B, v_r = line("f.v.B", -ω1 * r * sin(φ)), line("f.v.r", ω1 * r * cos(φ))
         a_B = line("f.a.B", accelerated(q, turn, -(ω1**2) * r * cos(φ), v_B))
         a_r = line("f.a.r", accelerated(q, turn, -(ω1**2) * r * sin(φ), v_r), Symbol("a", "r"))
-        q.set_out("velocity", x_B, v_B, v_r)
+        q.set_out("velocity", s_B, v_B, v_r)
         q.set_out("acceleration", a_B, a_r)
 
     return driven(
@@ -106,7 +106,7 @@ def equations(accelerates: float) -> dict[str, tuple[Chain, ...]]:
     """The place of the yoke and of the block in its slot, and their rates, as the crank `accelerates` or not."""
     r, φ, ω1, ε1 = Symbol("l", "OA"), Symbol("φ"), Symbol("ω", "1"), accelerating(accelerates)
     return {
-        "closure": (Chain((Symbol("x", "B"), r * cos(φ))), Chain((Symbol("y", "A"), r * sin(φ)))),
+        "closure": (Chain((Symbol("s", "B"), r * cos(φ))), Chain((Symbol("s", "A"), r * sin(φ)))),
         "velocity": (Chain((Symbol("v", "B"), -ω1 * r * sin(φ))), Chain((Symbol("v", "r"), ω1 * r * cos(φ)))),
         "acceleration": (
             Chain((Symbol("a", "B"), plus(-(ω1**2) * r * cos(φ), minus(times(ε1, r, sin(φ)))))),

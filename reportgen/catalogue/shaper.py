@@ -167,6 +167,7 @@ def machine(assignment: Assignment) -> Machine:
         sliders=(course,),
         paths=("D",),
         compared=slotted.RAM_COMPARED,
+        positive={"E": 1 + 0j},
         equations=slotted.ram_equations(positions.sign, given.acceleration),
         essential=("diagrams", "functions"),
         facts={"form": "parted" if "free" in q else "whole"},

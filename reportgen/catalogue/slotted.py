@@ -2,8 +2,9 @@
 
 A crank centre, B pin, C pivot.  Own axes: y runs from C to A, x is y turned by 90° against the rotation, so that
 ω₁ > 0 turns x towards y.  φ₁ is the crank's angle from x, r = l_AB, d = l_AC, S = CB; a is square to the slot, r along
-it.  D is the end of the lever, E the ram, b the height of the ram's line over C; for the ram x runs against the way it
-works, and S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b, x_E = l₃ cos φ₃ + l₄ cos φ₄.
+it.  D is the end of the lever, E the ram, b the height of the ram's line over C.  The ram works against the own x, and
+S cos φ₃ = l₁ cos φ₁, S sin φ₃ = a + l₁ sin φ₁, l₃ sin φ₃ + l₄ sin φ₄ = b.  What the page calls x points to the right,
+as in all its tables: x_E = ±(l₃ cos φ₃ + l₄ cos φ₄), with a minus where the crank turns clockwise.
 """
 
 from __future__ import annotations
@@ -196,7 +197,7 @@ def lever_end(q: Sheet, turn: int, angle: Floats) -> None:
 
 
 def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
-    """The closed formulas of the ram at φ₁ = `angle` [N].
+    """The closed formulas of the ram at φ₁ = `angle` [N]; x, v and a of the ram and of D count to the right.
 
     Uses `l.AB`, `l.CD`, `l.DE`, `a`, `b`, `theta`, `omega.1`.  Ids: those of `lever_formulas`, `phi.3`, `phi.4`,
     `f.x.E`, its value `x.0` at the beginning of the stroke, the way `f.s.E` from there, `f.omega.4`, `f.v.E`,
@@ -207,17 +208,16 @@ def ram_formulas(q: Sheet, turn: int, angle: Floats) -> None:
     l1, l3, l4, φ1, ω3, ε3 = (q[id] for id in ("l.AB", "l.CD", "l.DE", "phi.A", "f.omega.3", "f.eps.3"))
     φ3 = q.define("phi.3", acos(l1 * cos(φ1) / q["f.S"]))
     φ4 = q.define("phi.4", STRAIGHT - asin((q["b"] - l3 * sin(φ3)) / l4))
-    x = line("f.x.E", l3 * cos(φ3) + l4 * cos(φ4))
+    x = line("f.x.E", plus(signed(turn, l3 * cos(φ3)), signed(turn, l4 * cos(φ4))))
     ω4 = line("f.omega.4", -ω3 * l3 * cos(φ3) / (l4 * cos(φ4)))
-    v = line("f.v.E", signed(-turn, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
+    v = line("f.v.E", signed(-1, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))
     square3 = l3 * (ω3**2 * sin(φ3) + signed(-turn, ε3 * cos(φ3)))
     ε4 = line("f.eps.4", signed(turn, square3 / (l4 * cos(φ4)) + ω4**2 * tan(φ4)))
-    a_D = line("f.a.Dx", -l3 * (signed(turn, ε3 * sin(φ3)) + ω3**2 * cos(φ3)))
-    at_first = q.define(
-        "x.0", l3 * sin(q["theta"]) - sqrt(l4**2 - (q["b"] - l3 * cos(q["theta"])) ** 2), Symbol("x", "0"), "length"
-    )
-    s = line("f.s.E", at_first - x, Symbol("s", "E"), "length")
-    a = line("f.a.E", a_D - l4 * (signed(turn, ε4 * sin(φ4)) + ω4**2 * cos(φ4)))
+    a_D = line("f.a.Dx", -l3 * plus(ε3 * sin(φ3), signed(turn, ω3**2 * cos(φ3))))
+    far, near = l3 * sin(q["theta"]), sqrt(l4**2 - (q["b"] - l3 * cos(q["theta"])) ** 2)
+    at_first = q.define("x.0", far - near if turn > 0 else near - far, Symbol("x", "0"), "length")
+    s = line("f.s.E", at_first - x if turn > 0 else x - at_first, Symbol("s", "E"), "length")
+    a = line("f.a.E", a_D - l4 * plus(ε4 * sin(φ4), signed(turn, ω4**2 * cos(φ4))))
     q.set_out("velocity", q["f.S"], φ3, φ4, x, ω3, q["f.v.r"], ω4, v)
     q.set_out("acceleration", ε3, ε4, a_D, a)
     q.set_out("course", φ1, x, v, a, ω3, ε3, ω4, ε4)
@@ -246,7 +246,7 @@ def ram_torque(q: Sheet, turn: int) -> None:
     ω3, ε3, ω4, ε4 = (signed(turn, q[f]) for f in map(ids.formula, ("omega.3", "eps.3", "omega.4", "eps.4")))
     powers: list[Expression] = []
     if P := q.find("P.cut"):
-        powers.append(P * q["f.v.E"])
+        powers.append(signed(turn, P * q["f.v.E"]))
     for link, ω, ε in (("3", ω3, ε3), ("4", ω4, ε4)):
         if J := q.find(ids.inertia(link)):
             powers.append(minus(times(J, ω, ε)))
@@ -258,9 +258,11 @@ def ram_torque(q: Sheet, turn: int) -> None:
     if (G4 := q.find(ids.weight(4))) and (m4 := q.find(ids.mass(4))):
         l3, s4 = q["l.CD"], q["l.DS4"]
         arms = (l3, ω3, ε3, φ3), (s4, ω4, ε4, φ4)
-        v_x = minus(plus(*(times(r, ω, sin(φ)) for r, ω, _, φ in arms)))
+        # Along x the signs of ω and ε and of the axis meet: what has one factor of both needs neither.
+        plain = (l3, q["f.omega.3"], q["f.eps.3"], φ3), (s4, q["f.omega.4"], q["f.eps.4"], φ4)
+        v_x = minus(plus(*(times(r, ω, sin(φ)) for r, ω, _, φ in plain)))
         v_y = plus(*(times(r, ω, cos(φ)) for r, ω, _, φ in arms))
-        a_x = minus(plus(*(r * plus(times(ε, sin(φ)), square(ω) * cos(φ)) for r, ω, ε, φ in arms)))
+        a_x = minus(plus(*(r * plus(times(ε, sin(φ)), signed(turn, square(ω) * cos(φ))) for r, ω, ε, φ in plain)))
         a_y = plus(*(r * plus(times(ε, cos(φ)), -(square(ω) * sin(φ))) for r, ω, ε, φ in arms))
         kinds = {"v": "velocity", "a": "acceleration"}
         (v_x, v_y), (a_x, a_y) = (
@@ -339,20 +341,21 @@ def ram_equations(turn: int, accelerates: float) -> dict[str, tuple[Chain, ...]]
     φ3, φ4, ω3, ω4, ε3, ε4 = (Symbol(letter, link) for letter in "φωε" for link in "34")
     nothing = Number(0.0)
     triangle = lever_equations(turn, l1, Symbol("a"), accelerates)
-    ε3_x, ε3_y = signed(turn, ε3 * l3 * sin(φ3)), signed(turn, ε3 * l3 * cos(φ3))
-    ε4_x, ε4_y = signed(turn, ε4 * l4 * sin(φ4)), signed(turn, ε4 * l4 * cos(φ4))
-    along = ε3_x + ω3**2 * l3 * cos(φ3) + ε4_x + ω4**2 * l4 * cos(φ4)
+    ε3_x, ε3_y = ε3 * l3 * sin(φ3), signed(turn, ε3 * l3 * cos(φ3))
+    ε4_x, ε4_y = ε4 * l4 * sin(φ4), signed(turn, ε4 * l4 * cos(φ4))
+    x3, x4 = signed(turn, l3 * cos(φ3)), signed(turn, l4 * cos(φ4))
+    along = plus(ε3_x, signed(turn, ω3**2 * l3 * cos(φ3)), ε4_x, signed(turn, ω4**2 * l4 * cos(φ4)))
     across = ε3_y - ω3**2 * l3 * sin(φ3) + ε4_y - ω4**2 * l4 * sin(φ4)
     return {
         "closure": (
             *triangle["closure"],
-            Chain((Symbol("x", "E"), l3 * cos(φ3) + l4 * cos(φ4))),
+            Chain((Symbol("x", "E"), plus(x3, x4))),
             Chain((l3 * sin(φ3) + l4 * sin(φ4), Symbol("b"))),
         ),
         "between": triangle["between"],
         "velocity": (
             *triangle["velocity"],
-            Chain((Symbol("v", "E"), signed(-turn, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))),
+            Chain((Symbol("v", "E"), signed(-1, ω3 * l3 * sin(φ3) + ω4 * l4 * sin(φ4)))),
             Chain((ω3 * l3 * cos(φ3) + ω4 * l4 * cos(φ4), nothing)),
         ),
         "acceleration": (*triangle["acceleration"], Chain((Symbol("a", "E"), -along)), Chain((across, nothing))),

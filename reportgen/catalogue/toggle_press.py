@@ -1,8 +1,8 @@
 """The toggle press: a crank and a rod bend and stretch two links of one length, whose lower end presses.
 
 Ground 0, crank 1 (OA), rod 2 (AB), links 3 (DB) and 4 (BC), slider 5 (at C) on the vertical through D, below it.  Axes
-from O: x to the right, y turned from x by 90° in the direction of rotation; φ are angles from x, s = DA, δ the angle at
-D between DA and DB.  As BD = BC = l, B stands half way along DC: y_C = y_D + 2l sin φ₃, ω₄ = −ω₃, ε₄ = −ε₃.
+from O: x to the right, y upwards; φ are angles from x in the direction of rotation, s = DA, δ the angle at D between DA
+and DB.  As BD = BC = l, B lies half way along DC: y_C = y_D ± 2l sin φ₃ (− clockwise), ω₄ = −ω₃, ε₄ = −ε₃.
 """
 
 from __future__ import annotations
@@ -106,16 +106,16 @@ def machine(assignment: Assignment) -> Machine:
 
     def formulas(q: Sheet) -> None:
         line, ω1 = natural_lines(q, "l.OA"), q["omega.1"]
-        r, b, l, x_D = q["l.OA"], q["l.AB"], q["l.DB"], q["D.x"]  # noqa: E741 - the length's own letter
-        y_D = q["D.y"] if turn > 0 else -q["D.y"]
+        r, b, l, x_D, y_D = (q[id] for id in ("l.OA", "l.AB", "l.DB", "D.x", "D.y"))  # noqa: E741 - the length's own letter
         φ1 = q.angle("f.phi.1", turn * start + cycle_angles(positions))
         x = line("f.x.DA", r * cos(φ1) - x_D)
-        y = line("f.y.DA", r * sin(φ1) - y_D)
+        y = line("f.y.DA", signed(turn, r * sin(φ1)) - y_D)
+        turned = signed(turn, y)
         s = line("f.s", sqrt(x**2 + y**2), "s", "length")
         δ = acos((s**2 + l**2 - b**2) / (2 * s * l))
-        φ3 = line("f.phi.3", atan2(y, x) - δ if minus else atan2(y, x) + δ)
-        φ2 = line("f.phi.2", atan2(l * sin(φ3) - y, l * cos(φ3) - x))
-        line("f.y.C", y_D + 2 * l * sin(φ3))
+        φ3 = line("f.phi.3", atan2(turned, x) - δ if minus else atan2(turned, x) + δ)
+        φ2 = line("f.phi.2", atan2(l * sin(φ3) - turned, l * cos(φ3) - x))
+        line("f.y.C", y_D + signed(turn, 2 * l * sin(φ3)))
         ω2 = line("f.omega.2", signed(turn, ω1 * r * sin(φ1 - φ3) / (b * sin(φ3 - φ2))))
         ω3 = line("f.omega.3", signed(turn, ω1 * r * sin(φ1 - φ2) / (l * sin(φ3 - φ2))))
         v_C = line("f.v.C", 2 * l * ω3 * cos(φ3))

@@ -72,10 +72,9 @@ def _as_written(report: Report, point: str, course: np.ndarray) -> list[Number]:
     """The coordinate (m) of a point at all positions as its numbers in mm."""
     values, decimals = course, 5
     for id, family in report.case.ledger.families.items():
-        if (family.kind, family.symbol.sub) == ("length", point) and family.values.shape == course.shape:
-            sense = np.sign(np.dot(family.values, course))
-            if np.allclose(sense * family.values, course, rtol=0, atol=ZERO * np.abs(course).max()):
-                values, decimals = sense * report.ledger[id].values, report.ledger.decimals[id] or 5
+        alike = (family.kind, family.symbol.sub, family.values.shape) == ("length", point, course.shape)
+        if alike and np.allclose(family.values, course, rtol=0, atol=ZERO * np.abs(course).max()):
+            values, decimals = report.ledger[id].values, report.ledger.decimals[id] or 5
     return [Number(value * MM, max(decimals - 3, 0)) if abs(value) > 1e-12 else Number(0.0) for value in values]
 
 

@@ -69,10 +69,9 @@ def test_places_and_rates(where: str, pivot: complex, direction: str, tmp_path: 
 def test_the_printed_formulas_give_the_motion_with_its_signs(where: str, direction: str, tmp_path: Path) -> None:
     analysis = analysed(tmp_path, f"{LENGTHS}, {where}", f"count: 24, start: 20 deg, direction: {direction}")
     ledger, motion = write_ledger(analysis).ledger, analysis.motion
-    # The formulas' y-axis is x turned in the direction of rotation; rates are positive upwards and anticlockwise.
-    turn = 1 if direction == "anticlockwise" else -1
+    # Coordinates and rates are positive upwards, turning is positive anticlockwise, whichever way the crank turns.
     for id, values in {
-        "f.y.C": turn * motion.points["C"].p.imag,
+        "f.y.C": motion.points["C"].p.imag,
         "f.v.C": motion.points["C"].v.imag,
         "f.a.C": motion.points["C"].a.imag,
         "f.omega.2": motion.links[2].omega,
