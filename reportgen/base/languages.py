@@ -78,13 +78,52 @@ class MobilityNotation:
 
 
 @dataclass(frozen=True, slots=True)
+class ReadingWords:
+    """Words by which a reader of students' reports recognises what a text says.
+
+    In a word, `*` is any end of it; `#` is the place of the number, which otherwise stands behind.
+    """
+
+    position: tuple[str, ...] = ()
+    """The position that a number belongs to."""
+    number: tuple[str, ...] = ()
+    """Between that word and the number."""
+    joins: tuple[str, ...] = ()
+    """Between the numbers of several positions."""
+    dead_centre: tuple[str, ...] = ()
+    """A position without a number."""
+    this_position: tuple[str, ...] = ()
+    """The one that the text already deals with."""
+    compared: tuple[str, ...] = ()
+    """The text compares with another position."""
+    extreme: tuple[str, ...] = ()
+    """A value of all positions together."""
+    supposed: tuple[str, ...] = ()
+    """Before a symbol: its value is an assumption."""
+    withdrawn: tuple[str, ...] = ()
+    """Behind a number: it is taken back, or another one is as good."""
+    clockwise: tuple[str, ...] = ()
+    anticlockwise: tuple[str, ...] = ()
+    hence: tuple[str, ...] = ()
+    """A new clause begins."""
+    equals: tuple[str, ...] = ()
+    """In place of a sign of equality."""
+    prose: tuple[str, ...] = ()
+    """Words in Latin letters that may follow a number without a unit and are not units."""
+    chapter: tuple[str, ...] = ()
+    """A line in bold with one of these names a chapter about the same position."""
+    head: tuple[str, ...] = ()
+    """Heads of a table over the names of positions, besides `position`."""
+
+
+@dataclass(frozen=True, slots=True)
 class LanguageSetting:
     """All that `language.yaml` says; what it leaves out is as here.
 
     `latex` are the encodings of letters that pdflatex needs, none where Typst alone sets the language; `block` is the
     title block of its drawing sheets; `units` are letters of units, or whole units, as the language writes them, and
-    `typed` what people type for units besides; `spaced` says whether it sets blanks between words; `draft` are the
-    kinds of work whose words no native speaker has read, or all of them.
+    `typed` what people type for units besides; `reading` has the words of students' reports; `spaced` says whether it
+    sets blanks between words; `draft` are the kinds of work whose words no native speaker has read, or all of them.
     """
 
     name: str
@@ -99,6 +138,7 @@ class LanguageSetting:
     units: Mapping[str, str] = field(default_factory=dict)
     typed: Mapping[str, str] = field(default_factory=dict)
     mobility: MobilityNotation = MobilityNotation()
+    reading: ReadingWords = ReadingWords()
     spaced: bool = True
     draft: bool | tuple[str, ...] = False
 
@@ -170,10 +210,11 @@ def _typed_names() -> Mapping[str, str]:
 
 
 def typed_units() -> tuple[str, ...]:
-    """What stands for a unit in letters that are not Latin, and products of two of them without a sign: Н, мм, Нм."""
+    """What languages write for units: letters that are not Latin, whole units, and products without a sign, Нм."""
     single = [name for name in _typed_names() if name.isalpha() and not name.isascii()]
+    whole = [name for name in _typed_names() if not name.isalpha()]
     products = [force + length for force in single for length in single if _is_moment(force, length)]
-    return (*single, *products)
+    return (*single, *whole, *products)
 
 
 def _is_moment(force: str, length: str) -> bool:
@@ -208,6 +249,7 @@ _PARTS: Mapping[str, type[Any]] = {
     "drawing": DrawingSetting,
     "page": PageMargins,
     "mobility": MobilityNotation,
+    "reading": ReadingWords,
 }
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.units import QuantityFault
 from reportgen.handin import FileReading, agree, figures
-from reportgen.handin.numbers import Marks, read_value
+from reportgen.handin.numbers import NUMBER, Marks, read_value
 from reportgen.handin.statements import ANTICLOCKWISE, CLOCKWISE
 from reportgen.handin.symbols import Symbols, bare
 from reportgen.handin.word_text import TextLine, WordMark
@@ -76,6 +76,9 @@ class Gathering:
         elif agree(first, answer):
             if figures(answer.text) > figures(first.text):
                 self.values[place] = answer
+        elif _has_unit(answer) != _has_unit(first):
+            # A number without a unit may be of another quantity with the same letter.
+            self.values[place] = answer if _has_unit(answer) else first
         elif not is_signed(row) and agree(replace(first, value=abs(first.value)), replace(answer, value=abs(value))):
             # The size of a vector, and its coordinate on an axis that points the other way.
             self.values[place] = max(first, answer, key=lambda one: one.value)
@@ -105,7 +108,8 @@ class Gathering:
 
         None where two senses are said, or a size is given of what has a sign.
         """
-        turns = bool(CLOCKWISE.search(words)), bool(ANTICLOCKWISE.search(words))
+        # “Clockwise” stands in “anti-clockwise” as well.
+        turns = bool(CLOCKWISE.search(ANTICLOCKWISE.sub(" ", words))), bool(ANTICLOCKWISE.search(words))
         if row.size:
             if value < 0:
                 return None if turns == (False, True) else value
@@ -132,6 +136,11 @@ class Gathering:
 def is_signed(row: KeyRow) -> bool:
     """Whether the sign of a quantity says anything: it has both, and the papers say which is which."""
     return not row.open_sense and bool(np.nanmin(row.values, initial=0.0) < 0)
+
+
+def _has_unit(answer: Answer) -> bool:
+    """Whether a value is written with a unit."""
+    return bool(re.sub(NUMBER, "", answer.text, count=1).strip())
 
 
 def _tidy(text: str) -> str:

@@ -11,50 +11,39 @@ import re
 from dataclasses import dataclass
 
 from reportgen.handin.numbers import NUMBER, UNIT
+from reportgen.handin.reading_words import HAN, any_of, label_of, labelled_position
 from reportgen.handin.symbols import Symbols, bare
 from reportgen.handin.word_text import OBJECT
 
 RELATION = re.compile("[=≈]")
-POSITION = re.compile(
-    r"(?:vị\s*trí|\bpositions?|\bpos\.|\bVT)[\s(]*(?:thứ|số|no\.?)?[\s:(]*([0-9]{1,3}[a-z]?′*)(?![0-9a-z]|[.,][0-9])",
-    re.IGNORECASE,
-)
+POSITION = labelled_position()
 _SEVERAL = re.compile(
-    r"(?:vị\s*trí|\bpositions?|\bVT)[\s(]*(?:số\s*)?\d+′*\s*(?:,|;|&|và|and|đến|tới|to|-|–|÷|\.\.\.|…)\s*\d",
+    rf"{any_of('position')}[\s(]*(?:{any_of('number', whole=False)}\s*)?\d+′*"
+    rf"\s*(?:[,;&–÷…-]|{any_of('joins', whole=False)}|\.\.\.)\s*\d",
     re.IGNORECASE,
 )
-_COMPARED = re.compile(r"so với|khác|giống|như|bằng|hơn|\bthan\b|\bsame as\b|\bunlike\b|\bcompared\b", re.IGNORECASE)
-SAYS_POSITION = re.compile(r"vị\s*trí|\bposition|điểm chết|\bdead cent", re.IGNORECASE)
-_THIS = re.compile(r"vị\s*trí\s*(?:này|đó|trên|đang xét|đã cho|xét)|\b(?:this|that) position", re.IGNORECASE)
-_EXTREME = (
-    r"(?:lớn|nhỏ|bé|cao|thấp) nhất|cực đại|cực tiểu|trung bình|"
-    r"\b(?:max|min|maximum|minimum|largest|smallest|mean|average)\b"
-)
-"""What is of all positions together."""
-_SUPPOSED = re.compile(
-    r"\b(?:nếu|giả sử|giả thiết|giả định|if|suppose|supposing|assume|assuming|khi lấy|thử|trial)\b|" + _EXTREME,
-    re.IGNORECASE,
-)
+_COMPARED = re.compile(any_of("compared"), re.IGNORECASE)
+SAYS_POSITION = re.compile(any_of("position", "dead_centre"), re.IGNORECASE)
+_THIS = re.compile(any_of("this_position"), re.IGNORECASE)
+_SUPPOSED = re.compile(any_of("supposed", "extreme"), re.IGNORECASE)
 """Words before a symbol: what is tried, or is of no position, as a greatest value."""
-_WITHDRAWN = re.compile(
-    r"\b(?:hoặc|hay|or|sai|không|wrong|not|nếu|if|cũ|bỏ|nhầm|old|instead|rather)\b|" + _EXTREME, re.IGNORECASE
-)
+_WITHDRAWN = re.compile(any_of("withdrawn", "extreme"), re.IGNORECASE)
 """Words behind a number that take it back, or leave another one open."""
-CLOCKWISE = re.compile(
-    r"(?:cùng|thuận)\s+chiều\s+kim|(?<!anti)(?<!counter)(?<!counter-)(?<!anti-)clockwise|↻", re.IGNORECASE
-)
-ANTICLOCKWISE = re.compile(r"ngược\s+chiều\s+kim|anti-?clockwise|counter-?clockwise|↺", re.IGNORECASE)
+CLOCKWISE = re.compile(f"{any_of('clockwise')}|↻", re.IGNORECASE)
+ANTICLOCKWISE = re.compile(f"{any_of('anticlockwise')}|↺", re.IGNORECASE)
 
 BEHIND = 80
 """Characters in front of a symbol that tell whether a statement begins at it."""
-_LETTERS = r"(?:[^\W_]|′)"
+_LETTERS = rf"(?:[^\W_{HAN}]|′)"
 _SYMBOL = (
-    rf"[^\W\d_]{_LETTERS}{{0,24}}+"
+    rf"[^\W\d_{HAN}]{_LETTERS}{{0,24}}+"
     rf"(?:[_^]\{{(?:[^{{}}]{{1,24}}+|\{{[^{{}}]{{0,24}}\}}){{0,4}}+\}}|\^\([^()\s]{{1,3}}\)|[_^]{_LETTERS}{{1,24}}+){{0,4}}+′{{0,3}}"
 )
 """No symbol is longer, so that a line is looked through once."""
+_APART_FROM = rf"(?<![^\W{HAN}])(?<![′_^{{}}])"
+"""No letter of another symbol stands in front."""
 _HEAD = re.compile(
-    rf"(?<![\w′_^{{}}])(\|\s*)?({_SYMBOL})(\s*\|)?\s*(\([0-9]{{1,3}}[a-z]?′*\))?\s*(?:[\[(]\s*({UNIT})\s*[\])])?\s*(?=[=≈])"
+    rf"{_APART_FROM}(\|\s*)?({_SYMBOL})(\s*\|)?\s*(\([0-9]{{1,3}}[a-z]?′*\))?\s*(?:[\[(]\s*({UNIT})\s*[\])])?\s*(?=[=≈])"
 )
 _OPERATORS = frozenset("+-–·*/×(√^_=≈{∑÷|[")
 _FUNCTION = re.compile(
@@ -62,27 +51,20 @@ _FUNCTION = re.compile(
 )
 _LOOSE_NUMBER = re.compile(r"(?:[\d})²³]|(?<![^\W\d_])[^\W\d_])$")
 """A number or a letter alone, which may be a factor of the symbol behind it."""
-_COLON = re.compile(
-    rf"(?<![\w′_^{{}}])({_SYMBOL}(?:\(\d\))?)\s*(?::|\blà|\bbằng|\bis\b|\bequals|\bgives)\s*({NUMBER})(?![\w′]*\s*[=≈])"
-)
+_COLON = re.compile(rf"{_APART_FROM}({_SYMBOL}(?:\(\d\))?)\s*(?::|{any_of('equals')})\s*({NUMBER})(?![\w′]*\s*[=≈])")
 _SEPARATORS = frozenset(".,;:⇒→<>≤≥!?")
 _BULLET = re.compile(r"\s*(?:[-–+•*▪►✓]|\(?\w{1,3}[.)]|\(?\d{1,2}(?:\.\d{1,2})*[.)])\s+")
-_WORD = re.compile(r"[^\W\d_]{2,}$")
+_WORD = re.compile(rf"(?:[^\W\d_]{{2,}}|[{HAN}])$")
 _COMPLETE = re.compile(rf"{NUMBER}\s*(?:{UNIT}|[(\[]\s*{UNIT}\s*[)\]])[.,]?$")
 _APART = re.compile(
-    r"(?:;|\n|⇒|=>|→|\b(?:do đó|suy ra|vậy|nên|hence|so|therefore|thus)\b|,\s+(?=[^\d\s])|\.\s+(?=[^\W\d]))(?!\s*[=≈])",
-    re.IGNORECASE,
+    rf"(?:;|\n|⇒|=>|→|(?<!\(){any_of('hence')}|,\s+(?=[^\d\s])|\.\s+(?=[^\W\d]))(?!\s*[=≈])", re.IGNORECASE
 )
 _TAIL = re.compile(
     rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;:]?\s*((?:\([^()=\d][^()=]*\)|[^()=\d]*)\s*[.,;:]?)"
     r"(?:(?<=\s)\s*[(\[]\d{1,2}(?:[.-]\d{1,3})*[a-z]?[)\]][.,;]?)?\s*"
 )
 _LISTED = re.compile(r"\s*[;→\n]\s*[-+–]?\s*\d")
-_PROSE = re.compile(
-    r"\s*(?:$|[.,;:(]|[^\W\d_]*[^\x00-\x7f\W\d_][^\W\d_]*\b|(?:theo|cho|ta|khi|trong|do|and|to|the|as|at|from|for|in|"
-    r"on|of|with|where|which|up|down|left|right|so|then|is|hence|by|this|that|along|sang)\b)",
-    re.IGNORECASE,
-)
+_PROSE = re.compile(rf"\s*(?:$|[.,;:(]|[^\W\d_]*[^\x00-\x7f\W\d_][^\W\d_]*\b|{any_of('prose')})", re.IGNORECASE)
 """How words begin behind a number without a unit that are no unit themselves."""
 _NAMES = re.compile(
     r"[^\W\d_](?:[^\W_]|′)*+(?:[_^]\{[^{}]{0,40}\}|_++(?:[^\W_]|′)*+|\^(?:[^\W_]|′)++)*+|[_^]\{[^{}]{0,40}\}"
@@ -217,7 +199,7 @@ def is_worked(statement: Statement) -> bool:
 
 def labels_in(text: str) -> list[str]:
     """The labels of the positions that a text names."""
-    return list(dict.fromkeys(match[1].casefold() for match in POSITION.finditer(text)))
+    return list(dict.fromkeys(label_of(match).casefold() for match in POSITION.finditer(text)))
 
 
 def names_several(text: str) -> bool:
@@ -245,11 +227,7 @@ def goes_on(text: str) -> bool:
     return bool(re.match(r"\s*[=≈]", text))
 
 
-_CHAPTER = re.compile(
-    r"vận tốc|gia tốc|phản lực|lực|m[oô]\s*men|tải|chung|hoạ đồ|họa đồ|phương trình|trị số|kết quả|"
-    r"velocity|velocities|acceleration|force|torque|moment|reaction|load|plan|equation|result",
-    re.IGNORECASE,
-)
+_CHAPTER = re.compile(any_of("chapter", whole=False), re.IGNORECASE)
 
 
 def names_chapter(text: str) -> bool:

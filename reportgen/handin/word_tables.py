@@ -10,15 +10,14 @@ from reportgen.base.units import QuantityFault
 from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering
 from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value
+from reportgen.handin.reading_words import any_of, label_of
 from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
 from reportgen.marking.numbers import is_blank
 from reportgen.report.key import KeyRow
 
 HEADS = 4
 """Rows among which the one with the positions is looked for."""
-_POSITION = re.compile(
-    r"(?:vị\s*trí|position|pos\.|VT)?[\s(]*(?:thứ|số|no\.?)?[\s:(]*([0-9]{1,3}[a-z]?′*)[\s)]*", re.IGNORECASE
-)
+_PLAIN_LABEL = re.compile(rf"[\s(]*{any_of('number', whole=False)}?[\s:(]*([0-9]{{1,3}}[a-z]?′*)", re.IGNORECASE)
 _QUANTITY = re.compile(
     r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?(?:\(\d\)\}?)?)\s*"
     r"(?:,\s*(?P<comma>[^\s,]+(?:\s[^\s,]+)?)|[(\[]\s*(?P<round>[^()]*(?:\([^()]*\))?[^()]*?)\s*[)\]])?"
@@ -29,7 +28,7 @@ _NUMBER_CELL = re.compile(
 _NUMBERED = re.compile(r"\s*\(\d+(?:[.,]\d+)*\)\s*")
 """The number of an equation."""
 
-_HEAD_WORD = re.compile(r"VT|vtr[íi]|điểm|points?", re.IGNORECASE)
+_HEAD_WORD = re.compile(any_of("head"), re.IGNORECASE)
 """What stands over positions besides their own word; a pair of gears has points."""
 
 Statements = Callable[[TextLine, str | None], None]
@@ -108,12 +107,13 @@ def _read_statements(rows: TextCells, gathering: Gathering, line: Statements, la
 def _named_position(cell: TextCell, gathering: Gathering) -> str | None:
     """The label of a cell that says by its word that it is a position."""
     text = cell.line.text
-    return _label(text, gathering) if said.SAYS_POSITION.search(text) or "VT" in text else None
+    return _label(text, gathering) if said.SAYS_POSITION.search(text) else None
 
 
 def _label(text: str, gathering: Gathering) -> str | None:
-    match = _POSITION.fullmatch(text.strip())
-    return match[1].casefold() if match and gathering.is_label(match[1]) else None
+    text = text.strip().removesuffix(")").strip()
+    match = said.POSITION.fullmatch(text) or _PLAIN_LABEL.fullmatch(text)
+    return label_of(match).casefold() if match and gathering.is_label(label_of(match)) else None
 
 
 # --- values in cells --------------------------------------------------------------------------------

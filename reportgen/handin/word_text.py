@@ -100,6 +100,9 @@ def _letters() -> dict[str, str]:
     }
     letters |= {"’": "′", "'": "′", "‘": "′", "ʹ": "′", "″": "′′", "”": "′′", '"': "′′", "‴": "′′′"}
     letters |= {"µ": "μ", "ϕ": "φ", "ɸ": "φ", "ϵ": "ε", "ϑ": "θ", "∗": "*"}
+    letters |= {chr(code): chr(code - 0xFEE0) for code in range(0xFF01, 0xFF5F)}
+    # The marks of Chinese have their blank within.
+    letters |= {"，": ", ", "、": ", ", "；": "; ", "：": ": ", "。": ". ", "（": " (", "）": ") "}
     letters |= {"＝": "=", "≅": "≈", "≃": "≈", "≒": "≈", "∼": "~"}
     letters |= {"⟹": "⇒", "⟶": "→", "➔": "→", "➜": "→"}
     letters |= {chr(code): str(code - 0x2080) for code in range(0x2080, 0x208A)}

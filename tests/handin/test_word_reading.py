@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from reportgen.base.languages import languages, setting_of
 from reportgen.cases import open_case
 from reportgen.handin import FileReading, word_report
 from reportgen.handin.word_file import open_word
@@ -151,6 +152,71 @@ def test_what_leaves_a_doubt_is_not_read(text: str, code: str) -> None:
     reading = read(HERE, line("a_D = 1,25 m/s²"), line(text))
     assert PLACE not in reading.values
     assert reading.unread[PLACE].code == code
+
+
+@pytest.mark.parametrize(
+    ("heading", "text"),
+    [
+        ("2.1 Скорости в положении 2", "Тогда v_D = 0,25 м/с, вправо."),
+        ("2.1 2-е положение", "v_D = 25 см/с"),
+        ("2.1 位置2的速度分析", "则v_D=0.25 m/s，方向向左。"),
+        ("2.1 位置2的速度分析", "v_D＝０．２５ m/s"),
+        ("2.1 第2个位置", "（1）v_D＝μ_v·pd＝0.25 m/s；"),
+        ("2.1 Position 2", "v_D = 0,25 m/s (compared with nothing)"),
+    ],
+)
+def test_a_report_may_be_written_in_any_language(heading: str, text: str) -> None:
+    reading = read(wml.paragraph(wml.run(heading), "u2"), line(text))
+    assert reading.values[PLACE].value == 0.25
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("Допустим, v_D = 0,25 м/с", "unread-supposed"),
+        ("В положениях 2 и 5: v_D = 0,25 м/с", "unread-positions"),
+        ("v_D = 0,25 м/с или 0,3 м/с", "unread-number"),
+        ("v_D равна 0,25 м/с", "unread-number"),
+        ("假设v_D=0.25 m/s", "unread-supposed"),
+        ("最大值v_D=0.25 m/s", "unread-supposed"),
+        ("位置2和5：v_D=0.25 m/s", "unread-positions"),
+        ("v_D为0.25 m/s", "unread-number"),
+    ],
+)
+def test_a_doubt_is_one_in_any_language(text: str, code: str) -> None:
+    for heading in ("Положение 2", "位置2"):
+        reading = read(wml.paragraph(wml.run(heading), "u2"), line("a_D = 1,25 m/s²"), line(text))
+        assert PLACE not in reading.values
+        assert reading.unread[PLACE].code == code
+
+
+@pytest.mark.parametrize(
+    ("text", "sign"),
+    [
+        ("theo chiều kim đồng hồ", -1),
+        ("по часовой стрелке", -1),
+        ("против часовой стрелки", 1),
+        ("顺时针", -1),
+        ("沿逆时针方向", 1),
+        ("counter-clockwise", 1),
+    ],
+)
+def test_a_sense_is_understood_in_any_language(text: str, sign: int) -> None:
+    reading = read(HERE, line(f"ω_3 = 0,4 rad/s, {text}"))
+    assert reading.values["turn.omega.3", 2].value == 0.4 * sign
+
+
+def test_each_language_says_by_which_words_a_report_is_read() -> None:
+    """A report is read by the words of all languages together."""
+    for language in languages():
+        reading = setting_of(language).reading
+        assert all((reading.position, reading.clockwise, reading.anticlockwise, reading.supposed)), language
+
+
+def test_a_number_without_a_unit_yields_to_one_with_it() -> None:
+    """It may be of another quantity with the same letter, as the mobility F beside the area F."""
+    reading = read(HERE, line("v_D = 3·2 - 5 = 1"), line("v_D = 0,25 m/s"), line("v_D = 2·4 = 8"))
+    assert reading.values[PLACE].value == 0.25
 
 
 @pytest.mark.parametrize(
