@@ -44,7 +44,7 @@ FACE_MARGIN = 3.0
 GUIDE = 1.6
 """From the axis of a translating follower to the walls of its guide (mm)."""
 LINES = 7
-"""So many limit lines of an oscillating follower are drawn for each phase."""
+"""So many limit lines of an oscillating follower are drawn for each piece of a phase."""
 Stage = Literal["displacements", "profile by inversion", "cam"]
 SCALE = Symbol("μ", "l")
 
@@ -175,10 +175,11 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     design, cam = case.solution.designed, case.solution.cam
     σ, pivot = cam.opposite, pivot_of(cam)
     planes: list[HalfPlane] = []
-    shown: list[tuple[complex, complex, HalfPlane]] = []
-    for phase, limit, sign in (("rise", design.limits.rise, 1), ("return", design.limits.back, -1)):
+    shown: list[tuple[complex, complex, HalfPlane, str]] = []
+    for phase, limit, sign, mark in (("rise", design.limits.rise, 1, ""), ("return", design.limits.back, -1, "′")):
         if limit is None:
             continue
+        drawn = 0
         for number, interval in enumerate(cam.motion.intervals):
             if interval.phase != phase:
                 continue
@@ -192,8 +193,10 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
                 aside = arm * 1j * σ * cam.turn
                 plane = HalfPlane(end, sign * σ * arm * math.cos(limit) + aside * math.sin(limit))
                 planes.append(plane)
-                if index % (160 // (LINES - 1)) == 0:
-                    shown.append((pivot + arm * cam.arm, end, plane))
+                # A piece of a phase begins where the one before ends.
+                if index % (160 // (LINES - 1)) == 0 and (index or not drawn):
+                    drawn += 1
+                    shown.append((pivot + arm * cam.arm, end, plane, f"{drawn}{mark}"))
     places = [pivot, 0j, *(one[0] for one in shown), *(one[1] for one in shown), 0.6 * -1j * cam.r0]
     usual, at = fitting(places, DIAGRAM_ROOM, size)
     array = np.array(places) * at
@@ -206,12 +209,13 @@ def _of_oscillating(case: SolvedCam, size: FigureSize) -> Scene:
     if len(allowed) > 2:
         items.append(Hatch(tuple(allowed), 2.0, REGION))
         items.append(Polyline(tuple(allowed), REGION, closed=True))
-    for tip, end, plane in shown:
+    for tip, end, plane, mark in shown:
         items.append(Line(pivot * at, tip * at, RAY))
         along = 1j * unit(plane.inward) * abs(box[2] - box[0])
         if piece := clipped(end * at - along, end * at + along, box[0], box[2]):
             items.append(Line(*piece, THIN_LIMIT))
         items += [Circle(tip * at, 0.5, Pen(0.2), style.PAPER), Circle(end * at, 0.4, None, style.RED)]
+        requests.append(label(end * at, mark, gap=0.6, size=style.SMALL))
     start = pivot + _arm(cam, 0.0) * cam.arm
     items.append(Line(pivot * at, start * at, style.VISIBLE))
     items += [

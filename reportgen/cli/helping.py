@@ -35,7 +35,8 @@ PAGES = {
 """The page of the documentation that a command is explained on; that of all commands for any other."""
 OTHERS = "commands"
 _EXTRA = re.compile(r"^(?P<help>.*?)(?P<extra>(?:  |^)\[[^\[\]]*\])$", re.DOTALL)
-_DEFAULT = re.compile(r"\bdefault: (\((.+?)\)(?=; required|; \d|\]))?")
+_PYTHON_TYPE = re.compile(r" <[\w\[\]]+>$")
+_DEFAULT = re.compile(r"\bdefault: (\((.+?)\)(?=; |\]))?")
 
 
 class _Spoken:
@@ -65,7 +66,8 @@ class _Spoken:
         frame = _helps()["frame"]
         for kind, head in (("argument", "arguments"), ("option", "options")):
             records = [each.get_help_record(ctx) for each in self.get_params(ctx) if each.param_type_name == kind]
-            rows = [(names, _record(text)) for names, text in filter(None, records)]
+            # Behind an argument typer writes its Python type, which says nothing to a user.
+            rows = [(_PYTHON_TYPE.sub("", names), _record(text)) for names, text in filter(None, records)]
             if rows:
                 with formatter.section(frame[head]):
                     formatter.write_dl(rows)

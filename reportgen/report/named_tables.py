@@ -91,7 +91,7 @@ TABLES: Mapping[str, Callable[..., Any]] = {
     "gas": QuantityTable(result_tables.gas, "load_positions"),
     "inertia": QuantityTable(result_tables.inertia, "all_positions", groups={"couples": ("M.Pqt",)}),
     "R": QuantityTable(result_tables.reactions, "all_positions"),
-    "faces": RowTable(wide_sliders.rows, (20.0, 28.0, 28.0, 46.0, 28.0, 28.0)),
+    "faces": RowTable(wide_sliders.rows, (16.0, 26.0, 26.0, 36.0, 28.0, 28.0)),
     "R.angles": QuantityTable(result_tables.reaction_angles, "all_positions"),
     "lever": RowTable(result_tables.lever, (30.0, 36.0, 44.0, 44.0)),
     "M": QuantityTable(result_tables.balance, "all_positions"),

@@ -86,3 +86,11 @@ def test_a_page_for_the_browser_has_its_tables_and_the_places_that_links_name() 
     assert '<h3 id="corrections-that-stay">' in text
     assert "<table>" in text
     assert "<base href=" in text
+
+
+@pytest.mark.parametrize("name", ["build", "grade", "variants", "batch"])
+def test_help_has_no_python_types_and_every_default_in_words(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for language in languages():
+        text = shown(COMMANDS[name], language, monkeypatch)
+        assert not re.search(r"<(list\[|path>|int>|str>)", text, re.IGNORECASE)
+        assert "(one a core)" not in " ".join(text.split())

@@ -334,8 +334,8 @@ def _engine_v(task: Task, data: Mapping[str, str]) -> File:
 def _four_bar(task: Task, data: Mapping[str, str]) -> File:
     found = _torque(task, data)
     found["branch"] = "open" if task.find(r"C lies to the (left|right)") == "left" else "crossed"
-    if "x_E" in data:
-        found["E"] = {"along": data["x_E"], "across": data["y_E"]}
+    if "ξ_E" in data:
+        found["E"] = {"along": data["ξ_E"], "across": data["η_E"]}
     if "P_3" in data:
         found["force"] = {"P": data["P_3"], "angle": data["α_P"]}
     return found

@@ -146,3 +146,8 @@ def test_figures_and_tables_are_those_that_templates_name(kind: str) -> None:
 def search_paths() -> Iterator[tuple[Path, ...]]:
     for kind in sorted({api.load(file).kind for file in ASSIGNMENTS.glob("*.yaml")}):
         yield search_path("en", kind=kind)
+
+
+def test_no_table_of_rows_is_wider_than_the_text() -> None:
+    widths = {name: sum(made.widths) for name, made in named_tables.TABLES.items() if hasattr(made, "widths")}
+    assert {name: width for name, width in widths.items() if width > 160} == {}

@@ -140,13 +140,15 @@ def test_figures_stand_in_their_order_within_their_section(report: Report) -> No
             places.setdefault(number, page.number)
     assert list(places) == [one.number for one in blocks if isinstance(one, (Figure, Plate)) and one.number in places]
     started = {number: page.number for page in report.pages for number in headings(page)}
+    # A short report, which is set close, has sections of a page; there a figure may run on into the next one.
+    keeping = 1 if report.document.close else 2
     section, found = "", {}
     for block in blocks:
-        if isinstance(block, Section) and block.level <= 2:
+        if isinstance(block, Section) and block.level <= keeping:
             section = block.number
         elif isinstance(block, Figure):
             found[block.number] = section
-    order = [one.number for one in blocks if isinstance(one, Section) and one.level <= 2]
+    order = [one.number for one in blocks if isinstance(one, Section) and one.level <= keeping]
     for number, own in found.items():
         if own in started and number in places:
             after = [started[one] for one in order[order.index(own) + 1 :] if one in started]
