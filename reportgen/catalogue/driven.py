@@ -107,6 +107,7 @@ def driven(
     are left out.
     """
     given, positions = assignment.parameters, assignment.positions
+    q.set_out("places")
     linkage = with_crank(q, linkage)
     of_kind = (*own.pop("applied", ()), *own.pop("torques", ()))
     turns = own.get("turns", assignment.turns)

@@ -78,7 +78,7 @@ def _sheet(given: Parameters, crank: Given | None = None) -> GivenSheet:
         l, m, share, moment = q[ids.length(rod)], ids.mass(link), getattr(given, f"s{link}"), q.of_link("J", link)  # noqa: E741
         if m in q or moment:
             centre = q.define(ids.length(rod[0], f"S{link}"), q.give(ids.mass_centre(link), share.si, kind="ratio") * l)
-            q.set_out("lengths", centre)
+            q.set_out("places", centre)
             q.moment(link, q[m] * l**2 / 12 if m in q else None)
     q.set_out("loads", "f.x.E", "P5")
     if crank is not None:

@@ -66,7 +66,6 @@ def machine(assignment: Assignment) -> Machine:
         q.datum("guide.angle", given.guide, "α", "angle")
     q.speed()
     q.drawn("A", "B", assignment.drawing.crank)
-    q.set_out("places")
     q.set_out("rod")
     if has_centre:
         q.set_out("rod", q.define("l.BS2", q.give("s", MIDDLE if given.s is None else given.s.si) * l))

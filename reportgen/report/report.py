@@ -283,11 +283,11 @@ class Report:
 
     @property
     def lengths(self) -> list[str]:
-        """The true lengths that have a drawn one, in the machine's own order if it has one."""
-        if "lengths" in self.sheet:
-            return self.sheet["lengths"]
+        """The true lengths that have a drawn one, in the machine's own order if it has one; then mass centres."""
+        own, places = (self.sheet.get(name, ()) for name in ("lengths", "places"))
         single = [id for id, family in self.ledger.families.items() if len(family.values) == 1]
-        return [id for id in single if (found := ids.length.read(id)) and ids.drawn.of(found) in single]
+        drawn = [id for id in single if (found := ids.length.read(id)) and ids.drawn.of(found) in single]
+        return [*own, *(id for id in drawn if id in places and id not in own)] if own else drawn
 
     @property
     def drawn_lines(self) -> list[str]:

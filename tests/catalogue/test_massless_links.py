@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from importlib import import_module
 from itertools import combinations
 from pathlib import Path
@@ -15,9 +16,11 @@ from reportgen import api
 from reportgen.base.kinds import kinds
 from reportgen.cases import opened
 from reportgen.catalogue import sample
+from reportgen.formula import ids
 from reportgen.marking.key import key_of
 from reportgen.report import text_of
 from tests.lanes import matrix
+from tests.report import built
 
 CRANK: dict[str, Any] = {"r": "90 mm", "l": "330 mm", "n": "150 rpm", "m1": "8 kg", "s1": "0.4"}
 
@@ -85,3 +88,21 @@ def test_any_subset_of_the_masses(tmp_path: Path, kind: str, given: tuple[str, .
     case = opened(api.load(written(tmp_path, kind, kept | masses, new=new)))
     assert case.document().blocks
     assert key_of(case)
+
+
+@pytest.mark.parametrize("extent", ["full", "short"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_place_of_a_mass_centre_has_its_line(tmp_path: Path, kind: str, extent: str) -> None:
+    """l_AS = s·l is worked out before it stands in the table of real dimensions; so is the crank's."""
+    Parameters = import_module(kinds()[kind]).Parameters
+    new = yaml.load(sample(kind, "en"), yaml.BaseLoader)
+    kept = {key: value for key, value in new["parameters"].items() if key[0] not in "GmJs" or not key[1:].isdigit()}
+    heavy = {f"m{link}": "3 kg" for link in (1, *Parameters.links["m"])} | {"s1": "0.4"}
+    path = written(tmp_path, kind, kept | heavy, new=new)
+    path.write_text(path.read_text("utf-8").replace("report:\n", f"report:\n  extent: {extent}\n"), encoding="utf-8")
+    report = built.compose(api.load(path))
+    families = report.case.ledger.families
+    places = {id for id, family in families.items() if ids.length.read(id) and re.search(r"S\d$", id)}
+    worked = {id for id in places if families[id].definition is not None}
+    assert any(id.endswith("S1") for id in worked)
+    assert {id for id, _ in report.lines} >= worked
