@@ -1,13 +1,15 @@
-"""An engine in motion for a page: cranks and pistons, and the force of each order on the frame with its path."""
+"""An engine in motion for a page: cranks and pistons, force and couple of each order on the frame with their paths."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_drawings import OUT, UP, banks, crank_at, piston_at
 from reportgen.balancing.engine_sheet import ORDERS
 from reportgen.balancing.solved_engine import SolvedEngine
@@ -36,12 +38,35 @@ from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 360
 HIGH, FORCE = 100.0, 40.0
-"""What the engine, and the greatest force, may fill (mm)."""
-PENS = {1: Pen(0.5, style.RED), 2: Pen(0.5, style.BLUE, style.DASHED), 4: Pen(0.4, style.BLACK, style.DOTTED)}
+"""What the engine, and the greatest force or couple, may fill (mm)."""
+ROTATING = "rot"
+PENS = {
+    "1": Pen(0.5, style.RED),
+    "2": Pen(0.5, style.BLUE, style.DASHED),
+    "4": Pen(0.4, style.BLACK, style.DOTTED),
+    ROTATING: Pen(0.5, style.GRAY, style.CHAIN),
+}
 WHOLE = Pen(0.6)
 DIGITS = 4
 CENTRE = Track(np.zeros(1, complex))
 Turn = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Shaking:
+    """The forces on the frame (N) over a turn, or the couples (N·m), by order and of the rotating masses, as x + iy."""
+
+    name: str
+    letter: str
+    kind: str
+    parts: dict[str, NDArray[np.complex128]]
+    """What is not there throughout is left out."""
+    least: float
+    """What is smaller is nothing but rounding."""
+
+    @property
+    def whole(self) -> NDArray[np.complex128]:
+        return np.asarray(sum(self.parts.values()), complex)
 
 
 def animation(case: SolvedEngine) -> Animation:
@@ -57,7 +82,7 @@ def animation(case: SolvedEngine) -> Animation:
         span=0.0,
         positions=(("1", 0.0),),
         shown=0,
-        panes=(_engine(case, φ, per), _forces(case, φ)),
+        panes=(_engine(case, φ, per), *(_plan(case, one) for one in _shaking(case, φ))),
         charts=tuple(_charts(case, φ)),
         values=tuple(_values(case, φ)),
         errors=Errors(drawn * (1 - math.cos(math.pi / SAMPLES)), drawn, 1 - math.cos(ORDERS[-1] * math.pi / SAMPLES)),
@@ -86,45 +111,59 @@ def _engine(case: SolvedEngine, φ: Turn, per: float) -> Pane:
     return Pane("engine", title, tuple(items), low=low, high=high, scales=(BarScale(1 / per, "segment"),))
 
 
-def _shown(case: SolvedEngine, φ: Turn) -> dict[int, NDArray[np.complex128]]:
-    """The forces of the orders that are there."""
-    least = ZERO * len(case.cylinders) * float(case.ledger["orders.K"].values[0])
-    return {order: force for order, force in case.forces(φ).items() if np.abs(force).max() > least}
+def _shaking(case: SolvedEngine, φ: Turn) -> Iterator[Shaking]:
+    """Forces, and couples where the cylinders stand at several places."""
+    K, places = float(case.ledger["orders.K"].values[0]), case.cylinders
+    yield _kept("forces", case.forces(φ), case.rotating(φ), K * len(places))
+    if "couples" in case.stars:
+        arms = sum(abs(float(case.ledger[orders_ids.arm(place)].values[0])) for place in places)
+        yield _kept("couples", case.couples(φ), case.rotating_couple(φ), K * arms)
 
 
-def _forces(case: SolvedEngine, φ: Turn) -> Pane:
-    forces = _shown(case, φ)
-    whole = np.asarray(sum(forces.values(), np.zeros(len(φ), complex)))
-    most = max((float(np.abs(one).max()) for one in (*forces.values(), whole)), default=0.0) or FORCE
-    newtons = most / FORCE
+def _kept(
+    name: str, by_order: dict[int, NDArray[np.complex128]], rotating: NDArray[np.complex128], natural: float
+) -> Shaking:
+    """What is more than nothing beside all cylinders pulling in one direction."""
+    letter, kind = ("F", "force") if name == "forces" else ("M", "torque")
+    every = {**{str(order): part for order, part in by_order.items()}, ROTATING: rotating}
+    least = ZERO * natural
+    return Shaking(name, letter, kind, {of: part for of, part in every.items() if np.abs(part).max() > least}, least)
+
+
+def _plan(case: SolvedEngine, shaking: Shaking) -> Pane:
+    """The vectors of the parts and of their sum, with the path of the sum."""
+    parts, letter, whole = shaking.parts, shaking.letter, shaking.whole
+    most = max((float(np.abs(one).max()) for one in (*parts.values(), whole)), default=0.0) or FORCE
+    per_mm = most / FORCE
     ring = Circle(0j, FORCE, style.THIN)
     axes = Line(-UP * FORCE, UP * FORCE, style.AXIS), Line(-FORCE + 0j, FORCE + 0j, style.AXIS)
-    path = Polyline(tuple(complex(at) for at in UP * whole / newtons), style.PATH)
-    items: list[MovingItem] = [Still((ring, *axes, *([path] if forces else [])))]
-    for order, force in forces.items():
-        items.append(MovingVector(CENTRE, Track(UP * force / newtons), PENS[order], label=Symbol("F", str(order))))
-    if len(forces) > 1:
-        items.append(MovingVector(CENTRE, Track(UP * whole / newtons), WHOLE, label=Symbol("F")))
+    path = Polyline(tuple(complex(at) for at in UP * whole / per_mm), style.PATH) if parts else None
+    items: list[MovingItem] = [Still((ring, *axes, *([path] if path else [])))]
+    for of, part in parts.items():
+        items.append(MovingVector(CENTRE, Track(UP * part / per_mm), PENS[of], label=Symbol(letter, of)))
+    if len(parts) > 1:
+        items.append(MovingVector(CENTRE, Track(UP * whole / per_mm), WHOLE, label=Symbol(letter)))
     low, high = extent(items)
-    title = case.words["orders"]["panes"]["forces"]
-    return Pane("forces", title, tuple(items), low=low, high=high, scales=(BarScale(newtons, "force"),))
+    title = case.words["orders"]["panes"][shaking.name]
+    return Pane(shaking.name, title, tuple(items), low=low, high=high, scales=(BarScale(per_mm, shaking.kind),))
 
 
 def _charts(case: SolvedEngine, φ: Turn) -> Iterator[Chart]:
-    """The parts of the forces along x and y over a turn."""
-    for axis, part in (("x", np.real), ("y", np.imag)):
-        curves = [(Symbol("F", str(order)), part(force)) for order, force in _shown(case, φ).items()]
-        if any(np.abs(values).max() > 0 for _, values in curves):
-            name = Symbol("F", axis)
-            across = Chain((Symbol("φ"),), str(case.words["orders"]["degrees"]))
-            plots = tuple(PlottedCurve(symbol, np.degrees(φ), values) for symbol, values in curves)
-            shown = plotted(
-                Diagram(plots, across, Chain((name,), case.ledger.printed_unit(KINDS["force"].unit))), half=True
-            )
-            yield Chart(shown, tuple(Curve(of, Track(values)) for of, values in curves))
+    """The parts of forces and couples along x and y over a turn."""
+    across = Chain((Symbol("φ"),), str(case.words["orders"]["degrees"]))
+    for shaking in _shaking(case, φ):
+        unit = case.ledger.printed_unit(KINDS[shaking.kind].unit)
+        for axis, along in (("x", np.real), ("y", np.imag)):
+            curves = [(Symbol(shaking.letter, of), along(part)) for of, part in shaking.parts.items()]
+            if any(np.abs(values).max() > shaking.least for _, values in curves):
+                plots = tuple(PlottedCurve(symbol, np.degrees(φ), values) for symbol, values in curves)
+                shown = plotted(Diagram(plots, across, Chain((Symbol(shaking.letter, axis),), unit)), half=True)
+                yield Chart(shown, tuple(Curve(of, Track(values)) for of, values in curves))
 
 
 def _values(case: SolvedEngine, φ: Turn) -> Iterator[MomentValue]:
-    for order, force in _shown(case, φ).items():
-        decimals = max(significant_decimals(float(np.abs(force).max()), DIGITS), 0)
-        yield MomentValue(Symbol("F", str(order)), KINDS["force"].unit, Track(np.abs(force)), decimals)
+    for shaking in _shaking(case, φ):
+        for of, part in shaking.parts.items():
+            decimals = max(significant_decimals(float(np.abs(part).max()), DIGITS), 0)
+            unit = KINDS[shaking.kind].unit
+            yield MomentValue(Symbol(shaking.letter, of), unit, Track(np.abs(part)), decimals)

@@ -12,7 +12,7 @@ import numpy as np
 from reportgen.balancing import rotor_drawings, rotor_ids, rotor_motion
 from reportgen.balancing.places_page import PlacesPage, bare
 from reportgen.balancing.rotor_file import BEARINGS
-from reportgen.balancing.rotor_sheet import AFTER, BEFORE
+from reportgen.balancing.rotor_sheet import AFTER, AXES, BEFORE
 from reportgen.balancing.solved_rotor import SolvedRotor
 from reportgen.drawing import Scene
 from reportgen.drawing.animation import Animation
@@ -68,7 +68,9 @@ class RotorPage(PlacesPage[SolvedRotor]):
             "radius_is_sought": "r" in case.given.sought,
             "against": any(case.ledger[rotor_ids.moment(place)].values[0] < 0 for place in case.moments),
             "corrects": {plane: bool(written[rotor_ids.unbalance(plane)].at(1)) for plane in case.planes},
-            "leaves_couple": not case.two_planes and case.given.has_couple,
+            "corrects_nothing": not any(written[rotor_ids.unbalance(plane)].at(1) for plane in case.planes),
+            "asks_after": not case.two_planes and case.given.has_couple,
+            "leaves_couple": self.leaves_couple,
             "grade_met": all(case.permitted or ()),
             "has_data": has_data,
             "data": self.data if has_data else "",
@@ -85,6 +87,12 @@ class RotorPage(PlacesPage[SolvedRotor]):
             "math": self.math,
             "figure": self.figure,
         }
+
+    @property
+    def leaves_couple(self) -> bool:
+        """Whether the moments about the one plane of correction have a resultant."""
+        printed, parts = self.case.printed, [rotor_ids.resultant("V", axis) for axis in AXES]
+        return not self.case.two_planes and any(printed[id].at(1) for id in parts if id in printed)
 
     def closing(self, of: str, masses: Sequence[str]) -> Equation:
         """The vectors of a plan, whose sum is nothing: those of the masses and of the corrections."""

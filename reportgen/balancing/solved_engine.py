@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -61,14 +61,45 @@ class SolvedEngine(DesignCase):
 
     def forces(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
         """The force on the frame (N) of each order with the crank at φ, x + iy: Σ K Aₙ cos n(φ + θ − ψ) e^{iψ}."""
+        return self._by_order(φ, [1.0] * len(self.cylinders))
+
+    def couples(self, φ: ArrayLike) -> dict[int, NDArray[np.complex128]]:
+        """The couple on the frame (N·m) of each order, in the plane of its forces: each of them times its arm c."""
+        return self._by_order(φ, self._arms)
+
+    def rotating(self, φ: ArrayLike) -> NDArray[np.complex128]:
+        """The force of the rotating masses (N) with the crank at φ: Σ m_A r ω² e^{i(φ + θ)}."""
+        return self._rotating(φ, [1.0] * len(self.cylinders))
+
+    def rotating_couple(self, φ: ArrayLike) -> NDArray[np.complex128]:
+        """The couple of the rotating masses (N·m), in the plane of its forces."""
+        return self._rotating(φ, self._arms)
+
+    @property
+    def _arms(self) -> list[float]:
+        """c of each cylinder (m); the ledger has none where all stand at one place."""
+        return [float(self.ledger[orders_ids.arm(place)].values[0]) for place in self.cylinders]
+
+    def _by_order(self, φ: ArrayLike, weights: Sequence[float]) -> dict[int, NDArray[np.complex128]]:
         K = self.ledger["orders.K"].values[0]
         cylinders = [(one.crank.si, one.bank.si) for one in self.given.cylinders]
         by_order = {}
         for order in ORDERS:
             A = 1.0 if order == 1 else self.ledger[orders_ids.factor(order)].values[0]
-            parts = [np.cos(order * (np.asarray(φ) + θ - ψ)) * np.exp(1j * ψ) for θ, ψ in cylinders]
+            parts = [
+                c * np.cos(order * (np.asarray(φ) + θ - ψ)) * np.exp(1j * ψ)
+                for c, (θ, ψ) in zip(weights, cylinders, strict=True)
+            ]
             by_order[order] = np.asarray(K * A * sum(parts))
         return by_order
+
+    def _rotating(self, φ: ArrayLike, weights: Sequence[float]) -> NDArray[np.complex128]:
+        turned = np.exp(1j * np.asarray(φ))
+        if self.given.m2 is None:
+            return np.zeros_like(turned)
+        m_A, r, ω = (float(self.ledger[id].values[0]) for id in ("orders.mA", "orders.r", "orders.omega"))
+        cranks = zip(weights, self.given.cylinders, strict=True)
+        return np.asarray(m_A * r * ω**2 * turned * sum(c * np.exp(1j * one.crank.si) for c, one in cranks))
 
     # --- what is often taken for something else
 
@@ -104,8 +135,13 @@ class SolvedEngine(DesignCase):
         yield "orders.K", "orders-speed-once", m * r * ω
 
     def _of_counterweight(self) -> Changed:
-        r, f, m = Ref("orders.r"), Ref(orders_ids.resultant("f", 1)), Ref("orders.m")
-        if self.given.m2 is not None:
-            m_A = Ref("orders.mA")
-            yield "orders.rotating", "orders-speed-once", m_A * r * Ref("orders.omega") * f
-            yield "orders.U", "orders-share-of-rotating", (m_A + m) / 2 * r * f
+        r, m, m_A, ω = (Ref(f"orders.{name}") for name in ("r", "m", "mA", "omega"))
+        if self.given.m2 is None:
+            return
+        f = Ref(orders_ids.resultant("f", 1))
+        yield "orders.rotating", "orders-speed-once", m_A * r * ω * f
+        yield "orders.U", "orders-share-of-rotating", (m_A + m) / 2 * r * f
+        if "couples" in self.stars:
+            p = Ref(orders_ids.resultant("p", 1))
+            yield "orders.rotating.M", "orders-speed-once", m_A * r * ω * p
+            yield "orders.U.M", "orders-share-of-rotating", (m_A + m) / 2 * r * p

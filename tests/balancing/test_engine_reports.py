@@ -29,6 +29,7 @@ from reportgen.marking.marking import mark
 from reportgen.marking.mistakes import Mistake
 from reportgen.marking.policy import Policy
 from reportgen.marking.scheme import MarkingScheme, marking_scheme
+from reportgen.report import text_of
 from reportgen.results import results as results_of
 from reportgen.sheets import drawing_sheets
 from tests.balancing.test_rotor_reports import ROUNDED, arrows, recomputes
@@ -113,6 +114,59 @@ def test_words_page_sheet_and_results(name: str) -> None:
     assert set(position["orders"]) == {"1", "2", "4"}
 
 
+# --- a V8 whose forces are free and whose rotating masses have a couple --------------------------------------
+
+CRANKS, APART = (0, 90, 270, 180), 0.11
+V_EIGHT = """kind: engine-balance
+parameters:
+  r: 44 mm
+  l: 150 mm
+  n: 4000 rpm
+  m3: 0.5 kg
+  m2: 0.6 kg
+  s: 0.3
+  cylinders:
+""" + "".join(
+    f"    - {{crank: {crank} deg, at: {110 * throw + 20 * side} mm, bank: {45 - 90 * side} deg}}\n"
+    for throw, crank in enumerate(CRANKS)
+    for side in (0, 1)
+)
+
+
+@pytest.fixture(scope="module", name="v_eight")
+def _v_eight(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    file = tmp_path_factory.mktemp("eight") / "v8.yaml"
+    file.write_text(V_EIGHT, encoding="utf-8")
+    return file
+
+
+def test_the_page_moves_the_couples_with_that_of_the_rotating_masses(v_eight: Path) -> None:
+    """m_A r ω² |Σ c e^{iθ}| at constant size, and so its half with m_rec in place of m_A: the star q₁ is closed."""
+    (animation,) = open_case(v_eight, "en").animations()
+    assert [pane.key for pane in animation.panes] == ["engine", "forces", "couples"]
+    found = {value.symbol: value.values.values for value in animation.values}
+    ω = 4000 * math.tau / 60
+    throws = [(-1.5 + throw) * APART * cmath.rect(2, math.radians(crank)) for throw, crank in enumerate(CRANKS)]
+    per_kg = 0.044 * ω**2 * abs(sum(throws))
+    assert found[Symbol("M", "rot")] == pytest.approx(0.6 * 0.7 * per_kg, rel=1e-9)
+    assert found[Symbol("M", "1")] == pytest.approx((0.5 + 0.6 * 0.3) / 2 * per_kg, rel=1e-9)
+    assert not {Symbol("F", "1"), Symbol("F", "rot"), Symbol("M", "2")} & set(found)
+    # F₄ of two banks at a right angle stays on x: along y there is nothing to draw.
+    charts = [{curve.label for curve in chart.curves} for chart in animation.charts]
+    couples = {Symbol("M", of) for of in ("1", "4", "rot")}
+    assert charts == [{Symbol("F", "4")}, couples, couples]
+
+
+NEEDED = {"en": "need no counterweight", "vi": "không cần đối trọng", "ru": "противовеса не требуют", "zh": "不需配重"}
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_conclusion_names_no_counterweight_of_nothing(v_eight: Path, language: Language) -> None:
+    conclusion = text_of(open_case(v_eight, language).document()).rpartition("F_2")[2]
+    assert NEEDED[language] in conclusion
+    assert "U_c" not in conclusion
+
+
 # --- faults -----------------------------------------------------------------------------------------------
 
 TEXT = """kind: engine-balance
@@ -163,6 +217,8 @@ MISTAKES = [
     ("v-twin", "orders-speed-once", ("orders.K",)),
     ("three", "orders-share-of-rotating", ("orders.U",)),
     ("v-twin", "degrees-for-radians", (orders_ids.resultant("g", 2),)),
+    ("three", "orders-share-of-rotating", ("orders.U.M",)),
+    ("three", "orders-speed-once", ("orders.rotating.M",)),
 ]
 
 

@@ -276,6 +276,39 @@ def test_the_file_of_new_is_right(language: Language, tmp_path: Path) -> None:
     assert api.check(file, language) == []
 
 
+COUPLE = """kind: rotor
+parameters:
+  planes: {A: 50 mm}
+  masses: [{m: 1 kg, r: 50 mm, angle: 0 deg, z: 0 mm}, {m: 1 kg, r: 50 mm, angle: 180 deg, z: 100 mm}]
+  bearings: [-50 mm, 150 mm]
+  n: 900 rpm
+"""
+AS_IT_IS = {
+    "en": ("static balance as it is", "couple, which one plane cannot correct"),
+    "vi": ("cân bằng tĩnh", "ngẫu lực mà một mặt phẳng không cân bằng được"),
+    "ru": ("и без корректировки уравновешен статически", "пару сил, которую нельзя уравновесить в одной плоскости"),
+    "zh": ("已静平衡", "单个基面无法平衡"),
+}
+
+
+@pytest.mark.parametrize("language", list(AS_IT_IS))
+def test_no_correction_is_told_as_none(language: Language, tmp_path: Path) -> None:
+    """Σ m r = 0, but the masses at two places have a couple."""
+    file = tmp_path / "couple.yaml"
+    file.write_text(COUPLE, encoding="utf-8")
+    text = tree.text_of(open_case(file, language).document())
+    for told in AS_IT_IS[language]:
+        assert told in text
+
+
+def test_masses_alike_on_both_sides_of_the_plane_leave_no_couple(tmp_path: Path) -> None:
+    file = tmp_path / "alike.yaml"
+    file.write_text(COUPLE.replace("180 deg", "0 deg"), encoding="utf-8")
+    text = tree.text_of(open_case(file, "en").document())
+    assert "couple" not in text
+    assert "The rotor is balanced statically by the correction" in text
+
+
 def test_masses_in_the_first_plane_need_no_second(tmp_path: Path) -> None:
     file = tmp_path / "rotor.yaml"
     file.write_text(TEXT.replace("z: 100 mm", "z: 0 mm").replace("z: 300 mm", "z: 0 mm"), encoding="utf-8")
