@@ -11,13 +11,12 @@ import numpy as np
 from reportgen.base.units import MM
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas
-from reportgen.drawing.forces import LEAST_ARM, ArmOf, Couple, Force
+from reportgen.drawing.forces import ArmOf, Couple, Force
 from reportgen.drawing.forces import bodies as bodies_figure
 from reportgen.drawing.forces import lever as lever_figure
-from reportgen.drawing.geometry import unit
 from reportgen.drawing.labels import label
 from reportgen.drawing.plan import plan
-from reportgen.drawing.style import CONSTRUCTION, PAPER, THIN, VISIBLE
+from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force
@@ -27,7 +26,7 @@ from reportgen.report.figures import HALF, FigureScenes, beside_one_another, dra
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report
-from reportgen.report.wide_sliders import at_ends, ends_of
+from reportgen.report.wide_sliders import at_ends, face
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,10 +59,7 @@ class _Bodies:
         """The faces of the links that are sliders as wide as is given, each with what holds it at its pin."""
         items: list[Item] = []
         for link in (link for link in self.links if link in self.report.machine.faces):
-            first, last = (place * self.scale for place in ends_of(self.report, link, self.k))
-            pin = complex(self.report.analysis.motion.origins[link].p[self.k - 1]) * self.scale
-            foot = complex(constructions.foot(pin, first, unit(last - first)))
-            items += [Line(first, last, VISIBLE), *([Line(pin, foot, THIN)] if abs(foot - pin) > LEAST_ARM else [])]
+            items += face(self.report, link, self.k, self.scale)
         return Canvas(tuple(items))
 
     def loads(self) -> list[Force]:

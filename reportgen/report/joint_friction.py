@@ -10,9 +10,9 @@ from functools import partial
 
 from reportgen.base.shown import view
 from reportgen.base.units import MM
-from reportgen.drawing import Arc, Arrow, Circle, Item, Line, Scene, style
+from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
-from reportgen.drawing.description import PaperLength, arrow, direction, fact, turning
+from reportgen.drawing.description import PaperLength, fact, turning
 from reportgen.drawing.forces import Force, draw_forces
 from reportgen.drawing.geometry import polar
 from reportgen.drawing.labels import label
@@ -22,23 +22,22 @@ from reportgen.formula import Number, Symbol, friction_ids, ids, vocabulary
 from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.machine.joint_friction import FrictionForces, relative_sense
-from reportgen.machine.motion import cross
 from reportgen.plans.joint_friction import RubbingJoint, rubbing_joints
 from reportgen.plans.loads import Edge, Polygon
 from reportgen.report import FIRST_COLUMN, Column, Inlines, Table, Text, equations
+from reportgen.report.face_friction import FaceForce, Leaning, any_tilts, at_both_ends, face_forces, leaning_forces
 from reportgen.report.figures import FigureScenes, as_large_as_asked, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.report.groups import GroupView
 from reportgen.report.plans import force_plan
 from reportgen.report.prose import NamedPoint, subscripted
 from reportgen.report.report import Report
 from reportgen.report.tables import bare, side_by_side
+from reportgen.report.wide_sliders import face
 
 ENLARGED = 8.0
 """The radius (mm) up to which a friction circle is drawn by itself."""
 REACH = 22.0
 """How far (mm) the lines of forces are drawn beyond the joints that they belong to."""
-DETAIL = 26.0
-"""The length (mm) of the reaction of a guide whose angle of friction is drawn."""
 CLOSING = "n"
 """The corner that closes a force plan."""
 ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
@@ -82,20 +81,6 @@ def resting(report: Report) -> str:
 def solved_exactly(report: Report, k: int) -> bool:
     """Whether the rounds do not settle at a position, and the equations are solved instead."""
     return bool(_found(report).exact[k - 1])
-
-
-def tilting(report: Report, k: int) -> list[str]:
-    """The wide sliders that rub and tilt at a position, with friction: both of their ends bear and rub."""
-    friction, solved, motion = report.machine.friction, _found(report), report.analysis.motion
-    assert friction is not None, "the chapter is there where joints rub"
-    tilted = []
-    for joint in friction.joints(report.machine.linkage):
-        link = joint.links[1]
-        if joint.kind == "P" and (faces := friction.faces.get(link)) is not None:
-            reaction = solved.forces.reactions[reaction_name(*joint.links)]
-            normal = cross(motion.slides[joint.links].direction, reaction.force)
-            tilted += [str(link)] if faces.tilts(normal, reaction.moment)[k - 1] else []
-    return tilted
 
 
 def data(report: Report) -> Inlines:
@@ -259,6 +244,10 @@ def scheme_scene(report: Report, k: int, factor: float = 1.0) -> Scene:
     marks: list[Item] = [Circle(bones.points[point], radius, style.REACTION) for point, radius in circles.items()]
     forces = []
     for carried in shown:
+        if ends := _at_ends(report, carried):
+            marks += face(report, carried.each.link, k, scale)
+            forces += [Force(name, end.at * scale, end.across + end.along, "reaction") for end, name in ends]
+            continue
         marks += _line(carried, shown, scale)
         forces.append(
             Force(_named(report, carried.each), (carried.at + carried.offset) * scale, carried.force, "reaction")
@@ -330,37 +319,29 @@ def _detail(report: Report, k: int, carried: JointForce, scale: float) -> Scene:
 
 
 def _guide_detail(report: Report, carried: JointForce) -> Scene:
-    """N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N."""
-    links, k = carried.each.of.joint.links, carried.k
-    guide = complex(report.analysis.motion.slides[links].direction[k - 1])
+    """N across the guide and F along it against the sliding, in their ratio; the reaction leans by φ = arctan F/N.
+
+    Of a slider that tilts, the two forces on the ends of its face.
+    """
+    joint, digits = carried.each.of.joint, carried.each.digits
+    guide = complex(report.analysis.motion.slides[joint.links].direction[carried.k - 1])
+    φ = report.ledger.symbol(friction_ids.angle(carried.each.link))
+    title = f"{report.words['figure']['link']} {carried.each.link}"
+    if ends := _at_ends(report, carried):
+        return at_both_ends(ends, guide, φ, title)
     along = guide * (carried.force * guide.conjugate()).real
-    across = carried.force - along
-    size = DETAIL / abs(carried.force)
-    N, F, R = across * size, along * size, carried.force * size
-    angles = cmath.phase(N), cmath.phase(N) + cmath.phase(R / N)
-    items: tuple[Item, ...] = (
-        Line(-DETAIL / 2 * guide, DETAIL / 2 * guide, style.AXIS),
-        Arrow(0j, N, style.ACTIVE, style.HEAD),
-        Arrow(N, N + F, style.ACTIVE, style.HEAD),
-        Arrow(0j, R, style.REACTION, style.HEAD),
-        Arc(0j, DETAIL / 2, *angles, style.DIMENSION, style.DIMENSION_HEAD),
-    )
-    digits = carried.each.digits
-    normal, rubbing = (report.named(Symbol(*of, "", "vector")) for of in (("N", digits), ("F", f"fr{digits}")))
-    whole, φ = _named(report, carried.each), report.ledger.symbol(friction_ids.angle(carried.each.link))
-    names = (
-        label((N, N * 0.8), normal),
-        label(N + F / 2, rubbing),
-        label((R, R * 0.8), whole),
-        label(DETAIL / 2 * polar(sum(angles) / 2), φ),
-    )
-    facts = (
-        arrow(normal, N),
-        arrow(rubbing, F),
-        arrow(whole, R),
-        fact("angle", φ, direction(polar(abs(angles[1] - angles[0])))),
-    )
-    return finish(Canvas(items, names, facts), title=f"{report.words['figure']['link']} {carried.each.link}")
+    names = [report.named(Symbol(*of, "", "vector")) for of in (("N", digits), ("F", f"fr{digits}"))]
+    names.append(_named(report, carried.each))
+    return leaning_forces(guide, [Leaning(carried.force - along, along, 0j, names)], φ, title)
+
+
+def _at_ends(report: Report, carried: JointForce) -> list[tuple[FaceForce, Symbol]]:
+    """The forces on the ends of a slider that tilts, with their names; none of any other joint."""
+    joint, digits = carried.each.of.joint, carried.each.digits
+    return [
+        (force, report.named(Symbol("R", f"{digits},{force.number}", "fr", "vector")))
+        for force in face_forces(report, joint, carried.k)
+    ]
 
 
 # --- force plans ----------------------------------------------------------------------------------
@@ -446,6 +427,7 @@ VALUES: Mapping[str, Callable[[Report], object]] = {
     "friction_angles": angle_lines,
     "friction_circles": circle_lines,
     "friction_cycle": cycle,
+    "friction_tilts": any_tilts,
     "friction_data": data,
     "friction_losses": loss_lines,
     "friction_means": mean_lines,

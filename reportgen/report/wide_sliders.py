@@ -8,7 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.shown import view
-from reportgen.formula import Symbol, ids, vocabulary
+from reportgen.drawing import Item, Line, style
+from reportgen.drawing.forces import LEAST_ARM
+from reportgen.drawing.geometry import unit
+from reportgen.formula import Symbol, constructions, ids, vocabulary
 from reportgen.machine.loads import carriers
 from reportgen.report.prose import NamedPoint
 from reportgen.report.report import Report
@@ -83,6 +86,15 @@ def ends_of(report: Report, link: int, k: int) -> tuple[complex, complex]:
     first, last = (x - 1j * faces.below for x in (faces.first, faces.last))
     pin = complex(motion.origins[link].p[k - 1])
     return pin + first * along, pin + last * along
+
+
+def face(report: Report, link: int, k: int, scale: float) -> list[Item]:
+    """The face of a slider with what holds it at its pin, in paper millimetres."""
+    first, last = (place * scale for place in ends_of(report, link, k))
+    pin = complex(report.analysis.motion.origins[link].p[k - 1]) * scale
+    foot = complex(constructions.foot(pin, first, unit(last - first)))
+    arm = [Line(pin, foot, style.THIN)] if abs(foot - pin) > LEAST_ARM else []
+    return [Line(first, last, style.VISIBLE), *arm]
 
 
 def at_ends(report: Report, digits: str, link: int, k: int) -> list[tuple[Symbol, complex, complex, str]]:

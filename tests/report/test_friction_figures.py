@@ -11,9 +11,12 @@ import pytest
 
 from reportgen.base.units import MM
 from reportgen.cases import MachineCase, open_case
-from reportgen.drawing import Circle, Scene
+from reportgen.drawing import Circle, Label, Scene
+from reportgen.formula import Symbol
 from reportgen.machine.joint_friction import relative_sense
 from reportgen.report import joint_friction as friction
+from reportgen.report import text_of
+from reportgen.report.face_friction import face_forces
 from reportgen.report.figures import drawing_scale
 from reportgen.report.report import Report
 
@@ -140,3 +143,62 @@ def test_rounds_stand_as_they_are_printed() -> None:
         lost = sum(ρ[digits] * R[digits] * ω[digits] for digits in ρ) + 0.12 * R["03"] * shown["v.C"]
         assert shown[f"friction.round.{number}"] == pytest.approx(shown["M.eq"] + lost / 10.0, abs=0.0051)
     assert shown[f"friction.round.{count}"] == pytest.approx(shown["friction.M"], abs=0.0051)
+
+
+# --- a slider that tilts ------------------------------------------------------------------------------
+
+WIDE = """kind: slider-crank
+report: {language: LANGUAGE, worked_positions: [3]}
+positions: {count: 12}
+parameters:
+  r: 80 mm
+  l: 300 mm
+  n: 200 rpm
+  m3: 7 kg
+  force: {by: constant, F: 1200 N, stroke: inward}
+  loads: [{by: constant, link: 3, M: -20 N m}]
+  faces: {3: {from: -60 mm, to: 60 mm, below: 30 mm}}
+  friction: {pins: {B: {f: 0.08, r: 20 mm}}, sliders: {3: 0.12}}
+"""
+
+
+def wide(folder: Path, language: str = "en") -> tuple[Report, int]:
+    file = folder / "wide.yaml"
+    file.write_text(WIDE.replace("LANGUAGE", language), encoding="utf-8")
+    return report_of(file)
+
+
+def test_where_a_slider_tilts_each_face_reaction_leans_by_the_angle_of_friction(tmp_path: Path) -> None:
+    """R₁ and R₂ lean by arctan f against the sliding on opposite sides; together they do not. N is the sum of sizes."""
+    report, k = wide(tmp_path)
+    (guide,) = (carried for carried in friction.joint_forces(report, k) if carried.each.kind == "slider")
+    first, last = face_forces(report, guide.each.of.joint, k)
+    slide = report.analysis.motion.slides[0, 3]
+    along = complex(slide.direction[k - 1])
+    for end in (first, last):
+        assert abs(end.along) == pytest.approx(0.12 * abs(end.across))
+        assert np.sign((end.along * np.conj(along)).real) == -np.sign(slide.v[k - 1])
+    assert (first.across / last.across).real < 0
+    together = first.across + first.along + last.across + last.along
+    assert together == pytest.approx(guide.force)
+    assert abs((together / along).real) > 1.01 * 0.12 * abs((together / along).imag)
+    sizes = abs(first.across) + abs(last.across)
+    assert report.ledger.number("friction.R.03", k).value == pytest.approx(sizes, rel=1e-4)
+    assert abs(last.at - first.at) == pytest.approx(0.12)
+    names = {item.content for item in friction.scheme_scene(report, k).items if isinstance(item, Label)}
+    assert {Symbol("R", f"03,{end}", "fr", "vector") for end in (1, 2)} <= names
+    assert Symbol("R", "03", "fr", "vector") not in names
+
+
+LEANS = {
+    "en": "Each of the two face reactions leans from its normal by the angle of friction",
+    "vi": "Mỗi phản lực ở một đầu nghiêng so với pháp tuyến của nó",
+    "ru": "Каждая из двух реакций отклонена от своей нормали на угол трения",
+    "zh": "每一端的反力各自偏离其法线一个摩擦角",
+}
+
+
+@pytest.mark.parametrize("language", LEANS)
+def test_words_say_what_leans_where_a_slider_tilts(language: str, tmp_path: Path) -> None:
+    report, _ = wide(tmp_path, language)
+    assert LEANS[language] in text_of(report.case.document())
