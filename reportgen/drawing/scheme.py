@@ -17,6 +17,7 @@ from reportgen.drawing.canvas import Canvas, finish, settle
 from reportgen.drawing.description import Fact, PaperLength, alignment, direction, fact, listed, turning
 from reportgen.drawing.geometry import Complexes, Floats, clusters, polar
 from reportgen.drawing.labels import Request, joined, label
+from reportgen.drawing.spots import distances
 from reportgen.drawing.springs import springs
 from reportgen.formula import Symbol, vocabulary
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Linkage
@@ -195,6 +196,10 @@ def groups(
 
 LEGS = math.cos(math.radians(75))
 """The arrow of ω1 keeps so far (75°) from straight down, where the pivot stands."""
+CLEAR = 1.0
+"""The arrow of ω1 keeps so far from the links that the crank moves (mm)."""
+TURNS = 0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9
+"""Where along its turn (rad) the arrow of ω1 is asked how far it is from them."""
 NUMBER = 6.0
 """What the number of a link takes beside its bar, mm."""
 THUMBNAIL = 34.0, 40.0
@@ -337,9 +342,11 @@ def driver_arrow(linkage: Linkage, motion: Motion, bones: Skeleton) -> Canvas:
     sense = math.copysign(1.0, motion.rate[0])
     angle = cmath.phase(pin - centre)
     reach = max(5.0, min(0.45 * radius, 12.0))
-    # The arrow begins beside the crank, or a quarter turn on where it would lie on the pivot's legs.
+    # The arrow begins beside the crank, or a quarter turn or more on where it would lie on the pivot's legs or a link.
     starts = [angle + sense * (0.25 + quarter * math.pi / 2) for quarter in (0, 1, 2, 3)]
-    start = next(one for one in starts if math.cos(one + sense * 0.45 + math.pi / 2) < LEGS)
+    free = [one for one in starts if math.cos(one + sense * 0.45 + math.pi / 2) < LEGS]
+    clear = {one: _clearance(bones, [centre + reach * polar(one + sense * turn) for turn in TURNS]) for one in free}
+    start = next((one for one in free if clear[one] > CLEAR), max(free, key=lambda one: settled(clear[one])))
     stop = start + sense * 0.9
     arrow = Arc(centre, reach, start, stop, Pen(0.25), style.HEAD)
     places = [centre + reach * polar(start + share * (stop - start)) for share in (0.6, 0.3, 0.9)]
@@ -369,6 +376,14 @@ def _rail(slide: Slide, size: tuple[float, float], bars: Sequence[tuple[complex,
     if abs(slide.high - slide.low) > 1e-6:
         return style.guide(slide.low, slide.high, size, bars)
     return style.guide(slide.at - 0.5 * along, slide.at + 0.5 * along, size, bars)
+
+
+def _clearance(bones: Skeleton, along: Sequence[complex]) -> float:
+    """The least distance (mm) of some places from the links that the crank moves."""
+    owned = {link: [bones.points[name] for name, owner in bones.owners.items() if owner == link] for link in bones.bars}
+    bodies = ((*_body_points(bones, link), *owned[link]) for link in bones.bars if link != DRIVER)
+    sides = np.array([side for body in bodies for side in combinations(body, 2) if abs(side[1] - side[0]) > 0])
+    return float(distances(sides, np.array(along)).min()) if len(sides) else math.inf
 
 
 def _body_points(bones: Skeleton, link: int) -> list[complex]:

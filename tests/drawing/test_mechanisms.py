@@ -10,12 +10,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from reportgen.drawing import Circle, Hatch, Label, Line, Polyline
+from reportgen.drawing import Arc, Circle, Hatch, Label, Line, Polyline
 from reportgen.drawing.canvas import finish
 from reportgen.drawing.geometry import Complexes
 from reportgen.drawing.indicator import Branch, Frame, Reading, beside, indicator
 from reportgen.drawing.positions import PositionPlan, position_plan
-from reportgen.drawing.scheme import Looks, groups, scheme, skeleton
+from reportgen.drawing.scheme import Looks, driver_arrow, groups, scheme, skeleton
 from reportgen.formula import Symbol
 from reportgen.machine import Linkage
 from tests.drawing.machines import (
@@ -155,3 +155,18 @@ def test_the_indicator_diagram_is_clear_on_both_sides_of_a_cylinder_in_any_direc
         readings = [Reading(Symbol(str(n), "(3)"), n / 8, 640 * (1 - n / 8) ** 2) for n in range(9)]
         frame = Frame(start, end, side, mu, "p, N/cm²")
         assert overlaps(finish(indicator(frame, branches, readings))) == []
+
+
+def test_the_arrow_of_the_crank_keeps_clear_of_the_lever_behind_it() -> None:
+    """At every position of a slotted lever; an arrow over the lever is taken for one of its marks."""
+    linkage = slotted_lever()
+    motion = at_positions(linkage, count=24)
+    for k in range(24):
+        bones = skeleton(linkage, motion, k, 300)
+        (arc,) = driver_arrow(linkage, motion, bones).items
+        assert isinstance(arc, Arc)
+        low, high = bones.points["O3"], bones.points["D"]
+        turns = np.linspace(arc.start, arc.stop, 19)
+        across = ((arc.centre + arc.radius * np.exp(1j * turns) - low) / (high - low)).imag * abs(high - low)
+        assert len(set(np.sign(across))) == 1
+        assert np.abs(across).min() > 0.9
