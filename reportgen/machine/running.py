@@ -45,6 +45,8 @@ MOST_REFINED = 12
 HEAVIER = 4.0
 """By what factor the inertia grows until the steady motion is found, from which that of the machine itself follows."""
 MOST_HEAVIER = 12
+HARDLY = 1e-3
+"""A reduced moment of inertia below this share of its greatest is so small that T may not settle the speed there."""
 NEAREST = 1.01
 """Inertias nearer than by this factor are not tried between."""
 
@@ -53,8 +55,9 @@ class NoMotionError(Exception):
     """A motion that is asked for does not come about.
 
     `code` is "stalls", "start-stalls", "does-not-start", "starts-nowhere", "starts-too-slowly", "does-not-stop",
-    "runs-away", "runs-down" or "no-steady-motion"; `angle` (rad) the cycle angle there, `missing` the torque (N·m)
-    that is missing, `ranges` the angles (rad) from which the machine would start, `speed` (rad/s) that is meant.
+    "runs-away", "runs-down", "no-inertia" or "no-steady-motion"; `angle` (rad) the cycle angle there, `missing` the
+    torque (N·m) that is missing, `ranges` the angles (rad) from which the machine would start, `speed` (rad/s) that is
+    meant.
     """
 
     def __init__(
@@ -325,7 +328,15 @@ def steady(body: ReducedMachine, drive: Drive, speed: float, own: Sequence[float
         at_rest = mean + float(drive.torque(np.zeros(1))[0])
         raise NoMotionError("runs-away" if at_rest > 0 else "runs-down", missing=-at_rest)
     _simulated(body, path, drive, guesses[0])
-    raise NoMotionError("no-steady-motion", speed=guesses[0])
+    raise _light(path) or NoMotionError("no-steady-motion", speed=guesses[0])
+
+
+def _light(path: ReducedWay) -> NoMotionError | None:
+    """The error of a machine that has hardly any inertia somewhere, where T tells no speed."""
+    inside = path.inertia.ravel()
+    if inside.min() > HARDLY * inside.max():
+        return None
+    return NoMotionError("no-inertia", angle=float(path.angle.ravel()[inside.argmin()]))
 
 
 def _cycle(path: ReducedWay, drive: Drive, speed: float) -> tuple[EnergyAlong, float] | None:
@@ -363,7 +374,7 @@ def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: Energ
     for _ in range(MOST_REFINED):
         rough = np.flatnonzero(~smooth(path, drive, energy))
         if not rough.size:
-            break
+            return _described(path, drive, energy, settles)
         edges = np.sort(np.concatenate((path.edges, (path.edges[rough] + path.edges[rough + 1]) / 2)))
         finer = body.along(edges)
         before = np.interp(finer.angle, path.angle.ravel(), energy.inside.ravel())
@@ -371,6 +382,8 @@ def _refined(body: ReducedMachine, path: ReducedWay, drive: Drive, energy: Energ
         if result is None:
             break
         path, (energy, settles) = finer, result
+    if (error := _light(path)) is not None:
+        raise error
     return _described(path, drive, energy, settles)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.drives import ConstantDrive, Drive, MotionAsked
-from reportgen.machine.energy import ReducedMachine
+from reportgen.machine.energy import ReducedMachine, ReducedWay
 from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.forces import inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.friction_loss import friction_loss
@@ -21,6 +21,8 @@ from reportgen.machine.starting import StartFromRest, start, stop
 
 NO_INERTIA = 1e-12
 """A reduced moment of inertia below this share of its greatest is none."""
+LOW, FINER, CLOSER = 1e-2, 16, 7
+"""Below this share of the greatest a minimum is sought again, over so many places on either side, so many times."""
 OFF_SPEED = 0.1
 """A machine that runs faster or slower than planned by more than this share is another one: the user is warned."""
 State = Literal["", "wheel"]
@@ -80,9 +82,9 @@ def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle 
     own += [angle for angle in (asked.start_from, asked.stop_from) if angle is not None]
     alone = ReducedMachine(machine, asked.inertia, friction_loss(machine))
     path = alone.along(alone.parted(0.0, own))
-    least = min(float(path.inertia.min()), float(path.at_edges[0].min()))
+    empty, least = least_inertia(alone, path)
     if least <= NO_INERTIA * float(path.inertia.max()):
-        raise NoMotionError("no-inertia", angle=float(path.edges[int(path.at_edges[0].argmin())]))
+        raise NoMotionError("no-inertia", angle=empty)
     mean, _ = mean_torque(alone, path)
     drive = ConstantDrive(-mean) if asked.drive is None else asked.drive
     motion = TrueMotion(asked, drive, mean, steady(alone, drive, machine.speed, own))
@@ -98,6 +100,27 @@ def true_motion(machine: Machine, asked: MotionAsked, regulated: RegulatedCycle 
         speed = float(to.run.speed[to.run.place(asked.stop_from)])
         motion = replace(motion, stopped=stop(body, ConstantDrive(-asked.brake), speed, asked.stop_from, own))
     return motion
+
+
+def least_inertia(body: ReducedMachine, path: ReducedWay) -> tuple[float, float]:
+    """The cycle angle (rad) where the reduced moment of inertia is least, and that (kg·m²).
+
+    It is sought between the samples of the way, too: where all masses stand still it touches 0 at one angle alone.
+    """
+    angles = np.concatenate((path.angle.ravel(), path.edges[:-1]))
+    order = np.argsort(angles)
+    angles, inertia = angles[order], np.concatenate((path.inertia.ravel(), path.at_edges[0][:-1]))[order]
+    neighbours = np.minimum(np.roll(inertia, 1), np.roll(inertia, -1))
+    lowest = np.flatnonzero(inertia <= np.minimum(neighbours, LOW * inertia.max()))
+    found = [(float(angles[inertia.argmin()]), float(inertia.min()))]
+    for at in lowest:
+        middle, reach = float(angles[at]), 2 * body.whole / path.size
+        for _ in range(CLOSER):
+            near = middle + np.linspace(-reach, reach, 2 * FINER + 1) + body.whole
+            around = body.reduced(near)[0]
+            middle, reach = float(near[around.argmin()]) - body.whole, reach / FINER
+        found.append((middle % body.whole, float(around.min())))
+    return min(found, key=lambda one: one[1])
 
 
 def at_positions(machine: Machine, motion: SteadyMotion) -> np.ndarray:
