@@ -12,7 +12,7 @@ from reportgen.base.errors import Finding
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import listed
 from reportgen.formula import Symbol, ids
-from reportgen.machine import Linkage
+from reportgen.machine import DRIVER, Crank, Linkage
 from reportgen.machine.faces import Faces
 from reportgen.machine.loads import carriers
 
@@ -29,11 +29,13 @@ class Face(Part):
 
 
 def faults(faces: Mapping[int, Face], linkage: Linkage) -> Iterator[Finding]:
-    """A face belongs to a slider on a guide, and its ends stand in their order."""
+    """A face belongs to a slider on a guide that does not drive, and its ends are in their order."""
     sliders = carriers(linkage)
     for link, face in faces.items():
         where = ("parameters", "faces", str(link))
-        if link not in sliders:
+        if link == DRIVER and not isinstance(linkage.driver, Crank):
+            yield Finding("faces-of-driver", where, at="key")
+        elif link not in sliders:
             yield Finding("no-slider", where, {"text": str(link), "known": listed(sliders) or "–"}, at="key")
         elif face.from_.si >= face.to.si:
             yield Finding("face-turned", (*where, "to"), {"text": face.to.text, "from": face.from_.text})

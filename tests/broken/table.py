@@ -568,6 +568,11 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ),
         ("flywheel", {"parameters:\n": "parameters:\n  flywheel: {delta: 1/50}\n"}, "5:3 flywheel-of-slide"),
         ("balancing", {"parameters:\n": "parameters:\n  balancing: {}\n"}, "5:3 balancing-of-slide"),
+        (
+            "the face of a slider that drives",
+            {"parameters:\n": "parameters:\n  faces: {1: {from: -30 mm, to: 30 mm}}\n"},
+            "5:11 faces-of-driver",
+        ),
         ("motion", {"parameters:\n": "parameters:\n  motion: {drive: {constant: find}}\n"}, "5:3 motion-of-slide"),
     ],
     "dyad": [
