@@ -93,7 +93,7 @@ class ReadingWords:
     dead_centre: tuple[str, ...] = ()
     """A position without a number."""
     this_position: tuple[str, ...] = ()
-    """The one that the text already deals with."""
+    """The one that the text already deals with, or a name that is of none, as “position plan”."""
     compared: tuple[str, ...] = ()
     """The text compares with another position."""
     extreme: tuple[str, ...] = ()
@@ -112,6 +112,8 @@ class ReadingWords:
     """Words in Latin letters that may follow a number without a unit and are not units."""
     chapter: tuple[str, ...] = ()
     """A line in bold with one of these names a chapter about the same position."""
+    reason: tuple[str, ...] = ()
+    """At the beginning of a remark in parentheses that says why a number is what it is."""
     head: tuple[str, ...] = ()
     """Heads of a table over the names of positions, besides `position`."""
 

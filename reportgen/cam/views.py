@@ -237,7 +237,7 @@ class CamPage(DesignPage[SolvedCam]):
             return ()
         number = MOVING[phase]
         columns = ("x", "A", "V", "S", "J")
-        head = (Cell((InlineMath(Symbol("i")),)), *(Cell((InlineMath(Symbol(one)),)) for one in columns))
+        head = (Cell((InlineMath(Symbol("i")),)), *(Cell((InlineMath(Symbol(one, f"{number},i")),)) for one in columns))
         rows = [
             (Cell((Text(str(i)),)), *(Cell(self._at_node(cam_ids.node(number, i, one))) for one in columns))
             for i in range(len(law.table.x))

@@ -79,7 +79,7 @@ def machine(assignment: Assignment) -> Machine:
     q.bar(3, "C", "D")
     if given.torque is not None:
         q.datum("M.given", given.torque.M, Symbol("M", "3"))
-    q.set_out("lengths", r, d, l)
+    q.set_out("lengths", r, d, l, "l.CS3")
     q.set_out("swing")
     q.set_out("loads", "M3")
 

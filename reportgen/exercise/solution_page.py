@@ -93,6 +93,8 @@ def names(case: SolvedExercise) -> Mapping[str, Any]:
         "expressions": page.expressions,
         "unwritten": page.unwritten,
         "answers": page.answers,
+        "numbers": page.numbers,
+        "directions": page.directions,
     }
 
 
@@ -342,6 +344,29 @@ class SolutionPage(Solution):
         scene, scale = drawn
         caption = (Text(self.case.words["instant"][what]), *((Text("; "), InlineMath(scale)) if scale else ()))
         return (Figure((scene,), caption, f"fig.{what}"),)
+
+    @property
+    def numbers(self) -> tuple[Equation, ...]:
+        """What the lines give by symbols alone, in numbers for the values of the symbols; () where they have these."""
+        if self.case.literal is None or self.put_in:
+            return ()
+        ledger = self.worked.printed
+        worked = (
+            id
+            for id, family in ledger.families.items()
+            if family.definition is not None and not (family.hidden or family.is_plane or family.is_signed_rotation)
+        )
+        rows = tuple(Chain((ledger.symbol(id), ledger.number(id, AT))) for id in worked if not ids.direction.read(id))
+        return (Equation(rows),) if rows else ()
+
+    @property
+    def directions(self) -> Inlines:
+        """The angles of the vectors that were asked for, from the +x axis; a vector of no length has none."""
+        ledger = self.worked.printed
+        known = [id for id in ledger.families if ids.direction.read(id)]
+        angles = [(id, number) for id in known if math.isfinite((number := ledger.number(id, AT)).value)]
+        shown = [InlineMath(Chain((ledger.symbol(id), number))) for id, number in angles]
+        return tuple(part for one in shown for part in (Text("; "), one))[1:]
 
     @property
     def answers(self) -> Table:

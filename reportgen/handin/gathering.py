@@ -51,7 +51,8 @@ class Gathering:
         if owner not in self.positions:
             labels = self.key.part(row.id).labels
             self.positions[owner] = {bare(label).casefold(): k for k, label in enumerate(labels, start=1)}
-        return None if label is None else self.positions[owner].get(bare(label).casefold())
+        position = None if label is None else self.positions[owner].get(bare(label).casefold())
+        return position if position is None else _in_first_turn(row, position)
 
     def is_label(self, text: str) -> bool:
         """Whether any part has a position of that name."""
@@ -131,6 +132,15 @@ class Gathering:
         """Where a letter of a line stands."""
         node = line.nodes[min(max(index, 0), len(line.nodes) - 1)]
         return WordMark(self.file, line.number, index + 1, element=node.number)
+
+
+def _in_first_turn(row: KeyRow, position: int) -> int:
+    """A position of the second turn as that of the first, for what repeats from turn to turn and is asked in one."""
+    turn = len(row.values) // 2
+    if position in row.positions or position - turn not in row.positions or len(row.values) % 2:
+        return position
+    repeats = np.allclose(row.values[:turn], row.values[turn:], rtol=1e-9, atol=1e-12, equal_nan=True)
+    return position - turn if repeats else position
 
 
 def is_signed(row: KeyRow) -> bool:

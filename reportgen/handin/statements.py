@@ -29,6 +29,7 @@ _SUPPOSED = re.compile(any_of("supposed", "extreme"), re.IGNORECASE)
 """Words before a symbol: what is tried, or is of no position, as a greatest value."""
 _WITHDRAWN = re.compile(any_of("withdrawn", "extreme"), re.IGNORECASE)
 """Words behind a number that take it back, or leave another one open."""
+_REASON = re.compile(rf"\(\s*{any_of('reason')}[^()]*\)", re.IGNORECASE)
 CLOCKWISE = re.compile(f"{any_of('clockwise')}|↻", re.IGNORECASE)
 ANTICLOCKWISE = re.compile(f"{any_of('anticlockwise')}|↺", re.IGNORECASE)
 
@@ -113,8 +114,9 @@ class StatedValue:
     def withdrawn(self) -> bool:
         if not self.unit and not _PROSE.match(self.words):
             return True
-        compares = SAYS_POSITION.search(self.words) and _COMPARED.search(self.words)
-        return bool(_WITHDRAWN.search(self.words) or compares)
+        words = _REASON.sub("", self.words)
+        compares = SAYS_POSITION.search(words) and _COMPARED.search(words)
+        return bool(_WITHDRAWN.search(words) or compares)
 
     @property
     def text(self) -> str:
@@ -164,9 +166,10 @@ def _begins(text: str, match: re.Match[str], symbols: Symbols, before: re.Match[
     word = _WORD.search(ahead)
     if word and not symbols.rows_of(word[0]) and bare(word[0]) not in symbols.every:
         return "yes"
+    if any(one.end() == len(ahead) for one in POSITION.finditer(ahead)):
+        return "yes"
     if before is None:
-        named = any(one.end() == len(ahead) for one in POSITION.finditer(ahead))
-        return "doubt" if _LOOSE_NUMBER.search(ahead) and not named else "yes"
+        return "doubt" if _LOOSE_NUMBER.search(ahead) else "yes"
     # Two symbols side by side are a product.
     return "doubt" if symbols.rows_of(match[2]) else ""
 
@@ -205,6 +208,11 @@ def labels_in(text: str) -> list[str]:
 def names_several(text: str) -> bool:
     """Whether a text is of several positions, or only compares with one."""
     return bool(_SEVERAL.search(text)) or len(labels_in(text)) > 1
+
+
+def begins_with(text: str, label: str | None) -> bool:
+    """Whether a text that names several positions, but no list of them, begins with one: “Position 14 is as 4.”"""
+    return labels_in(text)[:1] == [label] and not _SEVERAL.search(text)
 
 
 def is_compared(text: str) -> bool:

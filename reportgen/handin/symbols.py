@@ -11,6 +11,7 @@ from reportgen.marking.key import symbol_text
 from reportgen.report.key import Key, KeyRow
 
 _MARKS = re.compile(r"[\s_^{}|]")
+_BRACES = re.compile(r"[\s{}|]")
 _POWER = re.compile(r"\^\{?(\d+)\}?")
 """An exponent of v_B^2, which is no v_B2."""
 _ROUND = re.compile(r"\(\d\)$")
@@ -75,17 +76,28 @@ class Symbols:
         return {}
 
     def rows_of(self, text: str) -> tuple[KeyRow, ...]:
-        """The rows that a symbol may stand for: as it is written, else by looser letters if only one symbol fits."""
-        text = bare(text)
+        """The rows that a symbol may stand for: as it is written, else by looser letters if only one symbol fits.
+
+        Of symbols that differ by their marks alone, the segment pb and p_b, it is the one with the same marks.
+        """
+        written, text = _BRACES.sub("", text), bare(text)
         if text not in self._known:
             self._known[text] = self._rows_of(text)
-        return self._known[text]
+        rows = self._known[text]
+        if len(rows) > 1:
+            alike = tuple(row for row in rows if _BRACES.sub("", symbol_text(row, self.key)) == written)
+            return alike or rows
+        return rows
 
     def _rows_of(self, text: str) -> tuple[KeyRow, ...]:
         if text in self.every:
             return self.every[text]
         if text in self._round:
             return self._round[text]
+        stem = text.rstrip("′")
+        if rows := self.every.get(stem[:1] + text[len(stem) :] + stem[1:]):
+            # A prime may stand above the index or behind it.
+            return rows
         for spelled, letter in _SPELLED.items():
             if text.startswith(spelled) and (rows := self.every.get(letter + text.removeprefix(spelled))):
                 return rows

@@ -106,7 +106,7 @@ class _Reader:
         compared = said.is_compared(text)
         if said.names_several(text):
             # Which is in hand stays, if a heading said so and this only compares.
-            if not compared or self.hand.level == FREE:
+            if (not compared and not said.begins_with(text, self.hand.label)) or self.hand.level == FREE:
                 self.hand = _Hand(None, self.hand.level)
         elif labels and compared:
             return

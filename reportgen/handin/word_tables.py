@@ -11,6 +11,7 @@ from reportgen.handin import statements as said
 from reportgen.handin.gathering import Gathering
 from reportgen.handin.numbers import NUMBER, UNIT, plain_unit, read_value
 from reportgen.handin.reading_words import any_of, label_of
+from reportgen.handin.symbols import bare
 from reportgen.handin.word_text import OBJECT, TextCell, TextGrid, TextLine
 from reportgen.marking.numbers import is_blank
 from reportgen.report.key import KeyRow
@@ -19,12 +20,16 @@ HEADS = 4
 """Rows among which the one with the positions is looked for."""
 _PLAIN_LABEL = re.compile(rf"[\s(]*{any_of('number', whole=False)}?[\s:(]*([0-9]{{1,3}}[a-z]?′*)", re.IGNORECASE)
 _QUANTITY = re.compile(
-    r"(?:[^\d_{}()]*[\s:])?(?P<symbol>[^\s(),\[]+?(?:\(\d\)\}?)?)\s*"
+    r"(?:[^\d_{}()]*?[\s:])??(?P<symbol>[^\s(),/\[]+?(?:\(\d\)\}?)?)\s*"
     r"(?:,\s*(?P<comma>[^\s,]+(?:\s[^\s,]+)?)|[(\[]\s*(?P<round>[^()]*(?:\([^()]*\))?[^()]*?)\s*[)\]])?"
 )
 _NUMBER_CELL = re.compile(
     rf"\s*({NUMBER})\s*(?:[(\[]\s*({UNIT})\s*[)\]]|({UNIT}))?\s*[.,;]?\s*((?:\([^()\d]*\)|[^()\d=]*)\s*)"
 )
+_HEAD_UNIT = re.compile(rf"(?:.*[,;]\s*|.*\s)?[(\[]?\s*({UNIT})\s*[)\]]?|({UNIT})")
+_INDEXED = re.compile(r"[^\W\d_]+_\{[^\s{}]*\}")
+_INDEX = re.compile(r"[A-Z0-9][A-Z0-9_{}]{0,7}")
+"""What stands below a letter: the number of an order, the ends of a length."""
 _NUMBERED = re.compile(r"\s*\(\d+(?:[.,]\d+)*\)\s*")
 """The number of an equation."""
 
@@ -55,6 +60,7 @@ def read_table(grid: TextGrid, gathering: Gathering, line: Statements, label: st
         if not (
             any(_read_positions(way, gathering) for way in ways)
             or any(_read_single(way, gathering, label) for way in ways)
+            or any(_read_composed(way, gathering, label) for way in ways)
         ):
             _leave(ways, gathering)
     else:
@@ -160,10 +166,13 @@ def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bo
         numbers = [
             cell for cell in apart if _NUMBER_CELL.fullmatch(cell.line.text) and (not named or cell is not named[1])
         ]
+        own_unit: str | None = ""
+        if named is not None and len(numbers) > 1:
+            numbers, own_unit = _by_unit(row, numbers, named[0], rows[:HEADS], gathering)
         if named is None or len(numbers) != 1:
             continue
         quantity, at = named
-        unit = _unit_of(quantity, [cell for cell in apart if cell is not at and cell is not numbers[0]])
+        unit = _unit_of(quantity, [cell for cell in apart if cell is not at and cell is not numbers[0]]) or own_unit
         for one in quantity.rows:
             position = gathering.position(one, label)
             line = numbers[0].line
@@ -173,6 +182,65 @@ def _read_single(rows: TextCells, gathering: Gathering, label: str | None) -> bo
                 _read_cell(numbers[0], one, position, unit, len(quantity.rows) > 1, gathering)
             read = True
     return read
+
+
+def _by_unit(
+    row: Sequence[TextCell], numbers: Sequence[TextCell], quantity: _Quantity, heads: TextCells, gathering: Gathering
+) -> tuple[list[TextCell], str]:
+    """Return the one number of a row that stands under a unit of its quantity, and the unit: G | 20 | 32.9 | 0.62."""
+    fitting: dict[TextCell, str] = {}
+    for column, cell in enumerate(row):
+        unit = next((text for head in heads if head is not row and (text := _unit_in_head(head[column]))), "")
+        if cell in numbers and unit and all(_is_unit(unit, one, gathering) for one in quantity.rows):
+            fitting[cell] = unit
+    return list(fitting), next(iter(fitting.values()), "")
+
+
+def _unit_in_head(cell: TextCell) -> str:
+    """The unit in the head of a column, “Magnitude, N” or “N” alone; "" if there is none."""
+    text = cell.line.text.strip()
+    match = _HEAD_UNIT.fullmatch(text)
+    return match[1] or match[2] if match else ""
+
+
+def _read_composed(rows: TextCells, gathering: Gathering, label: str | None) -> bool:
+    """Read a table of symbols across and their indices down: A over 2 and 4, V_{1,i} over i, real lengths l over AB."""
+    read = False
+    head = rows[0]
+    running = head[0].line.text.strip()
+    for column, cell in enumerate(head[1:], start=1):
+        symbol, unit = _symbol_in_head(cell.line.text.strip())
+        for row in rows[1:] if symbol else ():
+            index = row[0].line.text.strip()
+            if not _INDEX.fullmatch(index):
+                unit = unit or _unit_in_head(row[column])
+                continue
+            named = _with_index(symbol, running, index)
+            found = _asked(gathering.symbols.every.get(bare(named), ()))
+            for one in found:
+                position = gathering.position(one, label)
+                if position is None or (unit and not _is_unit(unit, one, gathering)):
+                    continue
+                _read_cell(row[column], one, position, unit, len(found) > 1, gathering)
+                read = True
+    return read
+
+
+def _symbol_in_head(text: str) -> tuple[str, str]:
+    """What may be a symbol without its index in a head, and the unit behind it."""
+    if _INDEXED.fullmatch(text):
+        return text, ""
+    match = _QUANTITY.fullmatch(text)
+    return (match["symbol"], (match["comma"] or match["round"] or "").strip()) if match else ("", "")
+
+
+def _with_index(symbol: str, running: str, index: str) -> str:
+    """A symbol with its index put in place of the letter that runs, or behind it."""
+    if len(running) == 1 and running.isalpha():
+        put_in = re.sub(rf"(?<=[_{{,]){running}(?=[}},]|$)", index, symbol)
+        if put_in != symbol:
+            return put_in
+    return f"{symbol}{index}"
 
 
 def _read_cell(

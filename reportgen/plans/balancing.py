@@ -191,9 +191,9 @@ class _Entry:
             Symbol("U", letters),
             scale=self.unbalance,
         )
-        q.define(
-            balance_ids.rule_angle(name), heading(x + turned(y)), Symbol("ψ", letters), "angle", scale=1.0, of=U.id
-        )
+        # The rocker of a four-bar has a ψ₁ already.
+        symbol = Symbol("ψ", f"U{letters}" if letters.isdigit() else letters)
+        q.define(balance_ids.rule_angle(name), heading(x + turned(y)), symbol, "angle", scale=1.0, of=U.id)
 
     def _mean(self) -> Sequence[Expression]:
         """Minus the mean of what the crank sees, which the positions give nearly."""

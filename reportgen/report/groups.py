@@ -154,16 +154,16 @@ class Contact:
     *("unknowns", "normal_by_segments", "moving", "under", "turning", "normals", "velocity_lines"),
     *("acceleration_lines", "carried", "similar", "relative_segment"),
     *("polygon", "outer_lines", "guide_lines", "slot_lines", "reactions", "joints", "contacts", "across_by_moments"),
-    *("pulls_across", "components", "last_known", "last_of_j"),
+    *("pulls_across", "components", "last_known", "last_of_j", "opposite"),
 )
 class GroupView:
     """An Assur group as templates name it.
 
     `i`, `j` are its links; `P`, `Q` the outer and the inner pin (A, B), `T` the outer pin of j ("" on a guide),
     `M` the point whose motion is written in two ways; `one` and `two` those ways; `relative` is MP as in v_BA
-    and `rod` PQ; `outer`, `inner`, `guide` the joints' digits as in R12, R32, R03, `across` those of R23;
-    `points_i` and `points_j` the named points of links i and j; `carrier` is the link that i hangs on, and
-    `scale` the scale of the force plan.
+    and `rod` PQ; `outer`, `inner`, `guide` the joints' digits as in R12, R32, R03, `across` those of R23 and `opposite`
+    its size, if a line needs it; `points_i` and `points_j` the named points of links i and j; `carrier` is the link
+    that i hangs on, and `scale` the scale of the force plan.
     """
 
     def __init__(self, dyad: Dyad, plan: Scheme, driver: DriverView, polygons: Iterable[Polygon], ledger: Ledger):
@@ -177,7 +177,7 @@ class GroupView:
         self.carrier, last = (end.link if isinstance(end, Guide) else plan.owner[end] for end in (dyad.start, dyad.end))
         self.outer, self.inner = ids.joint(self.carrier, i), ids.joint(j, i)
         self.guide, self.across = ids.joint(last, j), ids.joint(i, j)
-        self.name = ids.joint(i, j)
+        self.name, self.opposite = ids.joint(i, j), ledger.known([ids.reaction(self.across)])
         self.scale = ids.force_scale(self.name)
         self.offset = dyad.kind == "RPR" and bool(dyad.lengths[1])
         self.points_i, self.points_j = (points_on(plan.linkage, link) for link in dyad.links)

@@ -10,7 +10,7 @@ from reportgen.machine.loads import Applied, Torque
 from reportgen.report.report import Report
 
 
-@shown("id", "stroke", "line")
+@shown("id", "stroke", "line", "ways")
 @dataclass(frozen=True, slots=True)
 class ReadLoad:
     """A load at a position: its id, the id of the stroke that its line names ("" without), and whether it has a line.
@@ -21,6 +21,8 @@ class ReadLoad:
     id: str
     stroke: str
     line: bool
+    ways: tuple[str, ...]
+    """The id of the displacement over which the load is tabled, if it is."""
 
 
 def loads_read(report: Report, k: int) -> list[ReadLoad]:
@@ -28,7 +30,7 @@ def loads_read(report: Report, k: int) -> list[ReadLoad]:
     machine, ledger = report.machine, report.ledger
     loads: tuple[Applied | Torque, ...] = (*machine.applied, *machine.torques)
     return [
-        ReadLoad(load.name, _stroke(report, load), _interpolated(report, load, k))
+        ReadLoad(load.name, _stroke(report, load), _interpolated(report, load, k), _ways(report, load))
         for load in loads
         if load.name in ledger and ledger[load.name].definition is None and ledger[load.name].written is not None
     ]
@@ -39,6 +41,11 @@ def _stroke(report: Report, load: Applied | Torque) -> str:
     course = load.law.read_along
     id = "" if course is None else ids.stroke(course.link)
     return id if id in report.ledger else ""
+
+
+def _ways(report: Report, load: Applied | Torque) -> tuple[str, ...]:
+    course = load.law.read_along
+    return () if course is None else tuple(report.ledger.known([ids.displacement(course.link)]))
 
 
 def _interpolated(report: Report, load: Applied | Torque, k: int) -> bool:

@@ -156,6 +156,11 @@ def results(report: Report) -> list[str]:
     return report.known((friction_ids.torque, friction_ids.efficiency))
 
 
+def reactions(report: Report) -> tuple[str, ...]:
+    """The reactions with friction, by their ids."""
+    return tuple(friction_ids.reaction(each.digits) for each in rubbing(report))
+
+
 def rounds(report: Report, key: str, caption: str, head: Sequence[str], k: int) -> tuple[Table, ...]:
     """The reactions of each round and the torque that those before it give; the first are without friction."""
     ledger, joints = report.ledger, rubbing(report)
@@ -432,6 +437,7 @@ VALUES: Mapping[str, Callable[[Report], object]] = {
     "friction_losses": loss_lines,
     "friction_means": mean_lines,
     "friction_parts": part_lines,
+    "friction_reactions": reactions,
     "friction_resting": resting,
     "friction_turning": turning_lines,
 }

@@ -347,8 +347,10 @@ def lengths(report: Report, key: str, caption: str, head: Sequence[str]) -> tupl
     ]
     widths = (column_width(report, name(line), (None,)) for line in report.drawn_lines for name in LENGTHS)
     most = int((TEXT_WIDTH - TITLES) / max(widths, default=WIDEST_COLUMN))
+    before, _, after = head[1].partition("{l}")
+    titles = (head[0], (Text(before), InlineMath(Symbol("l")), Text(after)), *head[2:])
     return side_by_side(
-        report, key, caption, Column(TITLES, "left"), titles=head, columns=columns, most=most, widest=22.0
+        report, key, caption, Column(TITLES, "left"), titles=titles, columns=columns, most=most, widest=22.0
     )
 
 
