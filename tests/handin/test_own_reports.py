@@ -40,10 +40,15 @@ LEFT: dict[tuple[Extent, str], str] = {
 """Why a report goes without a quantity that is asked for: the reason by the extent and a pattern of ids."""
 
 
-@pytest.mark.parametrize(
-    ("name", "language", "extent"),
-    matrix([(name, language, extent) for name in SAMPLES for language in languages() for extent in EXTENTS], FIRST),
-)
+TURNS = [
+    (name, languages()[(number + turn) % len(languages())], extent)
+    for number, name in enumerate(SAMPLES)
+    for turn, extent in enumerate(EXTENTS)
+]
+"""Each sample in both extents; the languages take turns, so that each kind has several."""
+
+
+@pytest.mark.parametrize(("name", "language", "extent"), matrix(dict.fromkeys([*FIRST, *TURNS]), FIRST))
 def test_each_value_that_the_sheet_asks_is_read_in_our_own_report(name: str, language: str, extent: Extent) -> None:
     case = opened(catalogue.load(ROOT / f"{name}.yaml", language).with_extent(extent))
     key = Ask().of(key_of(case))
