@@ -136,7 +136,7 @@ WORDED = frozenset({"kind", "variant", "report", "sheet", "title", "file", "salt
 
 
 def doubtful(source: Source) -> Iterator[Fault]:
-    """Numbers of a file that may be meant as thousands, 1.400 N; what they are read as, and what they would be."""
+    """Keys without a value, and numbers that may be meant as thousands, 1.400 N: how both are read."""
     yield from _doubtful(source.top)
 
 
@@ -150,8 +150,11 @@ def _doubtful(node: Node | None) -> Iterator[Fault]:
     match node:
         case MappingNode(entries):
             for key, value in entries:
-                if key.text not in WORDED:
-                    yield from _doubtful(value)
+                if key.text in WORDED:
+                    continue
+                if isinstance(value, Scalar) and value.null:
+                    yield Fault("left-empty", key.mark, {"key": key.text})
+                yield from _doubtful(value)
         case SequenceNode(items):
             texts = [item.text for item in items if isinstance(item, Scalar)]
             # Beside 0.125 a bare 1.250 can be nothing else: the point of the list is the decimal one.

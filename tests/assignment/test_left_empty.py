@@ -1,0 +1,34 @@
+"""A key without a value counts as left out, and the check says so: an empty `G2:` would make a rod weightless."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+from reportgen import catalogue
+from reportgen.base.kinds import kinds
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_every_key_that_may_be_left_out_is_warned_of_when_it_is_empty(tmp_path: Path, kind: str) -> None:
+    """All optional keys of the parameters of a kind that its sample does not have, one after another."""
+    text = catalogue.sample(kind, "en")
+    given = yaml.load(text, yaml.BaseLoader)["parameters"]
+    fields = catalogue.kind(kind).parameters.model_fields.items()
+    for name in (name for name, one in fields if not one.is_required() and name not in given):
+        (file := tmp_path / "given.yaml").write_text(
+            re.sub(r"^parameters:.*\n", rf"\g<0>  {name}:\n", text, flags=re.MULTILINE), encoding="utf-8"
+        )
+        problems = catalogue.examine(file, "en")
+        assert all(one.level != "error" for one in problems), name
+        (found,) = (one.message for one in problems if one.code == "left-empty")
+        assert found == f"“{name}” has no value: it counts as left out"
+
+
+def test_names_for_the_cover_may_stay_empty(tmp_path: Path) -> None:
+    (file := tmp_path / "given.yaml").write_text(text := catalogue.sample("slider-crank", "en"), encoding="utf-8")
+    assert re.search(r"^  university: +#", text, re.MULTILINE)
+    assert catalogue.examine(file, "en") == []
