@@ -37,7 +37,7 @@ BEYOND = 6.0
 TINY = 3.0
 """Vectors drawn shorter than this (mm) get an enlarged inset."""
 DOT = 0.1
-"""What is shorter than this (mm) gets no inset: it is less than a pencil line is wide, and would need more than 100:1."""
+"""What is shorter than this (mm), a dot of a pencil, gets no inset: it would need more than 100:1."""
 INVISIBLE = 0.01
 """What is shorter than this (mm), the last digit of a measured length, is a point on any paper and not drawn."""
 TARGET = 20.0
@@ -393,7 +393,8 @@ def _outward(at: complex, vectors: Sequence[PlanVector[complex]]) -> tuple[float
 def insets(drawing: Plan) -> tuple[list[Canvas], Canvas]:
     """Insets for groups of short vectors, each about its own middle, and the circles that mark what they enlarge.
 
-    Vectors shorter than `DOT` get none.  Each prints its ratio (e.g. 10:1) and shows what passes through its frame of the plan's other vectors.
+    Vectors shorter than `DOT` get none.  Each prints its ratio (e.g. 10:1) and shows what passes through its frame of
+    the plan's other vectors.
     """
     groups = _groups([vector for vector in drawing.drawn() if DOT <= vector.length < TINY])
     return [_inset(group, drawing) for group in groups], Canvas(tuple(map(_mark, groups)))
