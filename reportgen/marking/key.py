@@ -100,6 +100,7 @@ def key_of(case: Case) -> Key:
             positive=words["signs"].get(sense, sense),
             open_sense=is_open(values, sense),
             plans=tuple(sorted(read[id])) if role is Role.asked else (),
+            by_rule=part is Chapter.cycle and bool(np.any(by_rule.get(id, 0.0))),
             formula=formula_in_symbols(ledger, id) if sense in BY_FORMULA else None,
         )
 

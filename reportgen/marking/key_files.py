@@ -29,7 +29,7 @@ from reportgen.marking.paper import (
     unnamed_rows,
 )
 from reportgen.marking.sheet import Filling, grid, info_page, number_format, page
-from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Table, Text, plain
+from reportgen.report import Cell, Column, Document, InlineMath, Inlines, Paragraph, Table, Text, plain
 from reportgen.report.key import Key, KeyRow, PartOfKey
 from reportgen.workbook import Book, BookSheet, Entry
 
@@ -206,9 +206,20 @@ def key_document(key: Key, title: str) -> Document:
     ]
     for title_of_part, page_of in key.pages:
         blocks += [heading(title_of_part, 2)] if title_of_part else []
+        blocks += _why_wide(page_of, words["key"]["by_rule"])
         for part, rows in groupby(page_of.rows, lambda row: row.part):
             blocks += _tables(page_of, words, str(words_of(page_of)["parts"][part]), list(rows))
     return paper(key.language, words, f"{words['key']['title']} – {key.id}", blocks, variant=key.variant)
+
+
+def _why_wide(key: Key, text: str) -> Iterator[Paragraph]:
+    """Why the bands of what is integrated over the cycle are wide: on paper there are only the positions."""
+    rows = [row for row in key.rows if row.by_rule]
+    unnamed = unnamed_rows(rows)
+    if rows:
+        before, behind = text.split("{symbols}")
+        symbols = [(Text(", "), *symbol_inlines(row, row.id in unnamed)) for row in rows]
+        yield Paragraph((Text(before), *[one for symbol in symbols for one in symbol][1:], Text(behind)))
 
 
 def _tables(key: Key, words: Mapping[str, Any], name: str, rows: Sequence[KeyRow]) -> Iterator[Table]:

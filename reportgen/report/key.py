@@ -61,6 +61,8 @@ class KeyRow:
     """Whether its sign is not judged, because the papers do not say which sense is positive."""
     plans: tuple[str, ...] = ()
     """The ids of the scales of the plans that its value is read from, itself or what it stands on."""
+    by_rule: bool = False
+    """Whether its bands hold what the trapezoid rule over the positions misses of an integral over the cycle."""
     formula: Expression | None = None
     """The formula in symbols of what is defined by it alone, as the papers say it: w of w = s′ − e."""
 

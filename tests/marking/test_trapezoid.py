@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from reportgen.formula.vocabulary import Chapter
+from reportgen.marking.key_files import key_document
+from reportgen.report import Paragraph, plain
 from tests.marking import students
 
 FILES = sorted(path.stem for path in Path("assignments").glob("*.yaml"))
@@ -40,3 +42,12 @@ def test_some_positions_make_no_flywheel() -> None:
     scheme = students.scheme("engine-single-III", (2, 4))
     assert not {"J.d", "A.excess", "omega.of", "J.r"} & {row.id for row in scheme.key.asked}
     assert scheme.key.row("J.d").part is Chapter.cycle
+
+
+@pytest.mark.parametrize(("name", "told"), [("engine-single-III", True), ("four-bar-01", False)])
+def test_the_key_says_why_the_bands_are_wide(name: str, told: bool) -> None:
+    key = students.scheme(name).key
+    blocks = key_document(key, "").blocks
+    text = " ".join(plain(block.inlines, key.language) for block in blocks if isinstance(block, Paragraph))
+    assert ("quy tắc hình thang" in text) is told
+    assert ("J.d" in {row.id for row in key.rows}) is told
