@@ -346,7 +346,7 @@ def mistake_inlines(cell: Marked, key: Key, words: Mapping[str, Any]) -> Inlines
     # The key may have no row of the quantity in which it was made.
     row = key.find(cell.where) or key.row(cell.id)
     named = words_of(key.part(cell.id))["mistakes"] if key.parts else words["mistakes"]
-    return sentence(named[cell.mistake], symbol=InlineMath(row.symbol))
+    return sentence(named[cell.mistake], symbol=InlineMath(row.symbol), **cell.exchanged_labels(key))
 
 
 def cell_comment(cell: Marked, marking: Marking, words: Mapping[str, Any], show_answers: bool) -> str:

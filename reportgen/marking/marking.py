@@ -17,6 +17,7 @@ import numpy as np
 
 from reportgen.formula.ledger import Ledger
 from reportgen.marking.bands import half_unit, is_direction
+from reportgen.marking.exchanged import Exchange, possible_exchanges
 from reportgen.marking.guard import Classmate, guard, not_from_own, unseen_text
 from reportgen.marking.key import Ask, symbol_text, words_of
 from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
@@ -52,11 +53,13 @@ def mark(scheme: MarkingScheme, submission: Submission, classmates: Sequence[Cla
         parts = [(one.part, mark(one.scheme, one.submission, one.classmates)) for one in sheets]
         whole = joined(scheme, submission, parts)
         return replace(whole, flags=(*whole.flags, *unseen_text(whole.cells, submission)))
-    working, cells, _ = _best_verdicts(scheme, submission)
+    working, cells, _, exchange = _best_order(scheme, submission)
     cells |= {place: replace(cells[place], elsewhere=True) for place in not_from_own(working, cells)}
     flags: tuple[Notice, ...] = ()
     if scheme.policy.guard:
         cells, flags = guard(scheme, cells, classmates)
+    if exchange:
+        cells, flags = exchange.as_handed_in(cells), exchange.noticed(flags)
     order = {row.id: index for index, row in enumerate(scheme.key.rows)}
     in_order = sorted(cells.values(), key=lambda cell: order[cell.id])
     flags = (*flags, *unseen_text(in_order, submission))
@@ -72,11 +75,32 @@ def own_worlds(scheme: MarkingScheme, submission: Submission) -> tuple[Values, .
     if scheme.parts:
         machine = next(iter(sheets_of(scheme, submission, ())))
         return own_worlds(machine.scheme, machine.submission)
-    working, _, mistakes = _best_verdicts(scheme, submission)
+    working, _, mistakes, _ = _best_order(scheme, submission)
     changes = {id: change for one in mistakes for id, change in one.changes.items() if not working.shows(id)}
     if not mistakes:
         return ()
     return (working.world, *([working.world_with(changes)] if changes else []))
+
+
+def _best_order(
+    scheme: MarkingScheme, submission: Submission
+) -> tuple[Working, dict[Place, Marked], list[Mistake], Exchange | None]:
+    """The best working, its verdicts and mistakes; of a submission with two positions exchanged, of the one put right.
+
+    Then the places are those where the values belong.
+    """
+    best = _best_verdicts(scheme, submission)
+    for exchange in possible_exchanges(scheme, submission, best[1]):
+        other = _best_verdicts(scheme, exchange.undone(submission))
+        lost = exchange.charged(other[1])
+        cost = other[1][lost].points if lost else 0.0
+        if cost and exchange.explains(other[1]) and _points(other[1]) - cost > _points(best[1]):
+            return *other, exchange
+    return *best, None
+
+
+def _points(cells: Cells) -> float:
+    return points_of(cells.values())[0]
 
 
 def _best_verdicts(scheme: MarkingScheme, submission: Submission) -> tuple[Working, dict[Place, Marked], list[Mistake]]:
@@ -327,7 +351,8 @@ def _hint(scheme: MarkingScheme, marking: Marking, cell: Marked) -> str:
     if cell.mistake:
         where = marking.key.find(cell.where)
         symbol = symbol_text(where, marking.key) if where else _named(marking, cell)
-        return str(words_of(marking.key.part(cell.id))["mistakes"][cell.mistake]).format(symbol=symbol)
+        named = str(words_of(marking.key.part(cell.id))["mistakes"][cell.mistake])
+        return named.format(symbol=symbol, **cell.exchanged_labels(marking.key))
     assert cell.given is not None, "only a given value diverges"
     size = words["compare"]["larger" if abs(cell.given) > abs(cell.own) else "smaller"]
     shown = (marking.key.find(id) for id in scheme.before[cell.id])

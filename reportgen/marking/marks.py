@@ -125,7 +125,8 @@ class Marked:
     `mistakes` in `words.yaml`), `where` the id of the quantity in which it was made.  `points` of `worth`
     are earned.  `classmates` are ids of assignments whose sheet or key has this value in a run of such values.
     `elsewhere` says that it is right, but is not what the student's own values beside it give.  `corrected` is the
-    reason of an instructor who judged it otherwise.
+    reason of an instructor who judged it otherwise.  `exchanged` is the position with which its own was
+    exchanged, where that is the mistake.
     """
 
     id: str
@@ -143,6 +144,7 @@ class Marked:
     classmates: tuple[str, ...] = ()
     elsewhere: bool = False
     corrected: str = ""
+    exchanged: int = 0
     unit: float = 1.0
     """What one unit of the sheet stands for."""
     written: float | None = None
@@ -152,6 +154,11 @@ class Marked:
     def on_sheet(self) -> OnSheet:
         """The values as a sheet has them: for those who read it, and for what is found on it without working out."""
         return OnSheet(self.written, self.expected / self.unit, self.own / self.unit, self.band / self.unit)
+
+    def exchanged_labels(self, key: Key) -> dict[str, str]:
+        """What the two exchanged positions are called, in order."""
+        first, second = sorted((self.position, self.exchanged))
+        return {"first": key.label(first, self.id), "second": key.label(second, self.id)}
 
 
 Cells = Mapping[Place, Marked]

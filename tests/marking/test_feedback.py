@@ -35,7 +35,9 @@ OF_PLANS = {f"{kind}-{how}" for kind in ("force", "part") for how in ("left-out"
     "load-forgotten",
     "load-reversed",
 }
-SLIPS = {"too-few-figures", "rows-swapped", "wrong-column", "other-scale", *(name for name, _, _ in CONVENTIONS)}
+SLIPS = {"too-few-figures", "rows-swapped", "wrong-column", "other-scale", *(name for name, _, _ in CONVENTIONS)} | {
+    "positions-exchanged"
+}
 
 
 def at(row: int, column: int) -> CellMark:
