@@ -7,15 +7,15 @@ line of a position prints the formula of its own phase.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.units import MM, nice_up
+from reportgen.base.units import MM, Given, nice_up
 from reportgen.cam import cam_ids, formulas
-from reportgen.cam.design import Touch
+from reportgen.cam.design import NoCamError, Touch
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
 from reportgen.cam.formulas import enter_lengths, enter_lowest, enter_profile, factor
 from reportgen.cam.laws import Floats, FollowerMotion, LawInterval
@@ -107,7 +107,22 @@ class CamSolution:
 
     @cached_property
     def misconceptions(self) -> Misconceptions:
-        return Misconceptions(readings=self._exchanged, changed=self._changed)
+        stroke = "cam.h" if self.cam.translating else "cam.swing"
+        return Misconceptions(readings=self._exchanged, changed=self._changed, designs={stroke: self._with_stroke})
+
+    def _with_stroke(self, stroke: float) -> Sequence[Mapping[str, np.ndarray]]:
+        """What is read off the diagrams with another stroke (m, rad); the same with the lengths found anew."""
+        key, own = "h" if self.cam.translating else "psi_max", self.sheet.families
+        try:
+            other = CamSolution(self.given.model_copy(update={key: Given(stroke, stroke)})).sheet.families
+        except NoCamError:
+            return ()
+        read = {
+            id: other[id].values
+            for id, one in own.items()
+            if one.definition is None and not one.exact and id in other and other[id].definition is None
+        }
+        return read, read | {id: other[id].values for id in self.cam.kind.lengths}
 
     @property
     def _exchanged(self) -> Mapping[str, list[tuple[str, np.ndarray]]]:

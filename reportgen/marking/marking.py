@@ -21,7 +21,7 @@ from reportgen.marking.exchanged import Exchange, possible_exchanges
 from reportgen.marking.guard import Classmate, guard, not_from_own, unseen_text
 from reportgen.marking.key import Ask, symbol_text, words_of
 from reportgen.marking.marks import Cells, Marked, Marking, Notice, Place, Submission, Verdict, points_of
-from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans
+from reportgen.marking.misread import misread_by_many, misread_data, mistakes_of_plans, redesigned
 from reportgen.marking.mistakes import WRONG_DATUM, Mistake, mistakes_of_working, slips_of_writing
 from reportgen.marking.parts import joined, sheets_of
 from reportgen.marking.policy import Policy
@@ -265,7 +265,8 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
         if not any(map(working.shows, one.changes or [one.where]))
     }
     for (name, where), mistake in unseen.items():
-        own_values = working.own_values(changes=mistake.changes)
+        ways = (mistake.changes, *redesigned(working, mistake))
+        possible = [working.own_values(changes=changes) for changes in ways]
         once = len(scheme.ledger[where].values) == 1 or name == WRONG_DATUM
         caused = [place for place, one in mistakes.items() if (one.name, one.where) == (name, where)]
         charged: dict[int, Place] = {}
@@ -276,8 +277,10 @@ def _charged_once(working: Working, cells: Cells, mistakes: Mapping[Place, Mista
             if cell.verdict is not Verdict.wrong or place in charged.values() or place in changed:
                 continue
             index = scheme.rows[cell.id].at(cell.position)
-            own = _own(scheme.ledger, own_values, cell.id, index)
-            if _follows(scheme, cell.id, float(working.values[cell.id][index]), own, cell.band):
+            given = float(working.values[cell.id][index])
+            following = (_own(scheme.ledger, values, cell.id, index) for values in possible)
+            own = next((one for one in following if _follows(scheme, cell.id, given, one, cell.band)), None)
+            if own is not None:
                 points = policy.worth(cell.id) * policy.follows
                 changed[place] = replace(
                     cell, verdict=Verdict.follows, own=own, points=points, first=False, mistake="", where=""

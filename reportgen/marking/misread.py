@@ -8,7 +8,7 @@ A few show a mass or the diameter; then it must be a number that somebody would 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -276,6 +276,28 @@ def _rounded(value: float, like: float) -> float:
     parts = 1 if np.isclose(like, float(f"{like:.{NEAT - 1}e}"), rtol=1e-9) and not begins_with_1 else 2
     step = 10.0 ** (np.floor(np.log10(value)) - NEAT + 1) / parts
     return float(round(value / step) * step)
+
+
+# --- a design found by a misread datum -------------------------------------------------------------
+
+
+def redesigned(working: Working, mistake: Mistake) -> Iterator[Mapping[str, Change]]:
+    """What else changes with a datum taken wrongly by which a design is found: each way of going on from it."""
+    scheme, id = working.scheme, mistake.where
+    design = scheme.misconceptions.designs.get(id) if mistake.name == WRONG_DATUM else None
+    if design is None:
+        return
+    taken = float(mistake.changes[id](scheme.ledger[id].values, {})[0])
+    # What values of three figures show of it is not exact.
+    near = _neat(scheme, id, taken)
+    value = near if abs(near / taken - 1) < UNLIKE else taken
+    for others in design(value):
+        if not any(map(working.shows, others)):
+            yield {other: _fixed(values) for other, values in {id: np.array([value]), **others}.items()}
+
+
+def _fixed(values: np.ndarray) -> Change:
+    return lambda computed, _: np.broadcast_to(values, np.shape(computed))
 
 
 # --- mistakes in drawing a plan -------------------------------------------------------------------

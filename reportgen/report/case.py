@@ -53,7 +53,8 @@ class Misconceptions:
     mistake's name.  `whole` is for a length from one end of a rod the length of the whole rod, by ids.  `changed` are
     for a quantity other definitions that are often used, with the mistake's name; `ways` other definitions that are as
     right as its own, of quantities that do not stand on it.  `approximations` are for a quantity definitions that books
-    use in place of the exact one, with their names.
+    use in place of the exact one, with their names.  `designs` are for a datum that a design is found by what other
+    data are with another value of it (SI), in each way in which one may go on; none where there is no design.
     """
 
     applied: frozenset[str] = frozenset()
@@ -63,6 +64,7 @@ class Misconceptions:
     changed: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
     ways: Mapping[str, Sequence[Expression]] = field(default_factory=dict)
     approximations: Mapping[str, Sequence[tuple[str, Expression]]] = field(default_factory=dict)
+    designs: Mapping[str, Callable[[float], Sequence[Mapping[str, np.ndarray]]]] = field(default_factory=dict)
 
 
 def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand]) -> Iterator[tuple[str, Expression]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from reportgen.cases import open_case
 from reportgen.classes.assess import Graded
 from reportgen.classes.variants import make_variants
 from reportgen.formula.evaluation import evaluate
+from reportgen.formula.ledger import follow
 from reportgen.marking.key import key_of
 from reportgen.marking.marking import mark
 from reportgen.marking.scheme import marking_scheme
@@ -133,3 +135,29 @@ def test_mistakes_have_words_in_both_languages() -> None:
         for name in names:
             assert "{symbol}" in case.words["mistakes"][name]
             assert case.words["mistake_names"][name]
+
+
+@pytest.mark.parametrize(
+    ("name", "stroke", "taken"), [("flat-01", 20, 24), ("knife-01", 30, 27), ("roller-01", 40, 48)]
+)
+@pytest.mark.parametrize("anew", [True, False], ids=["lengths found anew", "lengths as given"])
+def test_a_misread_stroke_costs_one_value(tmp_path: Path, name: str, stroke: int, taken: int, anew: bool) -> None:
+    """What is read off the diagrams follows from the stroke, and so do the lengths found by it."""
+    text = (FOLDER / f"{name}.yaml").read_text(encoding="utf-8")
+    assert f"h: {stroke} mm" in text
+    file = tmp_path / f"{name}.yaml"
+    file.write_text(text.replace(f"h: {stroke} mm", f"h: {taken} mm"), encoding="utf-8")
+    scheme, other = marking_scheme(open_case(FOLDER / f"{name}.yaml", "en")), open_case(file, "en").ledger
+    kept = () if anew else ("cam.r0", "cam.e", "cam.roller")
+    read = {id: one.values for id, one in other.families.items() if one.definition is None and id not in kept}
+    values = follow(scheme.ledger, {id: lambda _, __, own=own: own for id, own in read.items() if id in scheme.ledger})
+    world = {id: np.broadcast_to(values[id], one.values.shape) for id, one in scheme.ledger.families.items()}
+    sheet = students.written(scheme, world)
+    marking = mark(scheme, sheet)
+    assert [(cell.mistake, cell.where) for cell in marking.first_errors] == [("wrong-datum", "cam.h")]
+    assert marking.points == marking.out_of - 1
+    assert marking.warnings == ()
+    # What is wrong beside it is still lost.
+    place = ("cam.least.r0", 0)
+    wrong = replace(sheet.values[place], value=1.3 * sheet.values[place].value)
+    assert mark(scheme, replace(sheet, values={**sheet.values, place: wrong})).points == marking.points - 1
