@@ -16,7 +16,7 @@ from reportgen.marking.scheme import MarkingScheme
 
 NAME = "positions-exchanged"
 
-FEWEST = 4
+FEWEST = 3
 """So many values at least tell one position from the other."""
 
 MOST, NEARLY_ALL = 0.5, 0.9
