@@ -1,7 +1,8 @@
 """A class's variants as a bank of questions for a Moodle quiz: a cloze question each.
 
-It shows the scheme and the given data, and asks for the cells that a policy names.  A number is right within the wider
-of the key's two bands; where books differ in the sense, either sign is; a direction may be a whole turn on.
+It shows what the task says before its answer sheet, and asks for the cells that a policy names.  A number is right
+within the wider of the key's two bands; where books differ in the sense, either sign is; a direction may be a whole
+turn on.
 Source: docs.moodle.org, Moodle XML format, and Embedded Answers (Cloze) question type.
 """
 
@@ -9,6 +10,7 @@ from __future__ import annotations
 
 import base64
 import html
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from decimal import Decimal
 from itertools import groupby
@@ -18,23 +20,28 @@ from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 
+from reportgen import report as tree
 from reportgen.api import figures
 from reportgen.base.kinds import title
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.marking.key import key_of, shown_number, symbol_text, words_of
+from reportgen.marking.paper import given_of
 from reportgen.marking.policy import Policy
-from reportgen.marking.sheet import given_entry
+from reportgen.page.elements import Pens
+from reportgen.page.html import Blocks
 from reportgen.report.key import Key, KeyRow, Role
 
 NAME = "questions.xml"
-PICTURE = "scheme"
-"""The figure that shows the machine."""
+PICTURES = ("scheme", "system")
+"""The figures that show the machine, or the system of an exercise."""
 DOTS = 110
 """Of the picture, an inch: it is read on a screen."""
 TURN = 360.0
 FIGURES = 9
 """Of a number: more than any band needs."""
+_ANCHOR = re.compile(r' id="[^"]*"')
+"""A quiz shows several questions on a page, which may not share anchors."""
 SCALES = (1, 2, 4, 5, 10, 20, 100)
 """By one of these weights become whole, as Moodle wants them."""
 
@@ -62,9 +69,11 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
     key = policy.ask.of(whole)
     words = words_of(key)["quiz"]
     pictures = dict(_pictures(file, language))
-    shown = "".join(f'<p><img src="@@PLUGINFILE@@/{name}" alt={quoteattr(words["scheme"])}/></p>' for name in pictures)
+    blocks = _QuestionBlocks(given_of(case, whole), pictures, words["scheme"])
+    given = blocks.given()
     lead = html.escape(title(key.kind, key.language))
-    text = f"<p>{lead}</p>{shown}{_data(key, words)}<p>{html.escape(words['lead'])}</p>{_cells(key, policy)}"
+    scales = _scales(key, words, blocks)
+    text = f"<p>{lead}</p>{given}{blocks.left()}{scales}<p>{html.escape(words['lead'])}</p>{_cells(key, policy)}"
     attached = "".join(
         f'<file name={quoteattr(name)} path="/" encoding="base64">{base64.b64encode(data).decode()}</file>'
         for name, data in pictures.items()
@@ -82,17 +91,50 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
 def _pictures(file: Path, language: Language | None) -> Iterator[tuple[str, bytes]]:
     """The picture of the scheme, of each part that has one."""
     still, _ = figures.figure_list(file, language)
-    names = [figure.name for figure in still if figure.name.rpartition(".")[2] == PICTURE]
+    names = [figure.name for figure in still if figure.name.rpartition(".")[2] in PICTURES]
     if names:
         yield from figures.figure_files(file, names, formats=("png",), dpi=DOTS, language=language).items()
 
 
-def _data(key: Key, words: Mapping[str, Any]) -> str:
-    """The given data as a list, with the scales that lengths asked for are drawn at."""
+class _QuestionBlocks(Blocks):
+    """Writes what a task gives as well-formed HTML without anchors; its schemes are the attached pictures."""
+
+    def __init__(self, document: tree.Document, pictures: Iterable[str], alt: str) -> None:
+        super().__init__(document, Pens())
+        self._blocks, self._alt = document.blocks, alt
+        self._pictures = list(pictures)
+        """The names of the pictures that the text has not shown yet."""
+
+    def given(self) -> str:
+        """Return the blocks of the document; an element without content is closed, and no brace opens an answer."""
+        written = self.write(self._blocks)
+        written = _ANCHOR.sub("", written).replace("<br>", "<br/>").replace("<wbr>", "<wbr/>")
+        return written.replace("{", "&#123;").replace("}", "&#125;")
+
+    def left(self) -> str:
+        """Return the pictures that no figure of the document shows."""
+        return "".join(map(self._picture, self._pictures))
+
+    def inline(self, inline: tree.Inline) -> str:
+        return html.escape(inline.text) if isinstance(inline, tree.Reference) else super().inline(inline)
+
+    def block(self, block: tree.Block, room: float) -> str:
+        if not isinstance(block, tree.Figure):
+            return super().block(block, room)
+        picture = self._picture(self._pictures.pop(0)) if self._pictures else ""
+        caption = self.caption(self.words.figure, block)
+        return f"{picture}<p>{caption}</p>" if caption else picture
+
+    def _picture(self, name: str) -> str:
+        return f'<p><img src="@@PLUGINFILE@@/{name}" alt={quoteattr(self._alt)}/></p>'
+
+
+def _scales(key: Key, words: Mapping[str, Any], blocks: Blocks) -> str:
+    """Return the scales that the lengths asked for are drawn at, as a list."""
     scales = {row.id for row in key.rows if row.role is Role.scale and any(row.id in one.plans for one in key.asked)}
-    rows = [row for row in key.rows if row.single and (row.role is Role.given or row.id in scales)]
-    items = "".join(f"<li>{_named(row, key)} = {_shown(row, key)}</li>" for row in rows)
-    return f"<p>{html.escape(words['data'])}</p><ul>{items}</ul>"
+    rows = [row for row in key.rows if row.single and row.id in scales]
+    items = "".join(f"<li>{_named(row, key)} = {_shown(row, blocks)}</li>" for row in rows)
+    return f"<p>{html.escape(words['data'])}</p><ul>{items}</ul>" if items else ""
 
 
 def _named(row: KeyRow, key: Key) -> str:
@@ -100,10 +142,9 @@ def _named(row: KeyRow, key: Key) -> str:
     return html.escape(f"{symbol_text(row, key)}{what}")
 
 
-def _shown(row: KeyRow, key: Key) -> str:
-    entry = given_entry(row, 0)
-    value = shown_number(row, float(row.printed[0])).shown if entry is None else entry.value
-    return html.escape(f"{value} {row.unit}".strip())
+def _shown(row: KeyRow, blocks: Blocks) -> str:
+    value = blocks.inline(tree.Value(shown_number(row, float(row.printed[0]))))
+    return f"{value} {html.escape(row.unit)}".strip()
 
 
 def _cells(key: Key, policy: Policy) -> str:

@@ -153,6 +153,35 @@ def _task(case: LoadedAssignment, key: Key, by_section: bool, self_check: bool) 
     return replace(document, title=f"{named or case.course} – {key.id}")
 
 
+def given_of(case: Case, key: Key) -> Document:
+    """Return what the task of a case says before its answer sheet: given data, what is asked, the positions.
+
+    It has the blocks of `task_of` without the title, the student and the sheet with its instructions.  Raises
+    `TemplateError`.
+    """
+    if isinstance(case, CaseOfParts):
+        pages = zip(case.parts.values(), key.pages, strict=True)
+        first, *others = [_bare(part, page) for part, (_, page) in pages]
+        # A handout replaces the title and the line below it that the paper of each further part begins with.
+        head = (heading(case.title), Paragraph(()))
+        return case.joined_task([first, *(replace(one, blocks=(*head, *one.blocks)) for one in others)])
+    return _bare(case, key)
+
+
+def _bare(case: Case, key: Key) -> Document:
+    assert isinstance(case, LoadedAssignment), "what has no parts is a work by itself"
+    return case.bounded(partial(_given, key=key))
+
+
+def _given(case: LoadedAssignment, key: Key) -> Document:
+    title, blocks = case.question(_asked_for(case, key, by_section=False, self_check=False))
+    # The last two headings are those of the instructions and of the sheet.
+    *_, instructions, _ = (index for index, block in enumerate(blocks) if isinstance(block, tree.Section))
+    # Below the title, as headings of level 2 are.
+    document = paper(case.assignment.language, case.words, case.course, (title[0], *blocks[:instructions]))
+    return replace(document, blocks=document.blocks[1:])
+
+
 def _asked_for(case: Case, key: Key, by_section: bool, self_check: bool) -> AskedFor:
     """What the answer sheet of a key asks for, and what is given at the positions of the plates or of the answers."""
     asked = asked_positions(key)
