@@ -15,6 +15,7 @@ from functools import cached_property
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark
+from reportgen.handin.word_covers import covered_runs
 from reportgen.handin.word_looks import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
 from reportgen.handin.word_text import Block, TextReader, heading_levels
@@ -66,7 +67,10 @@ class WordFile:
     @cached_property
     def unseen(self) -> tuple[XmlNode, ...]:
         """The runs that nobody sees and that have a figure in them."""
-        mark_unseen(self.tree, Styles() if self._styles is None else Styles.of(self._styles))
+        styles = Styles() if self._styles is None else Styles.of(self._styles)
+        mark_unseen(self.tree, styles)
+        for run in covered_runs(self.tree, styles):
+            run.unseen = True
         runs = (node for node in self.tree.walk() if node.unseen)
         return tuple(run for run in runs if any(map(str.isdecimal, "".join(child.text for child in run.children))))
 

@@ -65,21 +65,21 @@ def mark_unseen(tree: XmlNode, styles: Styles) -> None:
 
 def _is_unseen(run: XmlNode, styles: Styles) -> bool:
     paragraph = next((one for one in run.above if one.tag == "w:p"), None)
-    looks = list(_looks(run, paragraph, styles))
-    hidden = _first(looks, "w:vanish")
+    looks = list(looks_of(run, paragraph, styles))
+    hidden = first_of(looks, "w:vanish")
     if hidden is not None and hidden.get("w:val", "1") not in OFF:
         return True
-    size, width = _number(_first(looks, "w:sz")), _number(_first(looks, "w:w"))
+    size, width = _number(first_of(looks, "w:sz")), _number(first_of(looks, "w:w"))
     if (size is not None and size < SMALLEST) or (width is not None and width < NARROWEST):
         return True
-    colour = _colour(_first(looks, "w:color"))
+    colour = _colour(first_of(looks, "w:color"))
     if colour is None:
         return False
     behind = _behind(run, paragraph, looks, styles)
     return behind is not None and all(abs(a - b) < CONTRAST for a, b in zip(colour, behind, strict=True))
 
 
-def _looks(run: XmlNode, paragraph: XmlNode | None, styles: Styles) -> Iterator[XmlNode]:
+def looks_of(run: XmlNode, paragraph: XmlNode | None, styles: Styles) -> Iterator[XmlNode]:
     """What says how a run looks, the nearest first."""
     own = run.child("w:rPr")
     named = [run.at("w:rPr", "w:rStyle"), paragraph.at("w:pPr", "w:pStyle") if paragraph is not None else None]
@@ -93,7 +93,7 @@ def _looks(run: XmlNode, paragraph: XmlNode | None, styles: Styles) -> Iterator[
     yield from styles.defaults
 
 
-def _first(looks: list[XmlNode], tag: str) -> XmlNode | None:
+def first_of(looks: list[XmlNode], tag: str) -> XmlNode | None:
     return next((found for look in looks if (found := look.child(tag)) is not None), None)
 
 
@@ -117,10 +117,10 @@ def _colour(node: XmlNode | None, attribute: str = "w:val") -> Colour | None:
 
 def _behind(run: XmlNode, paragraph: XmlNode | None, looks: list[XmlNode], styles: Styles) -> Colour | None:
     """The colour behind a run; None where it is not known, as in a box with a colour or a table with a style."""
-    marked = _first(looks, "w:highlight")
+    marked = first_of(looks, "w:highlight")
     if marked is not None and marked.get("w:val") not in ("none", "white"):
         return None
-    shades = [_first(looks, "w:shd")]
+    shades = [first_of(looks, "w:shd")]
     if paragraph is not None:
         shades.append(paragraph.at("w:pPr", "w:shd"))
         named = paragraph.at("w:pPr", "w:pStyle")
