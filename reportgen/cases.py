@@ -37,8 +37,8 @@ if TYPE_CHECKING:
     from reportgen.report.report import Report
 
 
-GENERAL, HEIGHT, SEEN = "vasntωεφα", "y", "uUψTθrγβ"
-"""Letters without an index that stand for any point, link or angle, or count links and joints; those of diagrams."""
+GENERAL, HEIGHT, SEEN = "vasntωεφαl", "y", "uUψTθrγβ"
+"""Letters without an index that stand for any point, link, length or angle, or count links; those of diagrams."""
 
 
 def opened(assignment: Assignment) -> Case:
@@ -102,7 +102,7 @@ class MachineCase(MachineAnalysis):
             | {Symbol(name, label) for name in names for label in self.assignment.labels}
             | {Symbol("K", str(one.link)) for one in bodies if ids.percussion(one.centre, one.link) in self.ledger}
             | images
-            | {Symbol(axis, name) for axis in "xy" for name in names}
+            | {Symbol(axis, name) for axis in "xys" for name in names}
             | {
                 Symbol(letter)
                 for letter in (*corners, *POLES.values(), *GENERAL, *(HEIGHT if self.analysis.gas else ""), *balancing)

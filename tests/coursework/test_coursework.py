@@ -378,7 +378,7 @@ def test_where_a_datum_comes_from_is_said_in_symbols_whatever_its_kind_and_key(t
     lines = text_of(open_case(tmp_path / "whole.yaml").document()).splitlines()
     starts = [number for number, line in enumerate(lines) if line.startswith("Lấy từ số liệu của máy")]
     assert [lines[number + 1] for number in starts] == ["m = 1/54·a = 5 mm", "n_v = 12·n = 624 vg/ph", "n = 52 vg/ph"]
-    assert [lines[number + 2] for number in starts[::2]] == ["z_1 = 3/2·count = 18", "l = 0,24·l_3 = 132 mm"]
+    assert [lines[number + 2] for number in starts[::2]] == ["z_1 = 3/2·count = 18", "l_cam = 0,24·l_3 = 132 mm"]
 
 
 @pytest.mark.parametrize("name", FAULTS)
