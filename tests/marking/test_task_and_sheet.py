@@ -44,3 +44,12 @@ def test_every_language_names_the_topics() -> None:
     for language, said in words.items():
         case = open_case(path, language=language)
         assert said in told(task_of(case, key_of(case)))
+
+
+def test_the_task_of_an_engine_asks_for_the_counterweights_of_its_couple() -> None:
+    """Where the sheet does: an engine in one plane has no couple."""
+    for name in ("inline-four", "v-six", "v-twin"):
+        case = open_case(built.ROOT / "assignments" / "engine-balance" / f"{name}.yaml", language="en")
+        key = key_of(case)
+        asked = any(row.id == "orders.U.M" for row in key.rows)
+        assert ("the two counterweights that take the couples" in told(task_of(case, key))) is asked
