@@ -11,7 +11,7 @@ from __future__ import annotations
 import base64
 import html
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from itertools import groupby
 from pathlib import Path
@@ -21,7 +21,6 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 
 from reportgen import report as tree
-from reportgen.api import figures
 from reportgen.base.kinds import title
 from reportgen.base.units import Language
 from reportgen.cases import open_case
@@ -31,12 +30,11 @@ from reportgen.marking.policy import Policy
 from reportgen.page.elements import Pens
 from reportgen.page.html import Blocks
 from reportgen.report.key import Key, KeyRow, Role
+from reportgen.writers import pictures
 
 NAME = "questions.xml"
-PICTURES = ("scheme", "system")
-"""The figures that show the machine, or the system of an exercise."""
 DOTS = 110
-"""Of the picture, an inch: it is read on a screen."""
+"""Of a picture, an inch: it is read on a screen."""
 TURN = 360.0
 FIGURES = 9
 """Of a number: more than any band needs."""
@@ -68,15 +66,14 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
     policy.ask.check([whole], language)
     key = policy.ask.of(whole)
     words = words_of(key)["quiz"]
-    pictures = dict(_pictures(file, language))
-    blocks = _QuestionBlocks(given_of(case, whole), pictures, words["scheme"])
+    blocks = _QuestionBlocks(given_of(case, whole), words["scheme"])
     given = blocks.given()
     lead = html.escape(title(key.kind, key.language))
     scales = _scales(key, words, blocks)
-    text = f"<p>{lead}</p>{given}{blocks.left()}{scales}<p>{html.escape(words['lead'])}</p>{_cells(key, policy)}"
+    text = f"<p>{lead}</p>{given}{scales}<p>{html.escape(words['lead'])}</p>{_cells(key, policy)}"
     attached = "".join(
         f'<file name={quoteattr(name)} path="/" encoding="base64">{base64.b64encode(data).decode()}</file>'
-        for name, data in pictures.items()
+        for name, data in blocks.pictures.items()
     )
     # No section of character data may hold its own end.
     body = text.replace("]]>", "]]&gt;")
@@ -88,22 +85,14 @@ def _question(file: Path, policy: Policy, language: Language | None) -> str:
     )
 
 
-def _pictures(file: Path, language: Language | None) -> Iterator[tuple[str, bytes]]:
-    """The picture of the scheme, of each part that has one."""
-    still, _ = figures.figure_list(file, language)
-    names = [figure.name for figure in still if figure.name.rpartition(".")[2] in PICTURES]
-    if names:
-        yield from figures.figure_files(file, names, formats=("png",), dpi=DOTS, language=language).items()
-
-
 class _QuestionBlocks(Blocks):
-    """Writes what a task gives as well-formed HTML without anchors; its schemes are the attached pictures."""
+    """Writes what a task gives as well-formed HTML without anchors; its figures are attached pictures."""
 
-    def __init__(self, document: tree.Document, pictures: Iterable[str], alt: str) -> None:
+    def __init__(self, document: tree.Document, alt: str) -> None:
         super().__init__(document, Pens())
         self._blocks, self._alt = document.blocks, alt
-        self._pictures = list(pictures)
-        """The names of the pictures that the text has not shown yet."""
+        self.pictures: dict[str, bytes] = {}
+        """The pictures of the figures written so far, as PNG, by the names that the text has for them."""
 
     def given(self) -> str:
         """Return the blocks of the document; an element without content is closed, and no brace opens an answer."""
@@ -111,21 +100,19 @@ class _QuestionBlocks(Blocks):
         written = _ANCHOR.sub("", written).replace("<br>", "<br/>").replace("<wbr>", "<wbr/>")
         return written.replace("{", "&#123;").replace("}", "&#125;")
 
-    def left(self) -> str:
-        """Return the pictures that no figure of the document shows."""
-        return "".join(map(self._picture, self._pictures))
-
     def inline(self, inline: tree.Inline) -> str:
         return html.escape(inline.text) if isinstance(inline, tree.Reference) else super().inline(inline)
 
     def block(self, block: tree.Block, room: float) -> str:
         if not isinstance(block, tree.Figure):
             return super().block(block, room)
-        picture = self._picture(self._pictures.pop(0)) if self._pictures else ""
         caption = self.caption(self.words.figure, block)
-        return f"{picture}<p>{caption}</p>" if caption else picture
+        shown = "".join(map(self._picture, pictures.pngs(block.scenes, self.language, DOTS)))
+        return f"{shown}<p>{caption}</p>" if caption else shown
 
-    def _picture(self, name: str) -> str:
+    def _picture(self, data: bytes) -> str:
+        name = f"figure-{len(self.pictures) + 1}.png"
+        self.pictures[name] = data
         return f'<p><img src="@@PLUGINFILE@@/{name}" alt={quoteattr(self._alt)}/></p>'
 
 

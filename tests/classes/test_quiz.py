@@ -134,7 +134,7 @@ def _samples() -> list[Path]:
 
 @pytest.mark.parametrize("file", _samples(), ids=lambda file: file.stem)
 def test_a_question_says_all_that_the_task_gives(file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(quiz, "_pictures", lambda *_: iter(()))
+    monkeypatch.setattr(quiz.pictures, "pngs", lambda scenes, *_: [b"PNG"] * len(scenes))
     case = open_case(file, "vi")
     key = key_of(case)
     row = next(row for row in key.asked if row.role is Role.asked)
@@ -144,6 +144,8 @@ def test_a_question_says_all_that_the_task_gives(file: Path, monkeypatch: pytest
         for one in inlines:
             if isinstance(one, tree.Text | tree.Value):
                 assert _bare(tree.plain((one,), "vi")) in shown, one
+    figures = [block for block in task_of(case, key).blocks if isinstance(block, tree.Figure)]
+    assert len(question.files) == sum(len(figure.scenes) for figure in figures)
     # Outside the answers, whose numbers Moodle wants with a point, the decimal mark is the comma.
     assert not re.search(r"(?<![\w.-])\d+\.\d+(?![\w.])", re.sub(r"<[^>]*>", " ", _CLOZE.sub("", question.text)))
 
