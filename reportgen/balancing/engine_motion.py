@@ -38,7 +38,7 @@ from reportgen.formula.vocabulary import KINDS
 
 SAMPLES = 360
 HIGH, FORCE = 100.0, 40.0
-"""What the engine, and the greatest force or couple, may fill (mm)."""
+"""Sizes (mm) of the room for the engine, and for the greatest force or couple."""
 ROTATING = "rot"
 PENS = {
     "1": Pen(0.5, style.RED),
@@ -60,9 +60,9 @@ class Shaking:
     letter: str
     kind: str
     parts: dict[str, NDArray[np.complex128]]
-    """What is not there throughout is left out."""
+    """By name; without the force or couple that is zero over the whole turn."""
     least: float
-    """What is smaller is nothing but rounding."""
+    """Smaller values are rounding errors."""
 
     @property
     def whole(self) -> NDArray[np.complex128]:
