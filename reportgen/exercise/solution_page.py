@@ -31,7 +31,7 @@ from reportgen.report import (
     Value,
     listed,
 )
-from reportgen.report.numbering import finished
+from reportgen.report.finished import finished
 from reportgen.report.prose import NamedPoint, Prose
 
 if TYPE_CHECKING:

@@ -30,9 +30,9 @@ from reportgen.report import (
     Value,
 )
 from reportgen.report.case import AskedFor, LoadedAssignment
+from reportgen.report.finished import finished
 from reportgen.report.key import Span
 from reportgen.report.layout import contents
-from reportgen.report.numbering import finished
 from reportgen.report.prose import Prose
 from reportgen.report.wording import positive_sense
 

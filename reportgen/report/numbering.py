@@ -8,46 +8,20 @@ document, which no number of a counted part can equal, as those have two members
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from reportgen import report as tree
 from reportgen.base.errors import DocumentError
 from reportgen.report import plain
 from reportgen.report.unspaced import set_out
 
-if TYPE_CHECKING:
-    from reportgen.report.case import LoadedAssignment
-
 _COUNTED_LEVELS = 3
 
 _Kind = Literal["equation", "table", "figure"]
 Blocks = tuple[tree.Block, ...]
 Change = Callable[[tree.Inlines], tree.Inlines]
-
-
-def finished(
-    case: LoadedAssignment, blocks: Iterable[tree.Block], close: bool = False, title: str = ""
-) -> tree.Document:
-    """The numbered document of a case with its header and footer, under the title of a report unless another is given.
-
-    Raises `DocumentError`.
-    """
-    words = case.words
-    return number(
-        tree.Document(
-            language=case.assignment.language,
-            title=title or f"{words['cover']['title']} – {case.title}",
-            author=case.assignment.report.student.name or "",
-            header=(words["header"].format(course=case.course), case.variant_line),
-            footer=("", words["document"]["page"]),
-            words=tree.Words.among(words, case.assignment.language),
-            blocks=tuple(blocks),
-            close=close,
-            date=case.assignment.report.date,
-        )
-    )
 
 
 def number(document: tree.Document) -> tree.Document:

@@ -51,10 +51,10 @@ from reportgen.report import joint_friction as friction
 from reportgen.report import phrases as steps
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.figures import PAPERS, FigureScenes, close
+from reportgen.report.finished import finished
 from reportgen.report.groups import GroupView
 from reportgen.report.layout import contents
 from reportgen.report.named_tables import table
-from reportgen.report.numbering import finished
 from reportgen.report.report import Report
 from reportgen.report.used_symbols import used_symbols
 

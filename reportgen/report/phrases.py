@@ -10,7 +10,7 @@ from collections.abc import Collection, Mapping, Sequence, Sized
 from contextlib import suppress
 from math import degrees
 from string import Formatter
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 from reportgen.base.errors import TemplateError
 from reportgen.base.gaps import place_of
@@ -18,14 +18,14 @@ from reportgen.base.shown import member
 from reportgen.base.shown import text as as_text
 from reportgen.base.units import MM
 from reportgen.base.words import unfilled
-from reportgen.formula import Chain, Expression, Number, Symbol, ids, vocabulary
+from reportgen.formula import Chain, Number, Symbol, ids
 from reportgen.plans.motion import POLES
 from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView
-from reportgen.report.markdown import SECRET
-from reportgen.report.prose import NamedPoint, inlines_of, subscripted
+from reportgen.report.insertions import inlines
+from reportgen.report.prose import NamedPoint, subscripted
 from reportgen.report.report import Report
 
 if TYPE_CHECKING:
@@ -65,24 +65,6 @@ def _gap(report: Report, name: str, how: str, about: Sequence[Any], gaps: Mappin
     if how == "quantity":
         return quantity(report, name)
     return (value(report, name),) if how == "value" else (InlineMath(math(report, name)),)
-
-
-def inlines(of: Any) -> Inlines:
-    """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text.
-
-    Raises `TypeError` for what has no place in a text.
-    """
-    if isinstance(of, NamedPoint):
-        return (InlineMath(vocabulary.point(of)),)
-    if isinstance(of, Number):
-        return (Value(of),)
-    if isinstance(of, Expression):
-        return (InlineMath(of),)
-    if isinstance(of, tuple):
-        return tuple(part for one in of for part in inlines(one))
-    if isinstance(of, get_args(Inline)):
-        return (of,)
-    return inlines_of(text) if SECRET in (text := as_text(of)) else (Text(text),)
 
 
 def counted(report: Report, name: str, things: Collection[Any], **gaps: Any) -> Inlines:

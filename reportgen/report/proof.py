@@ -37,8 +37,8 @@ from reportgen.report import (
     Words,
 )
 from reportgen.report import Section as Heading
+from reportgen.report.insertions import inlines
 from reportgen.report.numbering import number
-from reportgen.report.phrases import inlines
 from reportgen.report.translation import FIELDS, read_table, read_words_in
 
 NUMBER_WIDTH = 12.0

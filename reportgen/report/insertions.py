@@ -1,0 +1,29 @@
+"""Turn a value into inlines when it is inserted into a text, such as a phrase with gaps or a proof sheet."""
+
+from __future__ import annotations
+
+from typing import Any, get_args
+
+from reportgen.base.shown import text as as_text
+from reportgen.formula import Expression, Number, vocabulary
+from reportgen.report import Inline, InlineMath, Inlines, Text, Value
+from reportgen.report.markdown import SECRET
+from reportgen.report.prose import NamedPoint, inlines_of
+
+
+def inlines(of: Any) -> Inlines:
+    """What fills a gap: points as symbols, numbers with their unit, formulas, inlines, else text.
+
+    Raises `TypeError` for what has no place in a text.
+    """
+    if isinstance(of, NamedPoint):
+        return (InlineMath(vocabulary.point(of)),)
+    if isinstance(of, Number):
+        return (Value(of),)
+    if isinstance(of, Expression):
+        return (InlineMath(of),)
+    if isinstance(of, tuple):
+        return tuple(part for one in of for part in inlines(one))
+    if isinstance(of, get_args(Inline)):
+        return (of,)
+    return inlines_of(text) if SECRET in (text := as_text(of)) else (Text(text),)
