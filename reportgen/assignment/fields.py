@@ -115,7 +115,7 @@ class Quantity(Reader):
 
 @dataclass(frozen=True, slots=True)
 class SchoolFolder(Reader):
-    """The folder of a school's own words beside those of the languages, e.g. `tnut` for templates/tnut/vi.md."""
+    """The folder of a school's own words beside those of the languages, such as templates/tnut/ for `tnut`."""
 
     def read(self, value: object) -> str:
         known = schools()

@@ -25,8 +25,22 @@ SAME_LENGTH_KEY, INCREASING_KEY = "x-same-length", "x-increasing"
 _FORMS = {"object": "table", "array": "list"}
 
 
+_GENERAL = frozenset({"file", "topic"})
+"""Names of modules that several packages have: a definition is called by the package, too."""
+
+
 class _Generator(GenerateJsonSchema):
-    """The schema of pydantic with defaults as a file would have them."""
+    """The schema of pydantic, with definitions named for readers and defaults as a file would have them."""
+
+    def normalize_name(self, name: str) -> str:
+        """Return the name of a definition: `Pin`; of several with that name, by its module, `FourBarParameters`.
+
+        Pydantic asks for the name of a class alone, then with its module, then with an id of its own.
+        """
+        *modules, model = name.split(".")
+        named = modules[-2:] if modules[-1:] and modules[-1] in _GENERAL else modules[-1:]
+        title = "".join(word.capitalize() for module in named for word in module.split("_"))
+        return title + str(super().normalize_name(model.lstrip("_")))
 
     def encode_default(self, dft: Any) -> Any:
         if isinstance(dft, Given):

@@ -73,7 +73,7 @@ def is_school(folder: Path) -> bool:
 
 
 def schools() -> list[str]:
-    """The folders of templates that belong to a school, such as `tnut` with its `vi.md`."""
+    """List the template folders that belong to a school, such as `tnut`."""
     own = {*languages(), "frames"}
     return sorted(folder.name for folder in templates().iterdir() if folder.name not in own and is_school(folder))
 

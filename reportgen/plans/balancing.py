@@ -46,8 +46,8 @@ from reportgen.machine.analysis import Analysis
 from reportgen.machine.balance import BalancedTurn, shaking_moment
 from reportgen.machine.counterweights import CrankRod, Rule, crank_rods, four_bar, place_on_link
 from reportgen.machine.motion import unit as unit_vector
-from reportgen.plans.integrals import with_rest
 from reportgen.plans.orders import enter_orders
+from reportgen.plans.rests import with_rest
 from reportgen.plans.sides import image
 
 AXES = ("x", "y")

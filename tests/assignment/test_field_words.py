@@ -57,7 +57,7 @@ def test_languages_have_the_words_of_one_another() -> None:
 
 def test_schema_tells_units_bounds_defaults_and_what_checks_say() -> None:
     schema = catalogue.schema("en")
-    shaper = schema["definitions"]["reportgen__catalogue__shaper__Parameters"]
+    shaper = schema["definitions"]["ShaperParameters"]
     l3, g = shaper["properties"]["l3"], shaper["properties"]["g"]
     assert (l3["title"], l3["description"]) == ("Rocker CD", "rocker CD, longer than a + l1")
     assert (l3["x-unit"], l3["x-range"]) == ("mm", {"minimum": 0.1, "exclusiveMaximum": 1e5})
@@ -68,6 +68,16 @@ def test_schema_tells_units_bounds_defaults_and_what_checks_say() -> None:
     assert ["s", "intake", "compression", "expansion", "exhaust"] in stroke["x-same-length"]
     assert stroke["properties"]["s"]["x-increasing"] == {"from": 0, "to": 1, "unit": ""}
     assert not list(_internal(schema)), "a default stands as a file would have it"
+
+
+def test_definitions_have_readable_names() -> None:
+    """The schema publishes no module path of the program, and all kinds together give each model one name."""
+    schema = catalogue.schema("en")
+    names = schema["definitions"].keys()
+    assert {"FourBarParameters", "CamFileParameters", "TrainFileParameters", "ByStroke", "Taken"} <= names
+    assert [name for name in names if not re.fullmatch("([A-Z]+[a-z]*)+", name) or "eportgen" in name] == []
+    assert set(re.findall("#/definitions/([^']+)'", str(schema))) == set(names)
+    assert all("eportgen" not in name for kind in kinds() for name in file_schema(catalogue.kind(kind))["$defs"])
 
 
 def _internal(part: Any) -> Iterator[Any]:
