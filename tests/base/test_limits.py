@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -74,7 +75,10 @@ def test_a_caller_that_is_ended_leaves_no_process(tmp_path: Path, end: signal.Si
     note = tmp_path / "note"
     root = Path(__file__).parents[2]
     code = CALLER.format("endless", str(note))
-    caller = subprocess.Popen([sys.executable, "-c", code], cwd=root, stderr=subprocess.DEVNULL)
+    # A shell that runs the tests in the background makes its processes ignore Ctrl-C; this one has to hear it.
+    hears = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    command = [sys.executable, "-c", code]
+    caller = subprocess.Popen(command, cwd=root, stderr=subprocess.DEVNULL, preexec_fn=hears)
     while not note.exists() or not note.read_text(encoding="utf-8"):
         assert caller.poll() is None
         time.sleep(0.02)
