@@ -5,8 +5,6 @@ from __future__ import annotations
 import errno
 import io
 import os
-import subprocess
-import sys
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -20,6 +18,7 @@ from reportgen.base.units import Language
 from reportgen.classes.run import Order, locked, run_batch, watching
 from tests.classes.classes import Batch, here, tree, write_class
 from tests.classes.little import little
+from tests.commands import reportgen
 from tests.lanes import proof
 
 ROOT = Path(__file__).parents[2]
@@ -257,22 +256,10 @@ def test_a_terminal_sees_a_bar(tmp_path: Path) -> None:
     assert "a minute" in terminal.getvalue()
 
 
-def batch_command(*arguments: object) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "reportgen.cli", "batch", *map(str, arguments)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=120,
-        check=False,
-    )
-
-
 @proof
 def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> None:
     roster, given = write_class(tmp_path, {"K1": "kind: ship\n"})
-    done = batch_command(roster, "--assignments", given, "--out", tmp_path / "out", "--jobs", 1, "--lang", "en")
+    done = reportgen("batch", roster, "--assignments", given, "--out", tmp_path / "out", "--jobs", 1, "--lang", "en")
     assert (done.returncode, done.stdout) == (1, f"{tmp_path / 'out' / 'manifest.json'}\n")
     lines = done.stderr.splitlines()
     assert lines[:3] == [f"K1\t{product}\tfailed" for product in ("task", "report", "key")]
@@ -284,7 +271,7 @@ def test_the_command_tells_events_failures_and_the_manifest(tmp_path: Path) -> N
     "options", [(), ("--spec", "a.yaml", "--assignments", "."), ("--assignments", ".", "--make", "report,dance")]
 )
 def test_wrong_usage_ends_with_2(tmp_path: Path, options: tuple[str, ...]) -> None:
-    done = batch_command("roster.csv", *options)
+    done = reportgen("batch", "roster.csv", *options)
     assert (done.returncode, done.stdout) == (2, "")
 
 

@@ -9,8 +9,6 @@ from __future__ import annotations
 
 import io
 import stat
-import subprocess
-import sys
 import zipfile
 from collections.abc import Mapping
 from dataclasses import replace
@@ -28,6 +26,7 @@ from reportgen.classes.roster import read_roster
 from reportgen.classes.variants import make_variants
 from reportgen.marking.policy import Policy, Scale
 from reportgen.workbook.reading import LARGEST
+from tests.commands import reportgen
 from tests.lanes import matrix
 from tests.marking import demo
 
@@ -338,10 +337,8 @@ def test_a_wrong_gradebook_is_told_before_anything_is_marked(tmp_path: Path) -> 
     book = tmp_path / "gradebook.csv"
     book.write_text(CANVAS, encoding="utf-8")
     out = tmp_path / "out"
-    command = ("grade", demo.SHEETS, "--assignments", tmp_path, "--gradebook", book, "--out", out, "--lang", "en")
-    done = subprocess.run(
-        [sys.executable, "-m", "reportgen.cli", *map(str, command)], capture_output=True, text=True, check=False
-    )
+    options = ("--assignments", tmp_path, "--gradebook", book, "--out", out, "--lang", "en")
+    done = reportgen("grade", demo.SHEETS, *options)
     assert (done.returncode, done.stdout, out.exists()) == (1, "", False)
     assert done.stderr.startswith(f"{book}:1:1: error[gradebook-which-column]: ")
 

@@ -16,26 +16,10 @@ import typer
 from reportgen.base.kinds import kinds
 from reportgen.base.units import Language
 from reportgen.cli.common import ending
+from tests.commands import ROOT, process, reportgen
 from tests.lanes import matrix, proof
 
-ROOT = Path(__file__).parents[2]
 SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
-
-
-def reportgen(*arguments: object, cwd: Path = ROOT, **environment: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "reportgen.cli", *map(str, arguments)]
-    done = subprocess.run(
-        command,
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=300,
-        check=False,
-        env={"PYTHONPATH": str(ROOT), "PATH": "/usr/bin:/bin:/usr/local/bin", "COLUMNS": "100", **environment},
-    )
-    assert "Traceback" not in done.stderr + done.stdout
-    return done
 
 
 @pytest.fixture
@@ -269,7 +253,7 @@ def test_without_a_home_nothing_is_said(tmp_path: Path, lane: str) -> None:
         (tmp_path / "given" / "K1.yaml").write_bytes(sample.read_bytes())
         (tmp_path / "class.csv").write_text("id,name\nK1,An\n", encoding="utf-8")
         arguments = (tmp_path / "class.csv", "--assignments", tmp_path / "given", "--jobs", 2)
-    done = reportgen(lane, *arguments, "--out", tmp_path / "out", **nowhere)
+    done = process(lane, *arguments, "--out", tmp_path / "out", **nowhere)
     assert done.returncode == 0, done.stderr
     assert "atplotlib" not in done.stderr
     assert "ignored" not in done.stderr
@@ -291,7 +275,7 @@ def test_too_little_memory_says_so(language: Language, capsys: pytest.CaptureFix
 def test_a_typesetter_that_memory_has_no_room_for_is_installed(tmp_path: Path) -> None:
     """As where its library cannot be mapped as a whole."""
     (tmp_path / "typst.py").write_text("raise ImportError('_typst.so: failed to map segment')\n", encoding="utf-8")
-    done = reportgen("build", SAMPLE, "--out", tmp_path / "out", PYTHONPATH=f"{tmp_path}:{ROOT}")
+    done = process("build", SAMPLE, "--out", tmp_path / "out", PYTHONPATH=f"{tmp_path}:{ROOT}")
     assert (done.returncode, done.stdout) == (3, "")
     assert "typst cannot be loaded, most likely for too little memory" in done.stderr
     assert len(done.stderr.splitlines()) == 1

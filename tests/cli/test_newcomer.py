@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from reportgen.base.template_folders import samples
-from tests.cli.test_cli import ROOT, SAMPLE, reportgen
+from tests.commands import ROOT, reportgen
 from tests.lanes import matrix, proof
 
+SAMPLE = ROOT / "assignments" / "engine-twin-05.yaml"
 SHAPER = ROOT / "assignments" / "shaper-01.yaml"
 WORDS = "%% foreword\n# Preface {{ unnumbered() }}\n\nAs we have it.\n"
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-import subprocess
-import sys
 from base64 import b64encode
 from pathlib import Path
 
@@ -17,6 +15,7 @@ from reportgen.cases import MachineCase, opened
 from reportgen.page import page, panels
 from reportgen.page.html import quoted
 from reportgen.workbook import read
+from tests.commands import reportgen
 from tests.lanes import proof
 from tests.page.made import made
 from tests.page.text import elements
@@ -25,12 +24,6 @@ from tests.report import built
 SLIDE = built.SLIDE
 EXERCISE = built.ROOT / "assignments" / "plane-motion" / "01.yaml"
 LARGEST = 3_000_000
-
-
-def command(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-m", "reportgen.cli", *map(str, arguments)], capture_output=True, text=True, check=False
-    )
 
 
 def test_the_sample_s_page_is_small_and_the_same_in_every_run() -> None:
@@ -73,19 +66,19 @@ def test_running_lines_cannot_end_their_style() -> None:
 
 @proof
 def test_formats_of_a_report(tmp_path: Path) -> None:
-    done = command("build", SLIDE, "--format", "html,pdf", "--out", tmp_path)
+    done = reportgen("build", SLIDE, "--format", "html,pdf", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
     names = ["report.html", "report.pdf"]
     assert done.stdout.splitlines() == [str(tmp_path / SLIDE.stem / name) for name in names]
     assert sorted(path.name for path in (tmp_path / SLIDE.stem).glob("[!.]*")) == names
     assert (tmp_path / SLIDE.stem / "report.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
-    assert command("build", SLIDE, "--format", "html", "--out", tmp_path / "one").returncode == 0
+    assert reportgen("build", SLIDE, "--format", "html", "--out", tmp_path / "one").returncode == 0
     assert [path.name for path in (tmp_path / "one" / SLIDE.stem).glob("[!.]*")] == ["report.html"]
 
 
 def test_an_unknown_format_is_wrong_usage(tmp_path: Path) -> None:
     for arguments in (("build", SLIDE), ("solve", SLIDE)):
-        done = command(*arguments, "--format", "htm", "--out", tmp_path, "--lang", "en")
+        done = reportgen(*arguments, "--format", "htm", "--out", tmp_path, "--lang", "en")
         assert done.returncode == 2
         assert "--format: there is no format “htm”: " in done.stderr
     assert list(tmp_path.iterdir()) == []
@@ -95,16 +88,16 @@ def test_an_unknown_format_is_wrong_usage(tmp_path: Path) -> None:
 def test_a_faulty_file_leaves_the_last_page(tmp_path: Path) -> None:
     file = tmp_path / "one.yaml"
     file.write_text(SLIDE.read_text(encoding="utf-8"), encoding="utf-8")
-    assert command("build", file, "--format", "html", "--out", tmp_path).returncode == 0
+    assert reportgen("build", file, "--format", "html", "--out", tmp_path).returncode == 0
     before = (tmp_path / "one" / "report.html").read_bytes()
     file.write_text("kind: linkage\nvariant: 1\nwrong: 1\n", encoding="utf-8")
-    assert command("build", file, "--format", "html", "--out", tmp_path).returncode == 1
+    assert reportgen("build", file, "--format", "html", "--out", tmp_path).returncode == 1
     assert (tmp_path / "one" / "report.html").read_bytes() == before
 
 
 @proof
 def test_tables_of_a_full_turn_say_what_the_json_says(tmp_path: Path) -> None:
-    done = command("solve", built.SAMPLE, "--format", "csv,xlsx,json", "--out", tmp_path)
+    done = reportgen("solve", built.SAMPLE, "--format", "csv,xlsx,json", "--out", tmp_path)
     assert done.returncode == 0, done.stderr
     folder = tmp_path / built.SAMPLE.stem
     assert done.stdout.splitlines() == [str(folder / f"results.{name}") for name in ("csv", "xlsx", "json")]

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 from reportgen.base.made import RECORD
 from reportgen.writers.pdflatex import INSTALL
+from tests.commands import Done, reportgen
 from tests.report import built
 
 SAMPLE = built.ROOT / "assignments" / "slotted-lever-01.yaml"
@@ -18,19 +17,8 @@ SAMPLE = built.ROOT / "assignments" / "slotted-lever-01.yaml"
 OLD = b"the report of yesterday"
 
 
-def build(*arguments: object, path: str = os.environ["PATH"]) -> subprocess.CompletedProcess[str]:
-    done = subprocess.run(
-        [sys.executable, "-m", "reportgen.cli", "build", *map(str, arguments), "--lang", "en"],
-        cwd=built.ROOT,
-        env={**os.environ, "PATH": path},
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        timeout=300,
-        check=False,
-    )
-    assert "Traceback" not in done.stderr + done.stdout
-    return done
+def build(*arguments: object, path: str = os.environ["PATH"]) -> Done:
+    return reportgen("build", *arguments, "--lang", "en", PATH=path)
 
 
 @pytest.fixture

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -11,6 +9,7 @@ import pytest
 from reportgen.base.standards import STANDARDS, titled
 from reportgen.writers import typst_compiler
 from reportgen.writers.typst_fonts import MissingLettersWarning, added, lacking, sought, uncommon
+from tests.commands import reportgen
 
 VIETNAMESE = "Nguyễn Thị Ánh Tuyết, lớp 59CĐT – μ_v = 0,2189 m/(s·mm), ⊥ O₁A ∥ x, Щукин"
 RARE = "\U00012000\U00014400\U00017000\U0001b170\U0001d800\U00016800\U00011a00\U000118a0"
@@ -67,8 +66,7 @@ def test_the_command_line_says_it_in_one_line(tmp_path: Path) -> None:
     file = tmp_path / "a.yaml"
     text = Path("assignments/slotted-lever-01.yaml").read_text(encoding="utf-8")
     file.write_text(text.replace("course: Nguyên lý máy", f"course: X {missing} Y"), encoding="utf-8")
-    command = [sys.executable, "-m", "reportgen.cli", "build", str(file), "--out", str(tmp_path / "out")]
-    done = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
+    done = reportgen("build", file, "--out", tmp_path / "out")
     assert done.returncode == 0
     (line,) = done.stderr.splitlines()
     assert missing in line
