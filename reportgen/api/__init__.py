@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,33 +16,30 @@ from reportgen import catalogue
 from reportgen.api import typesetting
 from reportgen.api.letters import Engine as Engine
 from reportgen.api.letters import letter_of as letter_of
-from reportgen.api.letters import letters_of
 from reportgen.api.typesetting import reading_ahead
+from reportgen.api.writing import KeyJob, ReportJob, SheetJob, dated, word_file
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Extent
 from reportgen.assignment.reading import inputs
 from reportgen.base import made
 from reportgen.base.errors import NotOfferedError, ReportgenError
 from reportgen.base.files import put_files, reported, scratch, version
-from reportgen.base.languages import setting_of
+from reportgen.base.formats import ENGINE, PRODUCTS, chosen, names, usual
 from reportgen.base.standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.steps import step
-from reportgen.base.template_folders import school_folder
 from reportgen.base.units import Language
 from reportgen.base.words import templates_hash, word
 from reportgen.cases import MachineCase, open_case, opened
 from reportgen.report.case import bounded
 
 if TYPE_CHECKING:
-    from reportgen.drawing.sheet import DrawingSheet
     from reportgen.machine.analysis import Analysis
     from reportgen.marking.key import Ask
     from reportgen.marking.policy import Policy
     from reportgen.report import Document
-    from reportgen.report.case import Case
     from reportgen.report.key import Key
 
-FORMATS = ("pdf", "html", "docx")
+FORMATS = names("report")
 """What a report can be written as."""
 
 
@@ -83,7 +79,7 @@ def print_tables(results: Mapping[str, Any], language: Language) -> None:
     tables.print_tables(results, language)
 
 
-RESULT_FORMATS = ("csv", "xlsx", "json")
+RESULT_FORMATS = names("results")
 DEGREES_OF_A_TURN = 360
 """Positions of the table of a full turn."""
 
@@ -95,14 +91,15 @@ def result_files(
 
     CSV, which has one table a file, has a further file for each part of a coursework, results-cam.csv.
     """
-    from reportgen.results.files import result_file
-
     assignment = load(path, language)
     wanted = positions or (DEGREES_OF_A_TURN if catalogue.kind(assignment.kind).counts_positions else None)
     results = solve(assignment, wanted)
-    files = {f"results.{name}": result_file(results, name) for name in formats}
-    parts = results.get("parts", {}) if "csv" in formats else {}
-    return files | {f"results-{part}.csv": result_file(one, "csv") for part, one in parts.items()}
+    rows = chosen("results", formats)
+    files = {f"results.{row.suffix}": row.load()(results) for row in rows}
+    parts = results.get("parts", {}).items()
+    return files | {
+        f"results-{part}.{row.suffix}": row.load()(one) for row in rows if row.per_part for part, one in parts
+    }
 
 
 def document(assignment: Assignment) -> Document:
@@ -116,7 +113,7 @@ def build(
     engine: Engine = "typst",
     language: Language | None = None,
     keep_source: bool = False,
-    formats: Sequence[str] = ("pdf",),
+    formats: Sequence[str] = usual("report"),
     extent: Extent | None = None,
     listing: bool = False,
     standards: Standards = STANDARDS,
@@ -153,23 +150,19 @@ def build_each(
         assignment = assignment.with_extent(extent)
     if listing:
         assignment = assignment.with_listing()
-    letter = letter_of(assignment, engine) if "pdf" in formats else None
+    rows = chosen("report", formats)
+    letter = letter_of(assignment, engine) if any(ENGINE in row.needs for row in rows) else None
     files: dict[str, bytes] = {}
     with reported(), scratch(Path(out)), reading_ahead(assignment, engine, letter) as ahead:
         step("solve")
         case = opened(assignment)
         step("compose")
         tree = case.document()
-        if "pdf" in formats:
-            if ahead is not None:
-                source, pdf = typeset(tree, engine, letter, standards, ahead)
-            else:
-                source, pdf = bounded(assignment, typeset, tree, engine, letter, standards)
-            files = {**({f"report{SUFFIX[engine]}": source.encode()} if keep_source else {}), "report.pdf": pdf}
-        if "html" in formats:
-            files["report.html"] = _page(case, tree)
-        if "docx" in formats:
-            files["report.docx"] = _word(assignment, tree)
+        job = ReportJob(case, tree, engine, letter, standards, ahead)
+        for row in rows:
+            for ending, content in row.load()(job).items():
+                if keep_source or ending == row.suffix:
+                    files[f"report.{ending}"] = content
         program = next((block for block in tree.blocks if isinstance(block, Listing)), None)
         if program is not None:
             files["report.py"] = "\n".join((*program.lines, "")).encode()
@@ -177,7 +170,7 @@ def build_each(
             raise NotOfferedError(word("no_listing", assignment.language, kind=assignment.kind))
     of = made_of(path, engine, assignment.language, standards)
     put = made.put_made(Path(out) / assignment.id, files, "report", of)
-    return replace(put, paths=tuple(Path(out) / assignment.id / f"report.{name}" for name in formats))
+    return replace(put, paths=tuple(Path(out) / assignment.id / f"report.{row.suffix}" for row in rows))
 
 
 def made_of(
@@ -194,45 +187,6 @@ def made_of(
     return made.made_of(assignment, engine, spoken, templates_hash(), version(), **more)
 
 
-def _page(case: Case, tree: Document) -> bytes:
-    from reportgen.page import page
-
-    step("page")
-    return page(case, tree).encode()
-
-
-def _word(assignment: Assignment, tree: Document) -> bytes:
-    """The Word file of a report, in the letter and the size that its file gives; a school's own look goes before.
-
-    Raises `TemplateError` for a school's Word file that is refused.
-    """
-    from reportgen.workbook.letterhead import LETTERHEAD
-
-    step("word")
-    look = school_folder(assignment.school) / LETTERHEAD if assignment.school is not None else None
-    return bounded(assignment, _written, assignment, tree, look)
-
-
-def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes:
-    """The Word file of a report with the look of a school's Word file, if there is one."""
-    from reportgen.report.layout import Letter
-    from reportgen.workbook.letterhead import read_letterhead
-    from reportgen.writers import pictures
-    from reportgen.writers import word as writer
-    from reportgen.writers.word_elements import Own
-
-    letters_of(assignment)
-    given = assignment.report
-    usual = setting_of(tree.language).word
-    size = float(given.size.removesuffix(" pt")) if "size" in given.model_fields_set else usual.size
-    own = None
-    if look is not None and look.exists():
-        letterhead = read_letterhead(look, tree.language)
-        own = Own(letterhead.styles, letterhead.header, letterhead.footer, letterhead.margins)
-    drawn = partial(pictures.for_word, language=tree.language)
-    return writer.write(tree, drawn, Letter(given.font or usual.font, size), own)
-
-
 # --- products: what a batch makes of an assignment file -----------------------------------------------
 
 
@@ -244,28 +198,34 @@ Those of `ASKING` take `ask`, too, those of `TYPESET` the `standards` that their
 It depends on its arguments alone, so that it can run anywhere.
 """
 
-KEY_FORMATS = ("pdf", "xlsx", "csv", "json")
+KEY_FORMATS = names("key")
 
 
 def report_files(
     path: Path, engine: Engine, language: Language | None, standards: Standards = STANDARDS
 ) -> Mapping[str, bytes]:
     """The complete report."""
-    assignment = load(path, language)
-    letter = letter_of(assignment, engine)
-    return {"report.pdf": bounded(assignment, typeset, document(assignment), engine, letter, standards)[1]}
+    case = open_case(path, language)
+    letter = letter_of(case.assignment, engine)
+    return _report("pdf", ReportJob(case, case.document(), engine, letter, standards))
 
 
 def page_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
     """The complete report as a page for a browser, whatever the engine."""
     case = open_case(path, language)
-    return {"report.html": _page(case, case.document())}
+    return _report("html", ReportJob(case, case.document()))
 
 
 def word_files(path: Path, engine: Engine, language: Language | None) -> Mapping[str, bytes]:
     """The complete report as a Word file, whatever the engine."""
     case = open_case(path, language)
-    return {"report.docx": _word(case.assignment, case.document())}
+    return _report("docx", ReportJob(case, case.document()))
+
+
+def _report(name: str, job: ReportJob) -> Mapping[str, bytes]:
+    """The file of a report in one format."""
+    (row,) = chosen("report", (name,))
+    return {f"report.{row.suffix}": row.load()(job)[row.suffix]}
 
 
 def task_files(
@@ -286,7 +246,7 @@ def task_files(
     key = chosen.on_paper(key_of(case))
     letter = letter_of(case.assignment, engine)
     task = task_of(case, key, chosen.by_section, chosen.self_check)
-    files = {"task.pdf": bounded(case.assignment, typeset, _dated(task, case), engine, letter, standards)[1]}
+    files = {"task.pdf": bounded(case.assignment, typeset, dated(task, case), engine, letter, standards)[1]}
     files["answers.xlsx"] = write_xlsx(answer_book(key, chosen.by_section, chosen.self_check))
     return files | ({"assignment.yaml": handed_out(path).encode()} if chosen.self_check else {})
 
@@ -297,42 +257,27 @@ def frame_files(path: Path, engine: Engine, language: Language | None, ask: Ask 
     from reportgen.marking.key import Ask, key_of
 
     case = open_case(path, language)
-    return {"frame.docx": _word(case.assignment, frame_of(case, (ask or Ask()).of(key_of(case))))}
+    return {"frame.docx": word_file(case.assignment, frame_of(case, (ask or Ask()).of(key_of(case))))}
 
 
 def key_files(
     path: Path,
     engine: Engine,
     language: Language | None,
-    formats: Sequence[str] = ("pdf", "xlsx"),
+    formats: Sequence[str] = usual("key"),
     ask: Ask | None = None,
     standards: Standards = STANDARDS,
 ) -> Mapping[str, bytes]:
     """The answer key in some of `KEY_FORMATS`; it says what the answer sheet asks for, and holds everything."""
-    from reportgen.marking import key_files as files
     from reportgen.marking.key import Ask, key_of
-    from reportgen.workbook import write_csv, write_xlsx
 
     step("solve")
     case = open_case(path, language)
-    key = (ask or Ask()).of(key_of(case))
-    makers: Mapping[str, Callable[[], bytes]] = {
-        "pdf": lambda: bounded(
-            case.assignment, typeset, _dated(files.key_document(key, case.title), case), engine, None, standards
-        )[1],
-        "xlsx": lambda: write_xlsx(files.key_book(key)),
-        "csv": lambda: write_csv(files.key_rows(key)),
-        "json": lambda: files.key_json(key).encode(),
-    }
-    return {f"key.{name}": makers[name]() for name in formats}
+    job = KeyJob(case, (ask or Ask()).of(key_of(case)), engine, standards)
+    return {f"key.{row.suffix}": row.load()(job) for row in chosen("key", formats)}
 
 
-def _dated(tree: Document, case: Case) -> Document:
-    """A document about a case with the date of its report."""
-    return replace(tree, date=case.assignment.report.date)
-
-
-SHEET_FORMATS = ("pdf", "dxf")
+SHEET_FORMATS = names("sheet")
 
 
 def sheet_files(
@@ -341,7 +286,7 @@ def sheet_files(
     language: Language | None = None,
     size: str = "",
     sets: Collection[str] = (),
-    formats: Sequence[str] = SHEET_FORMATS,
+    formats: Sequence[str] = usual("sheet"),
     block: Path | None = None,
     every: bool = False,
     standards: Standards = STANDARDS,
@@ -352,20 +297,16 @@ def sheet_files(
     plate or those usually handed in; the title `block` is that of the language unless a file of one is given.  Raises
     `SheetError` where there is nothing to draw, and `AssignmentError` where a plate has no place on the size.
     """
-    from reportgen.sheets import drawing_sheets, dxf
+    from reportgen.sheets import drawing_sheets
 
     step("solve")
     case = open_case(path, language)
     sheets = drawing_sheets(case, size, sets, block, every)
-    pdf_of = partial(typeset_sheet, phrases=case.words["told"], standards=standards)
-    writers: Mapping[str, Callable[[DrawingSheet], bytes]] = {
-        "pdf": lambda sheet: bounded(case.assignment, pdf_of, sheet, case.title, case.assignment),
-        "dxf": lambda sheet: dxf.write_sheet(sheet, case.assignment.language),
-    }
+    rows = chosen("sheet", formats)
     return {
-        f"sheet-{number}.{name}": writers[name](sheet)
+        f"sheet-{number}.{row.suffix}": row.load()(SheetJob(case, sheet, standards))
         for number, sheet in enumerate(sheets, start=1)
-        for name in formats
+        for row in rows
     }
 
 
@@ -376,21 +317,13 @@ def blocks(assignment: Assignment) -> dict[str, Path]:
     return frame.blocks(assignment.school or "", assignment.language)
 
 
-MAKERS: Mapping[str, Maker] = {
-    "task": task_files,
-    "report": report_files,
-    "page": page_files,
-    "docx": word_files,
-    "key": key_files,
-    "sheet": sheet_files,
-    "frame": frame_files,
-}
+MAKERS: Mapping[str, Maker] = {product.name: product.load() for product in PRODUCTS}
 """The products by the names that `--make` takes."""
-USUAL = ("task", "report", "key")
+USUAL = tuple(product.name for product in PRODUCTS if product.usual)
 """What a batch makes unless it is told."""
-ASKING = frozenset({"task", "key", "frame"})
+ASKING = frozenset(product.name for product in PRODUCTS if product.asks)
 """Those that depend on what the answer sheet asks for."""
-TYPESET = frozenset({"task", "report", "key", "sheet"})
+TYPESET = frozenset(product.name for product in PRODUCTS if product.typeset)
 """Those that have a PDF."""
 
 

@@ -9,6 +9,7 @@ from reportgen import catalogue
 from reportgen.api import load
 from reportgen.assignment import Assignment
 from reportgen.base.errors import NotOfferedError
+from reportgen.base.formats import chosen, names, usual
 from reportgen.base.units import Language
 from reportgen.base.words import word
 from reportgen.cases import open_case, opened
@@ -16,12 +17,14 @@ from reportgen.export import curves, figures
 from reportgen.export.curves import Over
 from reportgen.export.figures import FORMATS as FIGURE_FORMATS
 from reportgen.export.figures import MOVING, MovingFigure
-from reportgen.export.figures import STILL as PLOT_FORMATS
 from reportgen.report.case import Case
 from reportgen.report.named_figures import NamedFigure, safe
 from reportgen.writers import figure
 
 __all__ = ["FIGURE_FORMATS", "MOVING", "PLOT_FORMATS", "figure_files", "figure_list", "plot_files", "worked_at"]
+
+PLOT_FORMATS = names("plots")
+"""What a plot can be written as."""
 
 
 def figure_list(
@@ -35,7 +38,7 @@ def figure_files(
     path: Path | str,
     names: Sequence[str] = (),
     at: str = "",
-    formats: Sequence[str] = ("svg",),
+    formats: Sequence[str] = usual("figures"),
     dpi: int = 0,
     layers: Sequence[str] = ("paths",),
     language: Language | None = None,
@@ -56,7 +59,7 @@ def plot_files(
     of: Sequence[str],
     over: Over = "phi",
     measured: Path | None = None,
-    formats: Sequence[str] = ("svg",),
+    formats: Sequence[str] = usual("plots"),
     dpi: int = 220,
     language: Language | None = None,
 ) -> Mapping[str, bytes]:
@@ -70,7 +73,8 @@ def plot_files(
     points = curves.read_measured(measured, cases[0], of) if measured is not None else ()
     spoken = cases[0].assignment.language
     made = {safe(name): figure.chart(one, spoken) for name, one in curves.diagrams(cases, of, over, points).items()}
-    return {f"{name}.{format}": figure.saved(one, format, dpi) for name, one in made.items() for format in formats}
+    rows = chosen("plots", formats)
+    return {f"{name}.{row.suffix}": row.load()(one, row.name, dpi) for name, one in made.items() for row in rows}
 
 
 def worked_at(assignment: Assignment, at: str) -> tuple[Case, tuple[str, ...]]:

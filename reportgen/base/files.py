@@ -18,23 +18,11 @@ from importlib import metadata
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Mark, OutputError
+from reportgen.base.formats import endings, file_names
 
-SETS = {
-    "task": r"task\.pdf|answers\.xlsx|assignment\.yaml",
-    "report": r"report\.(pdf|html|docx|py)",
-    "key": r"key\.(pdf|xlsx|csv|json)",
-    "frame": r"frame\.docx",
-    "sheet": r"sheet-\d+\.(pdf|dxf)",
-    "figures": r".+\.(svg|png|pdf|eps|gif|mp4)",
-    "plots": r".+\.(svg|png|pdf|eps)",
-    "results": r"results(-\w+)?\.csv|results\.(xlsx|json)",
-    "feedback": r"feedback\.(pdf|xlsx|txt)|marked\.docx",
-    "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.(zip|pdf)",
-}
-"""The names of files that belong together, as patterns."""
 _STREAMS = ("/dev", "/proc")
 """A link in these folders stands for what is open, even where it leads to a regular file."""
-_UNFINISHED = re.compile(r"\..+\.(?:pdf|html|docx|py|dxf|xlsx|csv|json|yaml|txt|zip|svg|png|eps|gif|mp4)\.[a-z0-9_]{8}")
+_UNFINISHED = re.compile(rf"\..+\.(?:{'|'.join(endings())})\.[a-z0-9_]{{8}}")
 """What `_beside` makes."""
 
 
@@ -208,8 +196,8 @@ def leads_out(path: Path, *folders: Path) -> bool:
 
 
 def standing(folder: Path, kind: str, below: str = "") -> set[Path]:
-    """The files of a folder, or of those `below` it, that belong to a kind of `SETS` by their names in any case."""
-    pattern = re.compile(SETS[kind], re.IGNORECASE)
+    """The files of a folder, or of those `below` it, that belong to a product by their names in any case."""
+    pattern = re.compile(file_names(kind), re.IGNORECASE)
     return {path for path in folder.glob(f"{below}*") if pattern.fullmatch(path.name)}
 
 

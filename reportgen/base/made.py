@@ -87,7 +87,7 @@ def hash_of(path: Path) -> str:
 
 
 def put_made(folder: Path, files: Mapping[str, bytes], kind: str, of: MadeOf, alone: bool = False) -> Put:
-    """Put files of a kind of `SETS` into a folder, together or not at all, and take its stale ones away.
+    """Put files of a product into a folder, together or not at all, and take its stale ones away.
 
     The folder's record says then what each was made `of`.  Files put `alone` leave all others.  Raises `OutputError`.
     """

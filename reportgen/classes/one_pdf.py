@@ -6,10 +6,11 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from reportgen.base.files import SETS, contents, put_files, reported, scratch
+from reportgen.base.files import contents, put_files, reported, scratch
+from reportgen.base.formats import PRODUCTS, file_names
 from reportgen.writers.bound_pdf import bound
 
-NAMES = {"task": "tasks.pdf", "report": "reports.pdf", "key": "keys.pdf", "sheet": "sheets.pdf"}
+NAMES = {product.name: product.bound for product in PRODUCTS if product.bound}
 """Products that have PDFs, and what all of one are called."""
 FEEDBACK = "feedback.pdf"
 LARGEST = 100_000_000
@@ -23,7 +24,7 @@ def bind_products(out: Path, students: Sequence[tuple[str, str]], products: Iter
     """
     for product in products:
         if product in NAMES:
-            yield from _put(out, NAMES[product], students, SETS[product])
+            yield from _put(out, NAMES[product], students, file_names(product))
 
 
 def bind_feedback(out: Path, students: Sequence[tuple[str, str]]) -> Iterator[Path]:

@@ -12,7 +12,8 @@ from pathlib import Path
 from reportgen import api
 from reportgen.api.letters import Engine
 from reportgen.base.errors import Fault, Mark, Problem
-from reportgen.base.files import SETS, overwritten, put_files, reported, scratch
+from reportgen.base.files import overwritten, put_files, reported, scratch
+from reportgen.base.formats import file_names
 from reportgen.base.kinds import title
 from reportgen.base.standards import STANDARDS, Standards
 from reportgen.base.units import Language
@@ -213,7 +214,7 @@ def put_one_pdf(graded: Graded, out: Path) -> Iterator[Path]:
 
 def filled_gradebook(path: Path, out: Path) -> Path:
     """Where a platform's table goes when it is filled in: the file that was downloaded stays as it is."""
-    taken = re.fullmatch(SETS["class"], path.name) or any(overwritten([out / path.name], [path]))
+    taken = re.fullmatch(file_names("class"), path.name) or any(overwritten([out / path.name], [path]))
     return out / (f"filled-{path.name}" if taken else path.name)
 
 

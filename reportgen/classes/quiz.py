@@ -32,7 +32,6 @@ from reportgen.page.html import Blocks
 from reportgen.report.key import Key, KeyRow, Role
 from reportgen.writers import pictures
 
-NAME = "questions.xml"
 DOTS = 110
 """Of a picture, an inch: it is read on a screen."""
 TURN = 360.0

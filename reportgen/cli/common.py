@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, get_args, get_origin,
 import typer
 from typer.core import TyperGroup
 
+from reportgen.base import formats
 from reportgen.base.errors import AssignmentError, Fault, ReportgenError
 from reportgen.base.files import is_stream, overwritten, put_file, write_stream
 from reportgen.base.files import version as own_version
@@ -60,6 +61,24 @@ StandardOption = Annotated[
     ),
 ]
 USUAL_STANDARDS = ",".join(STANDARDS)
+
+
+def offered(known: Iterable[str]) -> str:
+    """Return the help of an option that takes a list of names.
+
+    It is found again in another language by its words around the names.
+    """
+    return f"Of {', '.join(known)}; parted by commas."
+
+
+def format_option(product: str) -> Any:
+    """Return the option `--format` of a command that writes a product in the formats of the table."""
+    return typer.Option("--format", metavar="LIST", help=offered(formats.names(product)))
+
+
+def usual_formats(product: str) -> str:
+    """Return the formats of a product that a command writes if none is named, as its option has them."""
+    return ",".join(formats.usual(product))
 
 
 def _use_templates(folder: Path | None) -> Path | None:

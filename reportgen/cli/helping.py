@@ -36,6 +36,7 @@ PAGES = {
 OTHERS = "commands"
 _EXTRA = re.compile(r"^(?P<help>.*?)(?P<extra>(?:  |^)\[[^\[\]]*\])$", re.DOTALL)
 _PYTHON_TYPE = re.compile(r" <[\w\[\]]+>$")
+_NAME = r"[\w-]+"
 _DEFAULT = re.compile(r"\bdefault: (\((.+?)\)(?=; |\]))?")
 
 
@@ -114,9 +115,18 @@ def start() -> str:
 
 
 def translated(text: str) -> str:
-    """A text of the commands in the language that is spoken; one that has none there stays English."""
+    """A text of the commands in the language that is spoken; one that has none there stays English.
+
+    A text with `{names}` in `help.yaml` is that of every list of names in its place.
+    """
     plain = " ".join(text.split())
-    return str(_helps()["texts"].get(plain, plain))
+    texts = _helps()["texts"]
+    if plain not in texts:
+        for english, own in texts.items():
+            around = map(re.escape, english.split("{names}"))
+            if "{names}" in english and (found := re.fullmatch(rf"({_NAME}(?:, {_NAME})*)".join(around), plain)):
+                return str(own).replace("{names}", found[1].replace(", ", _helps()["frame"]["comma"]))
+    return str(texts.get(plain, plain))
 
 
 def _record(text: str) -> str:

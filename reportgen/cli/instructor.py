@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from reportgen.base.files import put_files, reported, standing
+from reportgen.base.formats import PRODUCTS, chosen, names
 from reportgen.cli.common import (
     AT_FAULT,
     INTERRUPTED,
@@ -22,11 +23,14 @@ from reportgen.cli.common import (
     complain,
     ending,
     for_each,
+    format_option,
     kept,
     listed,
+    offered,
     refuse_inputs,
     say,
     tell,
+    usual_formats,
 )
 
 PolicyOption = Annotated[
@@ -37,6 +41,8 @@ Roster = Annotated[Path, typer.Argument(metavar="ROSTER", help="The class, CSV o
 OnePdfOption = Annotated[
     bool, typer.Option("--one-pdf", help="Also put all PDFs of the class into one, for each kind.")
 ]
+MakeOption = Annotated[str, typer.Option("--make", help=offered(product.name for product in PRODUCTS))]
+USUAL_PRODUCTS = ",".join(product.name for product in PRODUCTS if product.usual)
 SharedOption = Annotated[
     list[Path] | None,
     typer.Option(
@@ -57,9 +63,7 @@ def variants(
         "out/variants"
     ),
     force: Annotated[bool, typer.Option("--force", help="Also replace files edited by hand.")] = False,
-    format: Annotated[
-        str, typer.Option("--format", metavar="LIST", help="Of yaml, moodle-xml; parted by commas.")
-    ] = "yaml",
+    format: Annotated[str, format_option("variants")] = usual_formats("variants"),
     policy: PolicyOption = None,
     lang: LangOption = None,
     shared: SharedOption = None,
@@ -81,12 +85,11 @@ def variants(
     from reportgen import api
     from reportgen.classes.variants import make_variants
 
-    formats = listed(format, ("yaml", "moodle-xml"), "--format", "no_format", lang)
+    formats = listed(format, names("variants"), "--format", "no_format", lang)
+    # What has a name of its own is one file for the class.
+    banks = {f"{row.stem}.{row.suffix}": row for row in chosen("variants", formats) if row.stem}
     with ending(lang):
-        if "moodle-xml" in formats:
-            from reportgen.classes import quiz
-
-            refuse_inputs([out / quiz.NAME], [spec, roster, policy], lang)
+        refuse_inputs([out / name for name in banks], [spec, roster, policy], lang)
         rules = api.policy(policy, lang)
         made = make_variants(
             spec, roster, out, force, lang, _bar, shared=shared or (), redraw=redraw or (), drop=drop or ()
@@ -97,9 +100,9 @@ def variants(
             sep="\n",
         )
         print(*made.remarks, sep="\n", end="\n" * bool(made.remarks), file=sys.stderr)
-        if "moodle-xml" in formats:
-            bank = quiz.question_bank([file.path for file in made.files], rules, spec.stem, lang)
-            print(*put_files(out, {quiz.NAME: bank}), sep="\n")
+        for name, row in banks.items():
+            bank = row.load()([file.path for file in made.files], rules, spec.stem, lang)
+            print(*put_files(out, {name: bank}), sep="\n")
 
 
 def _bar(things: Iterable[Any], count: int) -> Iterable[Any]:
@@ -118,9 +121,7 @@ def batch(
     assignments: Annotated[
         Path | None, typer.Option("--assignments", metavar="DIR", help="Assignment files by id.", show_default=False)
     ] = None,
-    make: Annotated[
-        str, typer.Option("--make", help="Of task, frame, report, page, docx, key, sheet; parted by commas.")
-    ] = "task,report,key",
+    make: MakeOption = USUAL_PRODUCTS,
     jobs: Annotated[
         int | None, typer.Option("--jobs", metavar="N", min=1, help="Processes.", show_default="one a core")
     ] = None,
@@ -147,7 +148,11 @@ def batch(
     products = listed(make, api.MAKERS, "--make", "no_product", lang)
     standards = kept(standard, lang)
     with ending(lang):
-        made = (path for kind in ("task", "report", "key", "sheet", "frame") for path in standing(out, kind, "*/"))
+        made = (
+            path
+            for kind in {product.files or product.name for product in PRODUCTS}
+            for path in standing(out, kind, "*/")
+        )
         refuse_inputs((out / NAME, *made), [roster, spec, policy], lang)
         ask = None if policy is None else api.policy(policy, lang).ask
         order = Order(
@@ -178,9 +183,7 @@ def batch(
 
 def key(
     files: Files,
-    format: Annotated[
-        str, typer.Option("--format", metavar="LIST", help="Of pdf, xlsx, csv, json; parted by commas.")
-    ] = "pdf,xlsx",
+    format: Annotated[str, format_option("key")] = usual_formats("key"),
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the keys.")] = Path("out"),
     engine: EngineOption = "typst",
     lang: LangOption = None,

@@ -14,6 +14,7 @@ import typer
 
 from reportgen.base.errors import Fault, Mark
 from reportgen.base.files import is_stream, put_set, reported, standing
+from reportgen.base.formats import names
 from reportgen.cli.common import (
     AT_FAULT,
     USUAL_STANDARDS,
@@ -26,12 +27,14 @@ from reportgen.cli.common import (
     complain,
     ending,
     for_each,
+    format_option,
     kept,
     listed,
     refuse,
     refuse_inputs,
     say,
     tell,
+    usual_formats,
     write,
 )
 
@@ -45,9 +48,7 @@ def build(
     engine: EngineOption = "typst",
     lang: LangOption = None,
     keep_source: Annotated[bool, typer.Option("--keep-source", help="Also leave the source with its figures.")] = False,
-    format: Annotated[
-        str, typer.Option("--format", metavar="LIST", help="Of pdf, html, docx; parted by commas.")
-    ] = "pdf",
+    format: Annotated[str, format_option("report")] = usual_formats("report"),
     extent: Annotated[
         Literal["full", "short"] | None, typer.Option("--extent", help="Instead of the file's own.", show_default=False)
     ] = None,
@@ -84,7 +85,7 @@ def sheet(
         Literal["kinematics", "forces", "balancing", "all"], typer.Option("--set", help="What the sheets show.")
     ] = "all",
     every: Annotated[bool, typer.Option("--all", help="Every plan of the report, not only those handed in.")] = False,
-    format: Annotated[str, typer.Option("--format", metavar="LIST", help="Of pdf, dxf; parted by commas.")] = "pdf,dxf",
+    format: Annotated[str, format_option("sheet")] = usual_formats("sheet"),
     block: Annotated[
         str | None,
         typer.Option(
@@ -246,7 +247,10 @@ def solve(
     format: Annotated[
         str | None,
         typer.Option(
-            "--format", metavar="LIST", help="Write the table of a full turn: csv, xlsx, json.", show_default=False
+            "--format",
+            metavar="LIST",
+            help=f"Write the table of a full turn: {', '.join(names('results'))}.",
+            show_default=False,
         ),
     ] = None,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of these tables.")] = Path("out"),

@@ -8,7 +8,18 @@ from typing import Annotated, Literal
 import typer
 
 from reportgen.base.files import reported, standing
-from reportgen.cli.common import File, Files, LangOption, TemplatesOption, ending, listed, refuse_inputs, tell
+from reportgen.cli.common import (
+    File,
+    Files,
+    LangOption,
+    TemplatesOption,
+    ending,
+    format_option,
+    listed,
+    refuse_inputs,
+    tell,
+    usual_formats,
+)
 
 FIGURES, PLOTS = "figures", "plots"
 """The folder of figures beside the report, and that of plots."""
@@ -22,9 +33,7 @@ def figure(
     at: Annotated[
         str, typer.Option("--at", metavar="POSITION", help="What shows this position.", show_default=False)
     ] = "",
-    format: Annotated[
-        str, typer.Option("--format", metavar="LIST", help="Of svg, png, pdf, eps, gif, mp4; parted by commas.")
-    ] = "svg",
+    format: Annotated[str, format_option("figures")] = usual_formats("figures"),
     dpi: Annotated[
         int | None,
         typer.Option("--dpi", min=10, max=1200, help="Dots an inch.", show_default="220; 110 of GIF and MP4"),
@@ -71,9 +80,7 @@ def plot(
     measured: Annotated[
         Path | None, typer.Option("--with", metavar="TABLE", help="Measured values, CSV or XLSX.", show_default=False)
     ] = None,
-    format: Annotated[
-        str, typer.Option("--format", metavar="LIST", help="Of svg, png, pdf, eps; parted by commas.")
-    ] = "svg",
+    format: Annotated[str, format_option("plots")] = usual_formats("plots"),
     dpi: Annotated[int, typer.Option("--dpi", min=10, max=1200, help="Dots an inch.")] = 220,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder of the charts.")] = Path("out"),
     lang: LangOption = None,

@@ -14,6 +14,7 @@ from xml.sax.saxutils import escape
 import numpy as np
 
 from reportgen.base.errors import NotOfferedError, UnknownNameError
+from reportgen.base.formats import chosen, names, rows
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.drawing import Scene
@@ -23,9 +24,11 @@ from reportgen.report.case import Case, bounded
 from reportgen.report.named_figures import NamedFigure, named_figures, safe
 from reportgen.report.telling import sentences
 
-STILL, MOVING = ("svg", "png", "pdf", "eps"), ("gif", "mp4")
-FORMATS = (*STILL, *MOVING)
-"""What a figure can be written as; the last ones of what moves alone."""
+FORMATS = names("figures")
+"""What a figure can be written as."""
+MOVING = tuple(row.name for row in rows("figures") if row.moves)
+"""The formats of what moves alone."""
+STILL = tuple(name for name in FORMATS if name not in MOVING)
 SHOWN = LAYERS[:1]
 """What is drawn on a machine besides, as its page has it at first."""
 FRAMES = 60
@@ -117,12 +120,13 @@ def figure_files(case: Case, query: FigureQuery) -> Mapping[str, bytes]:
             phrases = case.words["told"]
             said = (". ".join(sentences(scene.description, phrases, language)) for scene in scenes.values())
             found["svg"] = list(map(_described, found["svg"], said))
-        files |= {f"{name}.{format}": one for format in still for name, one in zip(scenes, found[format], strict=True)}
+        for row in chosen("figures", still):
+            files |= {f"{name}.{row.suffix}": one for name, one in zip(scenes, found[row.name], strict=True)}
     for one in _wanted(case, query, movable()) if moved else ():
         frames = one.frames(query.layers)
-        for format in moved:
-            made = bounded(case.assignment, animated, frames, language, format, query.dpi)
-            files[f"{safe(one.name)}.{format}"] = made
+        for row in chosen("figures", moved):
+            made = bounded(case.assignment, animated, frames, language, row.name, query.dpi)
+            files[f"{safe(one.name)}.{row.suffix}"] = made
     return files
 
 
@@ -130,15 +134,7 @@ def drawn(
     scenes: Sequence[Scene], language: Language, formats: Sequence[str] = STILL[:1], dpi: int = 0
 ) -> dict[str, list[bytes]]:
     """Scenes in some of the formats that stand still."""
-    from reportgen.writers import pictures
-
-    makers: Mapping[str, Callable[[], list[bytes]]] = {
-        "svg": lambda: pictures.svgs(scenes, language),
-        "png": lambda: pictures.pngs(scenes, language, dpi or pictures.DPI),
-        "pdf": lambda: pictures.pdfs(scenes, language),
-        "eps": lambda: _eps(scenes, language),
-    }
-    return {name: makers[name]() for name in formats}
+    return {row.name: row.load()(scenes, language, dpi) for row in chosen("figures", formats)}
 
 
 def _described(svg: bytes, text: str) -> bytes:
@@ -147,17 +143,11 @@ def _described(svg: bytes, text: str) -> bytes:
     return head + end + f"<desc>{escape(text)}</desc>".encode() + rest if text else svg
 
 
-def _eps(scenes: Sequence[Scene], language: Language) -> list[bytes]:
-    from reportgen.writers import figure
-
-    return [figure.eps(scene, language) for scene in scenes]
-
-
 def animated(scenes: Sequence[Scene], language: Language, format: str, dpi: int = 0) -> bytes:
     """Scenes one after the other in one of the formats that move."""
-    from reportgen.writers import video
-
-    return {"gif": video.gif, "mp4": video.mp4}[format](scenes, language, dpi or MOVING_DPI)
+    (row,) = chosen("figures", (format,))
+    made: bytes = row.load()(scenes, language, dpi or MOVING_DPI)
+    return made
 
 
 def drawings(

@@ -17,12 +17,18 @@ WIDTH = 16.0
 """Of a column, in characters."""
 
 
-def result_file(results: Mapping[str, Any], format: str) -> bytes:
-    """The bytes of results as csv, xlsx or json; csv, which has one table, without the parts of a coursework."""
-    if format == "json":
-        return (json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
-    if format == "csv":
-        return write_csv(result_rows(results))
+def text(results: Mapping[str, Any]) -> bytes:
+    """Return results as the text of a JSON file."""
+    return (json.dumps(results, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
+
+
+def table(results: Mapping[str, Any]) -> bytes:
+    """Return results as CSV, which has one table: the parts of a coursework are left out."""
+    return write_csv(result_rows(results))
+
+
+def workbook(results: Mapping[str, Any]) -> bytes:
+    """Return results as a workbook with a page for each part of a coursework."""
     name = f"{results['kind']} {results['variant']}".strip()
     pages = [_result_page(called, one) for called, one in {name: results, **results.get("parts", {})}.items()]
     return write_xlsx(Book(pages, name))

@@ -68,6 +68,11 @@ def eps(scene: Scene, language: Language) -> bytes:
     return saved(figure(scene, language), "eps")
 
 
+def eps_files(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
+    """Scenes as EPS, whose lines need no `dpi`."""
+    return [eps(scene, language) for scene in scenes]
+
+
 def chart(diagram: Diagram, language: Language) -> Figure:
     """A figure of a diagram, its curves told apart without colour, too."""
     with matplotlib.rc_context({**STYLE, "axes.prop_cycle": cycler(color=COLOURS) + cycler(linestyle=DASHES)}):

@@ -14,8 +14,11 @@ DPI = 220
 """Dots an inch of pictures in PNG."""
 
 
-def svgs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
-    """Scenes as SVG; letters are outlines, which look the same everywhere.  Raises `TypesetterError`."""
+def svgs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
+    """Scenes as SVG, whose lines need no `dpi`; letters are outlines, which look the same everywhere.
+
+    Raises `TypesetterError`.
+    """
     # Letters are symbols that are used; groups that are used look the same, and more programs know them.
     return [
         svg.replace(b"<symbol", b"<g").replace(b"</symbol>", b"</g>")
@@ -23,13 +26,13 @@ def svgs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
     ]
 
 
-def pngs(scenes: Sequence[Scene], language: Language, dpi: int = DPI) -> list[bytes]:
-    """Scenes as PNG of `dpi` dots an inch.  Raises `TypesetterError`."""
-    return typst_compiler.compile_as(_source(scenes, language), "png", dpi=dpi)
+def pngs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
+    """Scenes as PNG of `dpi` dots an inch, `DPI` for 0.  Raises `TypesetterError`."""
+    return typst_compiler.compile_as(_source(scenes, language), "png", dpi=dpi or DPI)
 
 
-def pdfs(scenes: Sequence[Scene], language: Language) -> list[bytes]:
-    """A PDF for each scene.  Raises `TypesetterError`."""
+def pdfs(scenes: Sequence[Scene], language: Language, dpi: int = 0) -> list[bytes]:
+    """A PDF for each scene, whose lines need no `dpi`.  Raises `TypesetterError`."""
     return [typst_compiler.compile(_source([scene], language), standards=()) for scene in scenes]
 
 

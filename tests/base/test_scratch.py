@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from reportgen import api
+from reportgen.api import typesetting
 from reportgen.base.errors import OutputError
 from reportgen.base.files import PREFIX, held, put_files, scratch, sweep
 from reportgen.cli import app
@@ -178,7 +178,7 @@ def test_no_command_writes_to_the_temporary_directory_of_the_system(
         seen.append(tempfile.gettempdir())
         return "", b""
 
-    monkeypatch.setattr(api, "typeset", typeset)
+    monkeypatch.setattr(typesetting, "typeset", typeset)
     out = tmp_path / "out"
     assert CliRunner().invoke(app, [command, SAMPLE, "--out", str(out), "--engine", "latex"]).exit_code == 0
     assert [Path(place).parent for place in seen] == [out]

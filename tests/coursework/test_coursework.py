@@ -33,7 +33,7 @@ from reportgen.marking.scheme import marking_scheme
 from reportgen.page import panels
 from reportgen.report import Contents, Document, Section, plain, text_of
 from reportgen.report.numbering import unreferenced
-from reportgen.results.files import result_file
+from reportgen.results.files import table, workbook
 from reportgen.sheets import drawing_sheets
 from tests.drawing.overlaps import overlaps
 from tests.lanes import proof
@@ -264,7 +264,7 @@ def test_results_have_those_of_each_part(three: Coursework) -> None:
     assert list(found["parts"]) == ["cam", "cam2"]
     assert found["parts"]["cam2"]["kind"] == "cam"
     assert found["printed"]["cam2.n"]["values"] == [26]
-    assert [page.title for page in load_workbook(BytesIO(result_file(found, "xlsx"))).worksheets] == [
+    assert [page.title for page in load_workbook(BytesIO(workbook(found))).worksheets] == [
         "shaper 4",
         "cam",
         "cam2",
@@ -398,7 +398,7 @@ def test_the_csv_of_results_has_a_file_for_each_part() -> None:
     files = result_files(FOLDER / "shaper-whole.yaml", ["csv", "json"], 12)
     assert list(files) == ["results.csv", "results.json", "results-train.csv", "results-gears.csv", "results-cam.csv"]
     alone = solve(load(FOLDER / "motor-train.yaml"))
-    assert files["results-train.csv"] == result_file(alone, "csv")
+    assert files["results-train.csv"] == table(alone)
 
 
 def test_notes_on_filling_in_are_said_once() -> None:

@@ -1,0 +1,173 @@
+"""The table of formats: one row for each kind of file that a command writes on request.
+
+The functions of `reportgen.api`, the commands with their help and messages, and the search for files of an earlier run
+read this table.  To add a format, write a function and add a row that names it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+ENGINE, TYPST, MATPLOTLIB, PILLOW = "the typesetter of `--engine`: Typst or LaTeX", "Typst", "matplotlib", "Pillow"
+OPENPYXL, EZDXF, FFMPEG = "openpyxl", "ezdxf", "ffmpeg"
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """One format of one product.
+
+    `name` is what `--format` calls it, and the ending of its files unless `ending` is given.  `writer` is
+    `module:function`, imported only when the format is written.  `needs` names what it needs beside numpy: LaTeX and
+    ffmpeg are programs that a user installs, all else comes with the package.  `usual` formats are written if none is
+    named.  `stem` is a pattern of the file's name before its ending.
+    """
+
+    product: str
+    name: str
+    writer: str
+    needs: tuple[str, ...] = ()
+    usual: bool = False
+    stem: str = ""
+    ending: str = ""
+    per_part: bool = False
+    """Whether a file holds one table, so that each part of a coursework has a further file, results-cam.csv."""
+    moves: bool = False
+    """Whether it shows a motion, not one drawing."""
+
+    @property
+    def suffix(self) -> str:
+        """The ending of its files, without the dot."""
+        return self.ending or self.name
+
+    @property
+    def files(self) -> str:
+        """A pattern of the names of its files."""
+        part = r"(-\w+)?" if self.per_part else ""
+        return rf"{self.stem or self.product}{part}\.{self.suffix}"
+
+    def load(self) -> Callable[..., Any]:
+        """Import the writer; raises `ImportError`, `AttributeError` where there is none."""
+        return _imported(self.writer)
+
+
+@dataclass(frozen=True, slots=True)
+class BatchProduct:
+    """What `batch --make` calls by `name`: the function that makes its files, and how a batch treats them."""
+
+    name: str
+    maker: str
+    """`module:function` from path, engine and language to files by name."""
+    files: str = ""
+    """Which of `file_names` its files are, if not those of its own name."""
+    asks: bool = False
+    """Whether it depends on what the answer sheet asks for: its maker takes `ask`."""
+    typeset: bool = False
+    """Whether it has a PDF, which keeps the standards: its maker takes `standards`."""
+    bound: str = ""
+    """The name of the one PDF of a whole class."""
+    usual: bool = False
+
+    def load(self) -> Callable[..., Any]:
+        """Import the maker."""
+        return _imported(self.maker)
+
+
+def _imported(name: str) -> Callable[..., Any]:
+    module, _, function = name.partition(":")
+    found: Callable[..., Any] = getattr(import_module(module), function)
+    return found
+
+
+FORMATS = (
+    # Writers of a report: ReportJob → bytes by ending; besides its own, it may give a source for `--keep-source`.
+    Format("report", "pdf", "reportgen.api.writing:report_pdf", needs=(ENGINE,), usual=True),
+    Format("report", "html", "reportgen.api.writing:report_page"),
+    Format("report", "docx", "reportgen.api.writing:report_word", needs=(TYPST,)),
+    # Of a key: KeyJob → bytes.
+    Format("key", "pdf", "reportgen.api.writing:key_pdf", needs=(ENGINE,), usual=True),
+    Format("key", "xlsx", "reportgen.api.writing:key_workbook", needs=(OPENPYXL,), usual=True),
+    Format("key", "csv", "reportgen.api.writing:key_table"),
+    Format("key", "json", "reportgen.api.writing:key_json"),
+    # Of drawing sheets: SheetJob → bytes.
+    Format("sheet", "pdf", "reportgen.api.writing:sheet_pdf", needs=(TYPST,), usual=True, stem=r"sheet-\d+"),
+    Format("sheet", "dxf", "reportgen.api.writing:sheet_dxf", needs=(EZDXF,), usual=True, stem=r"sheet-\d+"),
+    # Of figures: scenes, language, dots an inch (0: the usual) → bytes for each scene, or of all in one that moves.
+    Format("figures", "svg", "reportgen.writers.pictures:svgs", needs=(TYPST,), usual=True, stem=".+"),
+    Format("figures", "png", "reportgen.writers.pictures:pngs", needs=(TYPST,), stem=".+"),
+    Format("figures", "pdf", "reportgen.writers.pictures:pdfs", needs=(TYPST,), stem=".+"),
+    Format("figures", "eps", "reportgen.writers.figure:eps_files", needs=(MATPLOTLIB,), stem=".+"),
+    Format("figures", "gif", "reportgen.writers.video:gif", needs=(TYPST, PILLOW), stem=".+", moves=True),
+    Format("figures", "mp4", "reportgen.writers.video:mp4", needs=(TYPST, PILLOW, FFMPEG), stem=".+", moves=True),
+    # Of plots: a figure of matplotlib, the name of the format, dots an inch → bytes.
+    Format("plots", "svg", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), usual=True, stem=".+"),
+    Format("plots", "png", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),
+    Format("plots", "pdf", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),
+    Format("plots", "eps", "reportgen.writers.figure:saved", needs=(MATPLOTLIB,), stem=".+"),
+    # Of results: the JSON object of `solve` → bytes.
+    Format("results", "csv", "reportgen.results.files:table", per_part=True),
+    Format("results", "xlsx", "reportgen.results.files:workbook", needs=(OPENPYXL,)),
+    Format("results", "json", "reportgen.results.files:text"),
+    # Of variants: one with a stem is one file for the class: assignment files, policy, title, language → bytes.
+    Format("variants", "yaml", "reportgen.classes.variants:make_variants", usual=True),
+    Format(
+        *("variants", "moodle-xml", "reportgen.classes.quiz:question_bank"),
+        needs=(TYPST,),
+        stem="questions",
+        ending="xml",
+    ),
+)
+
+PRODUCTS = (
+    BatchProduct("task", "reportgen.api:task_files", asks=True, typeset=True, bound="tasks.pdf", usual=True),
+    BatchProduct("frame", "reportgen.api:frame_files", asks=True),
+    BatchProduct("report", "reportgen.api:report_files", typeset=True, bound="reports.pdf", usual=True),
+    BatchProduct("page", "reportgen.api:page_files", files="report"),
+    BatchProduct("docx", "reportgen.api:word_files", files="report"),
+    BatchProduct("key", "reportgen.api:key_files", asks=True, typeset=True, bound="keys.pdf", usual=True),
+    BatchProduct("sheet", "reportgen.api:sheet_files", typeset=True, bound="sheets.pdf"),
+)
+
+_FIXED = {
+    "task": r"task\.pdf|answers\.xlsx|assignment\.yaml",
+    "report": r"report\.py",
+    "frame": r"frame\.docx",
+    "feedback": r"feedback\.(pdf|xlsx|txt)|marked\.docx",
+    "class": r"(grades|questions|by-variant)\.csv|class\.pdf|feedback\.(zip|pdf)",
+}
+"""Files that have one format each, as patterns."""
+_FIXED_ENDINGS = ("pdf", "docx", "xlsx", "csv", "yaml", "py", "txt", "zip")
+
+
+def rows(product: str) -> tuple[Format, ...]:
+    """Return the formats of a product, in the order of the table."""
+    return tuple(row for row in FORMATS if row.product == product)
+
+
+def names(product: str) -> tuple[str, ...]:
+    """Return what `--format` calls the formats of a product."""
+    return tuple(row.name for row in rows(product))
+
+
+def usual(product: str) -> tuple[str, ...]:
+    """Return the formats of a product that are written if none is named."""
+    return tuple(row.name for row in rows(product) if row.usual)
+
+
+def chosen(product: str, wanted: Iterable[str]) -> tuple[Format, ...]:
+    """Return the rows of some formats of a product, in the order asked for; raises `KeyError` for an unknown one."""
+    known = {row.name: row for row in rows(product)}
+    return tuple(known[name] for name in wanted)
+
+
+def file_names(product: str) -> str:
+    """Return a pattern of the names of all files of a product, those with one format among them."""
+    fixed = (_FIXED[product],) if product in _FIXED else ()
+    return "|".join((*(row.files for row in rows(product)), *fixed))
+
+
+def endings() -> tuple[str, ...]:
+    """Return the endings of all files that are written, without the dot."""
+    return tuple(dict.fromkeys((*(row.suffix for row in FORMATS), *_FIXED_ENDINGS)))
