@@ -18,12 +18,12 @@ from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Drawing
 from reportgen.base.units import Language
+from reportgen.derivation.joint_friction import misconceptions
+from reportgen.derivation.run_mistakes import mistaken
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.sheet import Family
 from reportgen.machine.analysis import Analysis, Machine, motion_at
 from reportgen.machine.laws import FULL_TURN, STEPS
-from reportgen.plans.joint_friction import misconceptions
-from reportgen.plans.run_mistakes import mistaken
 from reportgen.report import Block, Document, Paragraph, Strong, Text
 from reportgen.report.balancing_mistakes import mistaken as of_balancing
 from reportgen.report.case import AskedFor, Case, DriverMotion, MachineAnalysis, Misconceptions
@@ -83,14 +83,14 @@ class MachineCase(MachineAnalysis):
 
     @cached_property
     def families(self) -> Mapping[str, Family]:
-        from reportgen.plans import enter_plans
+        from reportgen.derivation import enter_plans
 
         return enter_plans(self.analysis, (), self.analysis.machine.formulas)[0].families
 
     @property
     def used(self) -> frozenset[Symbol]:
         """Those of its numbers, of its points and their images and coordinates, of the corners of its plans."""
-        from reportgen.plans.motion import POLES
+        from reportgen.derivation.motion import POLES
 
         names, bodies = list(self.analysis.motion.points), self.analysis.machine.linkage.inertias
         images = {vocabulary.on_plan(name, prime) for name in names for prime in (False, True)}

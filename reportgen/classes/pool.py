@@ -220,7 +220,7 @@ LOADED = (
     "reportgen.catalogue.driven",
     "reportgen.catalogue.sliders",
     "reportgen.machine.analysis",
-    "reportgen.plans",
+    "reportgen.derivation",
     "reportgen.report.outline",
     "reportgen.drawing.charts",
     "reportgen.writers.latex",

@@ -16,11 +16,11 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.derivation.sides import image
 from reportgen.export.quantities import QuantityArray, quantity
 from reportgen.formula import ids
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Family
-from reportgen.plans.sides import image
 from reportgen.report.case import Case
 
 SAME = 1e-13

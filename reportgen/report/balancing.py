@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.shown import view
+from reportgen.derivation.balancing import AFTER, AXES, BEFORE, LETTERS
 from reportgen.drawing import Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.counterweights import CounterweightDisc, with_discs
 from reportgen.formula import Chain, Symbol, balance_ids, ids
@@ -17,7 +18,6 @@ from reportgen.machine import DRIVER
 from reportgen.machine.balance import BalancedTurn, frame_reactions, shaking_force
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.motion import unit
-from reportgen.plans.balancing import AFTER, AXES, BEFORE, LETTERS
 from reportgen.report import Value, orders
 from reportgen.report.figures import FigureScenes, drawing_scale, looks, reduction, shown_at
 from reportgen.report.orders import factors_table

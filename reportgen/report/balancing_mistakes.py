@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from reportgen.derivation.balancing import AXES
 from reportgen.formula import Expression, Ref, balance_ids, heading, substitute, turned
 from reportgen.formula.ledger import Ledger
-from reportgen.plans.balancing import AXES
 
 Changed = Mapping[str, Sequence[tuple[str, Expression]]]
 

@@ -31,6 +31,8 @@ from reportgen.report.result_entries import ResultEntries, entries_of
 if TYPE_CHECKING:
     import numpy as np
 
+    from reportgen.derivation import PlannedLedger
+    from reportgen.derivation.loads import Polygon
     from reportgen.drawing.animation import Animation
     from reportgen.drawing.plates import DrawingPlate
     from reportgen.drawing.sheet import DrawingSheet
@@ -39,8 +41,6 @@ if TYPE_CHECKING:
     from reportgen.machine.balance import BalancedTurn
     from reportgen.machine.flywheel import RegulatedCycle
     from reportgen.machine.true_motion import TrueMotion
-    from reportgen.plans import PlannedLedger
-    from reportgen.plans.loads import Polygon
     from reportgen.report.shafts import Shaft
 
 
@@ -410,7 +410,7 @@ class MachineAnalysis(LoadedAssignment):
     @cached_property
     def written(self) -> PlannedLedger:
         """Every number with the force plans, in the symbols and units of the assignment's language."""
-        from reportgen.plans import write_ledger
+        from reportgen.derivation import write_ledger
 
         written = write_ledger(self.analysis, self.unit_names, self.assignment.worked_positions, self.balanced)
         return replace(written, ledger=written.ledger.in_language(self.words["symbols"]))

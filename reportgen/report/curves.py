@@ -11,6 +11,7 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.derivation.sides import scheme
 from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.diagram import Inclination
 from reportgen.formula import Chain, Symbol, ids
@@ -18,7 +19,6 @@ from reportgen.formula.vocabulary import KINDS
 from reportgen.machine import DRIVER, GROUND, Crank
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
-from reportgen.plans.sides import scheme
 from reportgen.report.comments import sliders
 from reportgen.report.equations import heading_words
 from reportgen.report.figures import FigureScenes

@@ -13,6 +13,9 @@ import numpy as np
 
 from reportgen.base.gaps import NO_LETTER
 from reportgen.base.languages import setting_of
+from reportgen.derivation.loads import Edge, Polygon
+from reportgen.derivation.motion import What
+from reportgen.derivation.sides import Side
 from reportgen.formula import (
     Chain,
     Expression,
@@ -31,9 +34,6 @@ from reportgen.formula import (
 )
 from reportgen.formula.vocabulary import on_plan, segment
 from reportgen.machine import mobility
-from reportgen.plans.loads import Edge, Polygon
-from reportgen.plans.motion import What
-from reportgen.plans.sides import Side
 from reportgen.report import Equation, Inline, InlineMath, Inlines, Text, Value, listed
 from reportgen.report.groups import Contact, GroupView
 from reportgen.report.prose import subscripted

@@ -13,6 +13,8 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.derivation.motion import NEAREST, centre_symbol
+from reportgen.derivation.sides import Side
 from reportgen.drawing import Scene
 from reportgen.drawing import indicator as indicator_figure
 from reportgen.drawing import scheme as scheme_figure
@@ -40,8 +42,6 @@ from reportgen.machine.flywheel import SAME_ANGLE
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Piston
 from reportgen.machine.motion import Motion, solve_motion
-from reportgen.plans.motion import NEAREST, centre_symbol
-from reportgen.plans.sides import Side
 from reportgen.report import TEXT_WIDTH
 from reportgen.report.groups import GroupView, PlaneLink
 from reportgen.report.layout import FIGURE_HEIGHT, in_rows

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.derivation.loads import Polygon
 from reportgen.drawing import Circle, Item, Line, Scene
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.forces import ArmOf, Couple, Force
@@ -20,7 +21,6 @@ from reportgen.drawing.style import CONSTRUCTION, PAPER, VISIBLE
 from reportgen.formula import Chain, Expression, Symbol, constructions, ids, size, vocabulary
 from reportgen.machine import DRIVER
 from reportgen.machine.forces import Load, as_single_force
-from reportgen.plans.loads import Polygon
 from reportgen.report import guide_couples, percussion
 from reportgen.report.figures import HALF, FigureScenes, beside_one_another, drawing_scale, looks, on_paper
 from reportgen.report.groups import GroupView

@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
+from reportgen.derivation.loads import Polygon
 from reportgen.drawing.forces import Couple
 from reportgen.formula import Symbol, ids, size
-from reportgen.plans.loads import Polygon
 from reportgen.report.groups import Contact
 from reportgen.report.report import Report
 

@@ -10,6 +10,8 @@ from functools import partial
 
 from reportgen.base.shown import view
 from reportgen.base.units import MM
+from reportgen.derivation.joint_friction import RubbingJoint, rubbing_joints
+from reportgen.derivation.loads import Edge, Polygon
 from reportgen.drawing import Arc, Circle, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.description import PaperLength, fact, turning
@@ -22,8 +24,6 @@ from reportgen.formula import Number, Symbol, friction_ids, ids, vocabulary
 from reportgen.machine import GROUND
 from reportgen.machine.forces import reaction_name
 from reportgen.machine.joint_friction import FrictionForces, relative_sense
-from reportgen.plans.joint_friction import RubbingJoint, rubbing_joints
-from reportgen.plans.loads import Edge, Polygon
 from reportgen.report import FIRST_COLUMN, Column, Inlines, Table, Text, equations
 from reportgen.report.face_friction import FaceForce, Leaning, any_tilts, at_both_ends, face_forces, leaning_forces
 from reportgen.report.figures import FigureScenes, as_large_as_asked, beside_one_another, drawing_scale, looks, on_paper

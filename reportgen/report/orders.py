@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from reportgen.derivation.orders import EXACT, OF_ALL, ORDERS, SENSES
 from reportgen.drawing.stars import star
 from reportgen.formula import Number, balance_ids, vocabulary
 from reportgen.machine.orders import Engine, engine
-from reportgen.plans.orders import EXACT, OF_ALL, ORDERS, SENSES
 from reportgen.report import Value
 from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report

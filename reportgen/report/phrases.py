@@ -18,9 +18,9 @@ from reportgen.base.shown import member
 from reportgen.base.shown import text as as_text
 from reportgen.base.units import MM
 from reportgen.base.words import unfilled
+from reportgen.derivation.motion import POLES
+from reportgen.derivation.sides import Side
 from reportgen.formula import Chain, Number, Symbol, ids
-from reportgen.plans.motion import POLES
-from reportgen.plans.sides import Side
 from reportgen.report import Inline, InlineMath, Inlines, Reference, Text, Value
 from reportgen.report.equations import a, image, math, quantity, slider_ways, v, value
 from reportgen.report.groups import CarriedPoint, GroupView

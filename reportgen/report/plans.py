@@ -13,6 +13,9 @@ import numpy as np
 
 from reportgen.base.settled import settled, significant
 from reportgen.base.units import MM, nice_up
+from reportgen.derivation.loads import Edge, Polygon
+from reportgen.derivation.motion import POLES, What
+from reportgen.derivation.sides import Side, image
 from reportgen.drawing import Scene
 from reportgen.drawing.plan import (
     Construction,
@@ -29,9 +32,6 @@ from reportgen.drawing.plan import (
 from reportgen.drawing.scheme import thumbnail
 from reportgen.drawing.sheet import sheets
 from reportgen.formula import Chain, Symbol, ids, vocabulary
-from reportgen.plans.loads import Edge, Polygon
-from reportgen.plans.motion import POLES, What
-from reportgen.plans.sides import Side, image
 from reportgen.report import Inlines
 from reportgen.report.figures import A3_ACROSS, FIGURE_ROOM, FigureScenes, on_paper, scale_note
 from reportgen.report.groups import GroupView

@@ -14,6 +14,9 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.base.units import MM
+from reportgen.derivation.loads import Polygon
+from reportgen.derivation.motion import links_in_plane_motion
+from reportgen.derivation.sides import scheme
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
 from reportgen.formula.ledger import Ledger
@@ -22,9 +25,6 @@ from reportgen.machine.analysis import Analysis, Machine, Position, analyse
 from reportgen.machine.flywheel import SAME_ANGLE, RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.loads import Applied, Piston, Torque
-from reportgen.plans.loads import Polygon
-from reportgen.plans.motion import links_in_plane_motion
-from reportgen.plans.sides import scheme
 from reportgen.report.case import MachineAnalysis
 from reportgen.report.extents import LEFT_OUT, OF_A_TURN, OPENING
 from reportgen.report.groups import BodyView, DriverView, GroupView, PlaneLink, displaced_inertia

@@ -8,11 +8,11 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 from reportgen.base.units import MM
+from reportgen.derivation.sides import Side, image
 from reportgen.formula import Chain, Number, Power, Symbol, ids
 from reportgen.formula.sheet import ZERO
 from reportgen.formula.vocabulary import Chapter
 from reportgen.machine import Crank
-from reportgen.plans.sides import Side, image
 from reportgen.report import (
     FIRST_COLUMN,
     TEXT_WIDTH,

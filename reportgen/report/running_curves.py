@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.derivation import run_ids
 from reportgen.drawing import Content, Diagram, PlottedCurve, Scene, charts
 from reportgen.drawing.geometry import moved
 from reportgen.formula import Chain, Symbol
 from reportgen.machine.running import MotionRun
 from reportgen.machine.true_motion import TrueMotion
-from reportgen.plans import run_ids
 from reportgen.report.curves import axis
 from reportgen.report.figures import FigureScenes
 from reportgen.report.report import Report

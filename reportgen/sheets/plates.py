@@ -13,6 +13,8 @@ from functools import partial
 from typing import Any, Literal
 
 from reportgen.base.units import Language
+from reportgen.derivation.loads import Polygon
+from reportgen.derivation.motion import What
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.geometry import unit
 from reportgen.drawing.plan import Plan, plan
@@ -21,8 +23,6 @@ from reportgen.drawing.scales import FigureSize
 from reportgen.drawing.sheet import ENLARGED, grid, lettered, widths
 from reportgen.formula import Chain, Number, ids
 from reportgen.formula.plain import formula, quantity
-from reportgen.plans.loads import Polygon
-from reportgen.plans.motion import What
 from reportgen.report import Inline, InlineMath, Inlines, Table, Text, Value, balancing, curves, plain, running_curves
 from reportgen.report import joint_friction as friction
 from reportgen.report.case import Case, MachineAnalysis

@@ -28,7 +28,7 @@ STEPS = {
     "reportgen.machine.analysis.solve_forces": "forces",
     "reportgen.machine.analysis.virtual_work_torque": "torque by virtual work",
     "reportgen.machine.analysis.summarise": "figures of the cycle",
-    "reportgen.plans.write_ledger": "numbers and their lines",
+    "reportgen.derivation.write_ledger": "numbers and their lines",
     "reportgen.report.case.printed": "values as written down",
     "reportgen.marking.key.drawn_bands": "tolerance bands",
     "reportgen.marking.key.computed_bands": "tolerance bands",

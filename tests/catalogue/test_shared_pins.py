@@ -9,8 +9,8 @@ import pytest
 
 from reportgen import catalogue
 from reportgen.cases import MachineCase, open_case
+from reportgen.derivation import write_ledger
 from reportgen.machine.reduction import reduced
-from reportgen.plans import write_ledger
 from reportgen.report import text_of
 
 FOUR_BAR = """\

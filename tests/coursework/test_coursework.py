@@ -264,11 +264,7 @@ def test_results_have_those_of_each_part(three: Coursework) -> None:
     assert list(found["parts"]) == ["cam", "cam2"]
     assert found["parts"]["cam2"]["kind"] == "cam"
     assert found["printed"]["cam2.n"]["values"] == [26]
-    assert [page.title for page in load_workbook(BytesIO(workbook(found))).worksheets] == [
-        "shaper 4",
-        "cam",
-        "cam2",
-    ]
+    assert [page.title for page in load_workbook(BytesIO(workbook(found))).worksheets] == ["shaper 4", "cam", "cam2"]
 
 
 # --- motion, sheets, watching -----------------------------------------------------------------------

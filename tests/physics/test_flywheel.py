@@ -14,6 +14,7 @@ import pytest
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
 from reportgen.cases import open_case
+from reportgen.derivation import write_ledger
 from reportgen.drawing import Polyline
 from reportgen.formula.sheet import Sheet
 from reportgen.machine.analysis import Machine, analyse, motion_at
@@ -21,7 +22,6 @@ from reportgen.machine.flywheel import RegulatedCycle, flywheel, regulate
 from reportgen.machine.laws import FULL_TURN
 from reportgen.machine.quadrature import accumulated
 from reportgen.machine.reduction import reduced_inertia
-from reportgen.plans import write_ledger
 from reportgen.report.curves import wittenbauer
 from reportgen.report.report import Report
 from tests.lanes import matrix

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.derivation import write_ledger
+from reportgen.derivation.motion import links_in_plane_motion
+from reportgen.derivation.sides import Side, scheme
 from reportgen.formula.ledger import Ledger
 from reportgen.machine.analysis import Analysis
-from reportgen.plans import write_ledger
-from reportgen.plans.motion import links_in_plane_motion
-from reportgen.plans.sides import Side, scheme
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 EXACT = 1e-9

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 
 from reportgen import report as tree
+from reportgen.derivation.motion import POLES
 from reportgen.drawing import Content, Label
 from reportgen.drawing.forces import LEAST_ARM
 from reportgen.formula import Symbol, refs, vocabulary
 from reportgen.formula.ledger import Ledger
-from reportgen.plans.motion import POLES
 from tests.lanes import matrix
 from tests.report import built
 from tests.report.built import Written

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from reportgen.cases import open_case
+from reportgen.derivation.motion import What
 from reportgen.drawing.plan import Plan, PlanVector
-from reportgen.plans.motion import What
 from reportgen.report.plans import mirrored, motion_plan
 from reportgen.report.report import Report
 

@@ -21,8 +21,8 @@ from reportgen.formula.vocabulary import vector
 from reportgen.machine import SlidingDriver
 from reportgen.report import Block, Equation, InlineMath, Paragraph, force_figures, plain, result_tables
 from reportgen.report.report import Report
+from tests.derivation.printed import SHARE
 from tests.lanes import matrix
-from tests.plans.printed import SHARE
 from tests.report import built
 from tests.report.built import Written
 from tests.report.test_rare_groups import SLOTTED, TRANSLATED

@@ -12,9 +12,9 @@ from reportgen import api
 from reportgen.base.units import Language
 from reportgen.report import Document, outline
 from reportgen.writers import latex, typst
+from tests.derivation.random_variants import cases
 from tests.exercise.test_exercise_equations import OF_SEVERAL, by_equations
 from tests.lanes import matrix
-from tests.plans.random_variants import cases
 from tests.report import built, trees
 from tests.report.calculator import misses
 from tests.report.source_lines import latex_formulas, typst_formulas, worked_lines

@@ -20,10 +20,10 @@ import pytest
 from reportgen.base.languages import DrawingSetting
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
+from reportgen.derivation.sides import image
 from reportgen.drawing import Arrow
 from reportgen.drawing.sheet import DrawingSheet
 from reportgen.formula import ids
-from reportgen.plans.sides import image
 from reportgen.report.plans import motion_construction
 from reportgen.report.report import Report
 from reportgen.sheets import dxf

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.derivation import write_ledger
 from reportgen.machine import Crank
 from reportgen.machine.analysis import Analysis, lettered
-from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 VARIANTS = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII")

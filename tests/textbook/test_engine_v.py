@@ -67,7 +67,7 @@ def test_the_torque_balances_the_power_of_both_forces(published: Analysis) -> No
 
 
 def test_closed_formulas_give_the_plans(published: Analysis) -> None:
-    from reportgen.plans import write_ledger
+    from reportgen.derivation import write_ledger
 
     ledger = write_ledger(published).ledger
     for plan, formula in published.machine.compared:

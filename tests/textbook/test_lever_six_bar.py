@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.derivation import write_ledger
 from reportgen.machine.analysis import Analysis, motion_at
-from reportgen.plans import write_ledger
 
 ASSIGNMENT = Path(__file__).parents[2] / "assignments" / "lever-six-bar-01.yaml"
 FITTED, CONTRADICTED, SQUARED = 0.0145, 0.035, 0.065

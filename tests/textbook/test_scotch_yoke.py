@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.derivation import write_ledger
 from reportgen.machine.analysis import Analysis
-from reportgen.plans import write_ledger
 
 EXACT = 1e-12
 """Rounding of a few dozen operations, relative."""

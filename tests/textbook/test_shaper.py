@@ -10,8 +10,8 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment import Assignment
+from reportgen.derivation import write_ledger
 from reportgen.machine.analysis import Analysis, analyse
-from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 FINE = 720

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from reportgen import api
+from reportgen.derivation import write_ledger
 from reportgen.machine.analysis import Analysis, analyse
-from reportgen.plans import write_ledger
 
 ASSIGNMENTS = Path(__file__).parents[2] / "assignments"
 EXACT = 1e-12

@@ -9,11 +9,11 @@ import pytest
 
 from reportgen.base.units import SERIES, nice_down, nice_up
 from reportgen.cases import MachineCase
+from reportgen.derivation.loads import Polygon
+from reportgen.derivation.motion import What
+from reportgen.derivation.scales import SHEET_BOXES, TEXT_BOX
 from reportgen.drawing.plan import Plan
 from reportgen.marking.marking import mark
-from reportgen.plans.loads import Polygon
-from reportgen.plans.motion import What
-from reportgen.plans.scales import SHEET_BOXES, TEXT_BOX
 from reportgen.report.key import KeyRow
 from reportgen.report.plans import force_plan, motion_plan
 from reportgen.report.report import Report

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from reportgen.cases import MachineCase
+from reportgen.derivation import ONE_QUANTITY
 from reportgen.formula.sheet import is_short, is_typed
-from reportgen.plans import ONE_QUANTITY
+from tests.derivation.printed import MEDIAN, SHARE, differences, largest
+from tests.derivation.random_variants import cases
 from tests.lanes import matrix
-from tests.plans.printed import MEDIAN, SHARE, differences, largest
-from tests.plans.random_variants import cases
 from tests.report import built
 
 VARIANTS, FEW = 20, 2

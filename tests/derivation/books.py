@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reportgen.derivation import ONE_QUANTITY
+from reportgen.derivation.forces import enter_forces
+from reportgen.derivation.groups import enter_kinematics
+from reportgen.derivation.loads import Polygon
 from reportgen.formula.ledger import Ledger
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 from reportgen.machine.forces import Forces, Load, inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.motion import Motion, solve_motion
-from reportgen.plans import ONE_QUANTITY
-from reportgen.plans.forces import enter_forces
-from reportgen.plans.groups import enter_kinematics
-from reportgen.plans.loads import Polygon
 
 RATE = 7.0
 """The driver's speed, rad/s or m/s."""

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from reportgen.derivation.rests import with_rest
+from reportgen.derivation.scales import DIAGRAM, fitting_axis
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, atan, call, friction_ids, ids, sqrt, total
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import DRIVER, Inertia, Linkage
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.flywheel import RegulatedCycle
 from reportgen.machine.laws import FULL_TURN
-from reportgen.plans.rests import with_rest
-from reportgen.plans.scales import DIAGRAM, fitting_axis
 
 CONSTANT = 1e-9
 """Of its size: a speed that varies by less is constant."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from reportgen.derivation import run_ids
 from reportgen.formula import PI, Expression, Fraction, Negative, Number, Ref, Root, Sum, call
 from reportgen.formula.ledger import Ledger
-from reportgen.plans import run_ids
 
 
 def mistaken(ledger: Ledger, turns: int) -> Mapping[str, list[tuple[str, Expression]]]:

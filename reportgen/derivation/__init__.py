@@ -8,6 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
+from reportgen.derivation.balancing import enter_balancing
+from reportgen.derivation.cycle import enter_flywheel
+from reportgen.derivation.forces import enter_forces
+from reportgen.derivation.groups import enter_kinematics
+from reportgen.derivation.joint_friction import enter_friction, enter_friction_of_cycle
+from reportgen.derivation.loads import Polygon
+from reportgen.derivation.running import enter_running
+from reportgen.derivation.scales import no_scales, own_scales
 from reportgen.formula import PI, Expression, Ref, Symbol, call, circle_line, ids, vocabulary
 from reportgen.formula import size as size_of
 from reportgen.formula.evaluation import evaluate
@@ -21,14 +29,6 @@ from reportgen.machine.gas import Bracket
 from reportgen.machine.laws import Stroke
 from reportgen.machine.loads import Applied, Torque
 from reportgen.machine.true_motion import TrueMotion, true_motion
-from reportgen.plans.balancing import enter_balancing
-from reportgen.plans.cycle import enter_flywheel
-from reportgen.plans.forces import enter_forces
-from reportgen.plans.groups import enter_kinematics
-from reportgen.plans.joint_friction import enter_friction, enter_friction_of_cycle
-from reportgen.plans.loads import Polygon
-from reportgen.plans.running import enter_running
-from reportgen.plans.scales import no_scales, own_scales
 
 ONE_QUANTITY = (("M.eq", "M.vw", "M.least", "M.greatest", "M.difference"), ("M.mean", "M.energy"))
 """Quantities that are one: both torques and the extremes of their curve, the mean by the curve and by the work."""

@@ -14,6 +14,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reportgen.derivation.loads import (
+    Applied,
+    Edge,
+    ForceChain,
+    LoadOn,
+    Origin,
+    Polygon,
+    Statics,
+    above,
+    carried_reactions,
+    enter_loads,
+    force_plan,
+    lone_couple,
+    moments,
+    opposite,
+    read,
+)
+from reportgen.derivation.motion import natural_sizes
+from reportgen.derivation.scales import Scaling, own_scales
+from reportgen.derivation.sides import scheme
 from reportgen.formula import (
     Expression,
     Number,
@@ -33,26 +53,6 @@ from reportgen.formula import (
 from reportgen.formula.sheet import ZERO, Sheet
 from reportgen.formula.vocabulary import drawn_length
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage
-from reportgen.plans.loads import (
-    Applied,
-    Edge,
-    ForceChain,
-    LoadOn,
-    Origin,
-    Polygon,
-    Statics,
-    above,
-    carried_reactions,
-    enter_loads,
-    force_plan,
-    lone_couple,
-    moments,
-    opposite,
-    read,
-)
-from reportgen.plans.motion import natural_sizes
-from reportgen.plans.scales import Scaling, own_scales
-from reportgen.plans.sides import scheme
 
 
 def enter_forces(

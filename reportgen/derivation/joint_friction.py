@@ -16,6 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reportgen.base.units import rounded, significant_decimals
+from reportgen.derivation.motion import natural_sizes
+from reportgen.derivation.rests import with_rest
+from reportgen.derivation.sides import scheme, sides
 from reportgen.formula import Call, Expression, Ref, Sum, Symbol, atan, call, friction_ids, ids, signed, total
 from reportgen.formula import size as size_of
 from reportgen.formula.sheet import ZERO, Family, Sheet
@@ -24,9 +27,6 @@ from reportgen.machine import DRIVER, GROUND, Crank, Joint, Linkage
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.friction_cycle import dead_zones, mean_torque
 from reportgen.machine.joint_friction import Friction, FrictionForces, pressing, relative_sense
-from reportgen.plans.motion import natural_sizes
-from reportgen.plans.rests import with_rest
-from reportgen.plans.sides import scheme, sides
 
 MOST_ROUNDS = 12
 """Rounds that are entered; more are wanted only near where the mechanism locks."""

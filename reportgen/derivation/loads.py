@@ -12,15 +12,15 @@ from enum import IntEnum
 
 import numpy as np
 
+from reportgen.derivation.motion import NOWHERE, Sizes, longest
+from reportgen.derivation.scales import LEAST_FORCES, Scaling, extents, own_scales
+from reportgen.derivation.sides import Scheme, image
 from reportgen.formula import Expression, Number, Ref, Sum, Symbol, call, cross, heading, ids, quotient, sign
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Inertia
 from reportgen.machine.motion import Complexes
-from reportgen.plans.motion import NOWHERE, Sizes, longest
-from reportgen.plans.scales import LEAST_FORCES, Scaling, extents, own_scales
-from reportgen.plans.sides import Scheme, image
 
 FAINT = 1e-12
 """A reaction below this share of the loads is rounding and has no line of action."""

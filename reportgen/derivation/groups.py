@@ -16,6 +16,18 @@ from __future__ import annotations
 import cmath
 from collections.abc import Callable, Mapping, Sequence
 
+from reportgen.derivation.motion import (
+    NOWHERE,
+    POLES,
+    Kinematics,
+    PlacedLink,
+    What,
+    chosen_scale,
+    crank,
+    enter_centres,
+    slide,
+)
+from reportgen.derivation.sides import Side, image, scheme, sides
 from reportgen.formula import (
     Expression,
     Symbol,
@@ -35,18 +47,6 @@ from reportgen.formula import (
 from reportgen.formula.sheet import Sheet
 from reportgen.formula.vocabulary import drawn_length, on_plan, segment
 from reportgen.machine import DRIVER, Crank, Dyad, DyadKind, Guide, Linkage, LinkPoint, under
-from reportgen.plans.motion import (
-    NOWHERE,
-    POLES,
-    Kinematics,
-    PlacedLink,
-    What,
-    chosen_scale,
-    crank,
-    enter_centres,
-    slide,
-)
-from reportgen.plans.sides import Side, image, scheme, sides
 
 
 def enter_kinematics(

@@ -12,6 +12,9 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.derivation.orders import enter_orders
+from reportgen.derivation.rests import with_rest
+from reportgen.derivation.sides import image
 from reportgen.formula import (
     NOTHING,
     ONE,
@@ -46,9 +49,6 @@ from reportgen.machine.analysis import Analysis
 from reportgen.machine.balance import BalancedTurn, shaking_moment
 from reportgen.machine.counterweights import CrankRod, Rule, crank_rods, four_bar, place_on_link
 from reportgen.machine.motion import unit as unit_vector
-from reportgen.plans.orders import enter_orders
-from reportgen.plans.rests import with_rest
-from reportgen.plans.sides import image
 
 AXES = ("x", "y")
 BEFORE, AFTER = "before", "after"

@@ -10,16 +10,16 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from reportgen.derivation import run_ids
+from reportgen.derivation.cycle import TERMS, enter_reduced
+from reportgen.derivation.rests import with_rest
+from reportgen.derivation.sides import image
 from reportgen.formula import NOTHING, PI, Expression, Ref, Symbol, call, ids, plus, sqrt, total
 from reportgen.formula.sheet import Sheet
 from reportgen.machine import DRIVER
 from reportgen.machine.analysis import Analysis
 from reportgen.machine.drives import ConstantDrive
 from reportgen.machine.true_motion import State, TrueMotion, at_positions
-from reportgen.plans import run_ids
-from reportgen.plans.cycle import TERMS, enter_reduced
-from reportgen.plans.rests import with_rest
-from reportgen.plans.sides import image
 
 GIVEN = ("M0", "k", "Mk", "sk", "n0", "i", "J0", "brake")
 """What a file gives of the drive, as these quantities of `run`."""

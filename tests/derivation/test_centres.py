@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from books import MACHINES, keep
 
+from reportgen.derivation.motion import links_in_plane_motion
+from reportgen.derivation.sides import scheme
 from reportgen.formula import Chain, Number
 from reportgen.machine import Crank, Dyad, Linkage, LinkPoint
 from reportgen.marking.key import key_of
-from reportgen.plans.motion import links_in_plane_motion
-from reportgen.plans.sides import scheme
 from reportgen.report.equations import lines
 from reportgen.report.report import Report
 from tests.report import built

@@ -14,6 +14,8 @@ from typing import Literal
 import numpy as np
 
 from reportgen.base.units import nice_up
+from reportgen.derivation.scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
+from reportgen.derivation.sides import Scheme, Side, image, sides
 from reportgen.formula import (
     Expression,
     Number,
@@ -35,8 +37,6 @@ from reportgen.formula import (
 from reportgen.formula.sheet import TYPED, Sheet, is_short
 from reportgen.formula.vocabulary import drawn_length, on_plan, point, segment
 from reportgen.machine import DRIVER, GROUND, Crank, Guide, Linkage, SlidingDriver
-from reportgen.plans.scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, extents
-from reportgen.plans.sides import Scheme, Side, image, sides
 
 What = Literal["v", "a"]
 POLES: dict[str, str] = {"v": "p", "a": "π"}
